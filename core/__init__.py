@@ -1,4 +1,4 @@
-"""Bench Dragon: where is everyone, when do two benches first touch, how tight may the curve be."""
+"""Bench Dragon: positions and speeds of every bench, first contact of two benches, and the tightest possible curve."""
 
 import lazy_loader
 

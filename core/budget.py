@@ -1,4 +1,4 @@
-"""What one question may do, and how another thread ends it."""
+"""The budget of a question: its largest work, and a flag by which another thread stops it."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from core.errors import TooMuchWork
 P = ParamSpec("P")
 R = TypeVar("R")
 
-# Work between two looks at a budget where a batch is cut for them, see core/kernels/constants.py [1]: 2 to 10 ms.
+# Work between two checks of a budget [1], see core/kernels/constants.py, in batches divided for them: 2 to 10 ms.
 BATCH_WORK = 100_000
 
 
 class Budget:
-    """What all searches of one question may still do together; another thread may stop them at any time.
+    """The remaining work of all searches of one question; another thread may stop them at any time.
 
-    work: how much, see core/kernels/constants.py [1]; 1e7 take 1 to 4 s. None: each question takes its own default,
-        which its docstring names; math.inf: none takes any
-    brief: end before work that takes a tenth of a second, as that of decimals near a graze
-    halt: what is left of it, and the flag, as the compiled loops read them
-    A question whose budget is spent or stopped ends with TooMuchWork. A spent budget interrupts no step: whoever asks
-    for more then is refused. A stopped one is seen by every loop within milliseconds.
+    work: largest work [1], see core/kernels/constants.py; 1e7 take 1 to 4 s. None: each question uses the default that
+        its docstring names; math.inf: no limit
+    brief: True ends a search before work that takes a tenth of a second, such as exact decimals near a graze
+    halt: the remaining work and the flag, in the form that the compiled loops read
+    A question whose budget is spent or stopped ends with TooMuchWork. A spent budget does not interrupt a step, but
+    refuses the next one. Every loop notices a stopped budget within milliseconds.
 
     >>> budget = Budget(work=10.0)
     >>> budget.stop()
@@ -45,18 +45,18 @@ class Budget:
 
     @property
     def left(self) -> float:
-        """Work that may still be done [1]."""
+        """Remaining work [1]."""
         return self.halt.left
 
     @property
     def stopped(self) -> bool:
-        """Has anybody stopped it?"""
+        """True if the budget was stopped."""
         return bool(self.halt.stopped)
 
     def stop(self, then: str = "before it was stopped") -> None:
-        """End the question that has this budget, and all that are asked with it from now on. Any thread may call it.
+        """End the question with this budget, and all later ones that use it. Any thread may call it.
 
-        then: until when the answer was not found, for the error
+        then: the end of the error's sentence, such as "before it was stopped"
         """
         self.then = then
         self.halt.stopped = True
@@ -64,52 +64,52 @@ class Budget:
             self.part.stop(then)
 
     def spend(self, work: float) -> None:
-        """Take work that was done from what is left [1]."""
+        """Subtract finished work [1]."""
         self.halt.left -= work
 
     def take_time(self) -> None:
-        """raises: Halted where the question must not take long; the work that is about to begin does."""
+        """Announce long work. raises: Halted if the budget is brief"""
         if self.brief:
             raise Halted(self)
 
     def look(self) -> None:
-        """raises: Halted where the budget is stopped."""
+        """Check the flag. raises: Halted if the budget is stopped"""
         if self.halt.stopped:
             raise Halted(self)
 
     def afford(self, work: float = 0.0) -> None:
-        """Take work that is about to be done from what is left [1].
+        """Subtract work that is about to begin [1].
 
-        raises: Halted where nothing is left, or the budget is stopped
+        raises: Halted if nothing is left, or the budget is stopped
         """
         if self.halt.stopped or self.halt.left <= 0.0:
             raise Halted(self)
         self.halt.left -= work
 
     def too_much(self, field: str, rule: str, got: float, unit: str) -> TooMuchWork:
-        """The error of a question that ended early; the rule ends with what was not found, and {then} says when."""
+        """The error of a question that ended early. The rule ends with a clause on the missing answer and {then}."""
         error = TooMuchWork.of(field, rule.format(then=self.then), got, unit)
         error.stopped = self.stopped
         return error
 
 
 def within(budget: Budget | None, work: float) -> Budget:
-    """The budget of a question that takes this much work unless its budget says how much.
+    """The budget of a question: the given one with its own limit, else with this default work.
 
-    budget: as the question was given it; the result is stopped with it
+    budget: the argument of the question; the result is stopped together with it
     """
     if budget is None:
         return Budget(work)
     if budget.limited:
         return budget
     budget.part = Budget(work)
-    if budget.stopped:  # perhaps by another thread, before it could see this part
+    if budget.stopped:  # another thread may have stopped it before this part was linked
         budget.part.stop(budget.then)
     return budget.part
 
 
 class Halted(Exception):
-    """A budget is spent or stopped: what a question makes a TooMuchWork of that says what was too much of it."""
+    """A budget is spent or stopped. The question turns this into a TooMuchWork that names the cause."""
 
     def __init__(self, budget: Budget) -> None:
         super().__init__("the budget is spent or stopped")
@@ -117,9 +117,9 @@ class Halted(Exception):
 
 
 def bounded(found: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Makes a question about a dance, a dragon or benches end with TooMuchWork where its budget does.
+    """Decorator that ends a question about a dance, a dragon or benches with TooMuchWork when its budget ends.
 
-    found: what it was to find, and that this was not found: a clause that {then} ends
+    found: clause on the missing answer, which {then} completes
     """
 
     def bound(question: Callable[P, R]) -> Callable[P, R]:

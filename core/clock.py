@@ -1,7 +1,7 @@
-"""Clock: where the head is at a time, and when it first is at a place.
+"""Clock: the place of the head at a time, and the first time at which it is at a place.
 
-A dance is a way of the head along its path, and a clock that says when. What benches meet depends on the place of the
-head alone, so questions about that are asked of places; their answers are the times at which the head first is there.
+A dance is a motion of the head along its path, with a clock for its times. Contacts depend only on the place of the
+head. So searches for them work with places, and the clock turns a place into the first time at which the head is there.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ HEAD_SPEED_MAX = 1e4  # [m/s]
 TIME_MAX = 1e12  # [s]
 PLACE_MAX = 1e9  # [m]
 PASSAGES_MAX = 1_000
-# Largest error of a time from a place and back, relative to the time [1]: three operations each way, on times up to it.
+# Largest relative error of a time that is turned into a place and back [1]: three operations each way.
 TIME_ROUNDING = 1e-15
-# Passages that sentences list one by one [1].
+# Most passages that a sentence lists one by one [1].
 LISTED = 6
 
 
 @dataclass(frozen=True, slots=True)
 class Passage(Shown):
-    """A stretch of the dance that the head goes at one speed, from where the passage before it ends, or from time 0.
+    """A part of the dance with one speed of the head. It begins where the passage before it ends, or at time 0.
 
     speed: [m/s], 0 for a pause; until_s: place of the head, or until_time: time, at which the passage ends [m], [s]
     """
@@ -47,10 +47,10 @@ class Passage(Shown):
 
 
 class Stretch(NamedTuple):
-    """A time in which the head goes at one speed.
+    """An interval of time with one speed of the head.
 
-    begin, end: [s]; first, last: where the head then is [m]; speed: [m/s]
-    passage: its index, None outside of all; origin: a time [s] and the place then [m] from which all others count
+    begin, end: [s]; first, last: places of the head then [m]; speed: [m/s]
+    passage: its index, None outside all passages; origin: a time [s] and its place [m], from which all others follow
     """
 
     begin: float
@@ -62,18 +62,18 @@ class Stretch(NamedTuple):
     origin: tuple[float, float]
 
     def time(self, place: float) -> float:
-        """When the head is at a place of the stretch [s]."""
+        """Time at which the head is at a place of the stretch [s]."""
         return min(max(self.origin[0] + (place - self.origin[1]) / self.speed, self.begin), self.end)
 
     def place(self, time: float) -> float:
-        """Where the head is at a time of the stretch [m]."""
+        """Place of the head at a time of the stretch [m]."""
         return self.origin[1] + (time - self.origin[0]) * self.speed
 
 
 # With passages 0 to n - 1, node k is the time and the place at which passage k begins, node n where the last one ends;
 # node 0 is time 0 at place 0. speeds[k] holds from node k - 1 to node k, and head_speed before node 0 and after node n.
 class Clock:
-    """Where the head is at any time. Without passages it goes at head_speed always, and times are places over it.
+    """The place of the head at any time. Without passages the speed is head_speed, and a time is a place divided by it.
 
     slowest: the lowest speed at which it moves [m/s]
     """
@@ -117,7 +117,7 @@ class Clock:
         return min(time, self.times[k]) if k < len(self.times) else time
 
     def steady(self, times: Floats) -> Floats:
-        """Times (...) at which the head would be at the same places if it always went at head_speed [s]."""
+        """Times (...) at which the head would be at the same places with the constant speed head_speed [s]."""
         if not self.passages:
             return times
         k = np.searchsorted(self.times, times, side="right")
@@ -127,16 +127,16 @@ class Clock:
         return found
 
     def of_steady(self, time: float) -> float:
-        """First time at which the head is where it is at a time of the steady dance [s]."""
+        """First time at which the head is at its place at a time of the steady dance [s]."""
         return self.time(time * self.head_speed) if self.passages else time
 
     def speed(self, times: Floats) -> Floats:
-        """Speed of the head at times (...) [m/s]; where it changes, that from then on."""
+        """Speed of the head at times (...) [m/s]; at a change the new speed."""
         found: Floats = np.array(self.speeds)[np.searchsorted(self.times, times, side="right")]
         return found
 
     def rounding(self, until: float) -> float:
-        """How far the head may be from its place at a rounded time up to `until`, if there are passages [m]."""
+        """Largest distance of the head from its place at a rounded time up to `until`, if there are passages [m]."""
         return TIME_ROUNDING * max(self.speeds) * max(abs(until), *self.times) if self.passages else 0.0
 
     def stretches(self, begin: float, until: float) -> Iterator[Stretch]:
@@ -160,7 +160,7 @@ class Clock:
 
 
 def checked_passages(given: object) -> tuple[Passage, ...]:
-    """Passages with every number checked by itself. raises: InvalidValue"""
+    """Passages whose numbers are checked one by one. raises: InvalidValue"""
     rule = "passages must be a list of Passage"
     if not isinstance(given, (list, tuple)):
         raise InvalidValue("passages", f"{rule}, got {given!r:.60}")

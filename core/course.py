@@ -1,4 +1,4 @@
-"""Course: a path as it is drawn, with the bends that are too tight for a dragon, whether or not it can be danced."""
+"""Course: the points of a path for a drawing, with the bends that are too tight for a dragon."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
 from core.values import Floats, checked_type
 
-# Distance between drawn points [m], and most of them: a path longer than 750 m is drawn more coarsely.
+# Distance between drawn points [m], and their largest number: a path longer than 750 m is drawn more coarsely.
 STEP, POINTS_MAX = 0.25, 3_000
 # Points along a bend that is too tight.
 BEND_POINTS = 24
@@ -22,10 +22,10 @@ BEND_POINTS = 24
 
 @dataclass(frozen=True, slots=True, repr=False)
 class TightBend(Shown):
-    """A stretch of a path that no bench of this length can follow.
+    """A part of a path that is too tight for the longest bench.
 
     start, end: s of its ends [m]; points: along it, (P, 2) [m]
-    radius: the least there [m], of a cubic at least this; least_radius: what the bench needs [m]
+    radius: smallest radius there, for a cubic a lower bound [m]; least_radius: radius that the bench needs [m]
     bench: the one with the longest chord
     """
 
@@ -43,10 +43,10 @@ class TightBend(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Course(Shown):
-    """A path as it is drawn.
+    """The points of a path for a drawing.
 
     s: (P,) [m]; points: (P, 2) x, y [m]; length: of the path [m]
-    knots: s of the points by which it was drawn, empty for other paths [m]; bends: those that are too tight
+    knots: s of the points that define the path, empty for other paths [m]; bends: those that are too tight
     """
 
     s: Floats
@@ -79,7 +79,7 @@ def course(path: Spiral | Route, dragon: Dragon) -> Course:
 
 
 def _tight_bends(path: Route, dragon: Dragon) -> list[TightBend]:
-    """Rows of the route's table that bend too much, joined where they meet."""
+    """Rows of the route's table with too much curvature, joined if they meet."""
     least, bench = tightest_bend(dragon)
     sharpest = np.abs(path.table[:, 3:5]).max(axis=1)
     tight = np.flatnonzero(sharpest * least > 1.0)

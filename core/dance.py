@@ -1,4 +1,4 @@
-"""Dance: a dragon that follows a path, and the times at which it does."""
+"""Dance: a dragon that follows a path, and the times of its run."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from core.sampling import bisected
 from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
-# Length of the default table of whole seconds, that of the contest [s].
+# Length of the default table of whole seconds, as in the contest [s].
 DEFAULT_SPAN = 300
-# A run ends this much before its fold, so that every chord has a place there in spite of rounding; 1e-14 was enough for
-# 1,494 random dragons, 2026-11-21 [1].
+# Relative distance between the end of a run and its fold, so that every chord has a place there in spite of rounding
+# [1]; 1e-14 was enough for 1,494 random dragons (measured 2026-11-21).
 FOLD_ROUNDING = 1e-13
-# A run that stops within this of its fold is searched up to the fold. Handle speeds grow without bound there, so steps
-# would shrink to nothing; a bound on the remaining motion replaces them [m of head travel].
+# A run that stops nearer to its fold than this is searched up to the fold [m of head travel]. Handle speeds grow
+# without bound there, so steps would shrink to nothing; a bound on the remaining motion replaces them.
 NEAR_FOLD = 1e-5
 # Width of the bracket around the earliest place of the head: absolute [m], and relative to that place [1].
 ROOM_WIDTH = 1e-9
 
 
 class EndReason(StrEnum):
-    """Why a run ends: a chord has no continuous solution any more, the head is at the centre of the spiral or at the
-    end of the route, or the time asked for is over."""
+    """Reason for the end of a run: a chord has no continuous solution any more, the head is at the centre of the spiral
+    or at the end of the route, or the requested time is over."""
 
     FOLD = "fold"
     CENTRE = "centre"
@@ -63,8 +63,8 @@ class RunEnd(Shown):
 class Dance(Shown):
     """A dragon that follows a path. Every question about a given path takes a dance.
 
-    head_speed: of the head, constant but for the passages [m/s]
-    passages: stretches from time 0 on that it goes at other speeds, one after the other
+    head_speed: speed of the head outside the passages [m/s]
+    passages: parts with other speeds, one after another from time 0 on
     end: end of the run: the fold or the centre of a spiral, the end of a route
     raises: InvalidValue for values of other types, for a dragon that cannot stand at the start of a spiral
         (path.start_turns), and for a bend of a route too tight for a chord (path)
@@ -92,22 +92,22 @@ class Dance(Shown):
 
     @cached_property
     def clock(self) -> Clock:
-        """When the head is where."""
+        """Times and places of the head."""
         return Clock(self.head_speed, self.passages)
 
     @property
     def steady(self) -> Dance:
-        """The same dance without passages, its path in its own frame: it meets the same, at clock.steady() times."""
+        """The same dance without passages, its path in its own frame: the same contacts, at clock.steady() times."""
         path = self.path.standard
         return Dance(self.dragon, path, self.head_speed) if self.passages or path is not self.path else self
 
     def steady_times(self, times: Floats) -> Floats:
-        """Times (...) of the run at which the steady dance is at the same places [s]; rounding never leaves its run."""
+        """Times (...) at which the steady dance is at the same places [s]; always inside its run, despite rounding."""
         found: Floats = np.clip(self.clock.steady(times), self.steady.earliest, self.steady.end.time)
         return found
 
     def played(self, head_speed: float) -> Dance:
-        """The dance played faster or slower as a whole, until its head speed is this [m/s]; every place stays."""
+        """The whole dance faster or slower, with this head_speed [m/s]; all places stay the same."""
         faster = head_speed / self.head_speed
         passages = [
             Passage(one.speed * faster, one.until_s, None if one.until_time is None else one.until_time / faster)
@@ -157,7 +157,7 @@ class Dance(Shown):
         raises: InvalidValue (path) for a route too short for the dragon
         """
         start = self.default_start
-        # Both are whole, so that no rounding leads past the end.
+        # Both are whole numbers, so rounding cannot pass the end.
         first, last = math.ceil(start), math.floor(self.end.time)
         if first > last:
             return np.array([start])
@@ -167,7 +167,7 @@ class Dance(Shown):
         return [*super()._rows(), ("end", self.end._line())]
 
     def times(self, given: Floats | Sequence[float] | float) -> Floats:
-        """The instants given, as a (T,) or () array of finite numbers within the run [s].
+        """The given instants, as a (T,) or () array of finite numbers within the run [s].
 
         raises: InvalidValue (times); OutsideRun (times) after the end of the run, or before the whole dragon is on
             the path
@@ -216,11 +216,11 @@ class Dance(Shown):
         return begin, until
 
     def ends_by(self, stop: float) -> bool:
-        """Does a run until `stop` [s] end at a fold?"""
+        """True if a run until `stop` [s] ends at a fold."""
         return stop >= self.end.time and self.end.reason is EndReason.FOLD
 
     def nears_fold(self, stop: float) -> bool:
-        """Does a run until `stop` [s] end at a fold or within NEAR_FOLD of it?"""
+        """True if a run until `stop` [s] ends at a fold or within NEAR_FOLD of it."""
         return self.ends_by(self.clock.time(self.clock.place(stop) + NEAR_FOLD))
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
@@ -230,7 +230,7 @@ class Dance(Shown):
 
 
 def checked_head_speed(head_speed: float) -> float:
-    """head_speed [m/s] if it lies in the range allowed."""
+    """The head speed [m/s], if it is in the allowed range."""
     if isinstance(head_speed, (int, float)) and head_speed <= 0:
         raise InvalidValue("head_speed", f"head_speed must be positive, got {said(head_speed)} m/s")
     return checked_number("head_speed", head_speed, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
@@ -239,9 +239,9 @@ def checked_head_speed(head_speed: float) -> float:
 def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     """The head angle [rad] at which the run ends, and the bench that folds (0 and None at the centre).
 
-    Bench k folds when handle k reaches the fold of its chord, which is when handle k - 1 first stands one chord
-    further in. So limits are found from the tail forwards: the limit of handle k is the larger of its own fold and
-    the place from which handle k + 1 reaches its limit. In a uniform tail the own fold is always the larger.
+    Bench k folds when handle k reaches the fold of its chord; at that moment handle k - 1 is one chord further in. So
+    limits are found from the tail forwards: the limit of handle k is the larger of its own fold and the place from
+    which handle k + 1 reaches its limit. In a uniform tail its own fold is always the larger one.
     """
     chords2 = ((dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2).tolist()
     fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
@@ -269,7 +269,7 @@ def _spiral_end(dragon: Dragon, path: Spiral, clock: Clock) -> RunEnd:
 
 
 def follows(dragon: Dragon, path: Route) -> bool:
-    """Is every bend of the route wide enough for every chord?"""
+    """True if every bend of the route is wide enough for every chord."""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
     return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
 
@@ -283,7 +283,7 @@ def tightest_bend(dragon: Dragon) -> tuple[float, int]:
 def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     """Refuse a bend that a bench cannot follow.
 
-    With |curvature| chord / 2 below the limit the next handle is unique and never turns back.
+    With |curvature| chord / 2 below the limit, the next handle is unique and never moves backwards.
     """
     if follows(dragon, path):
         return
@@ -301,8 +301,8 @@ def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
 def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
     """Place of the head when the last handle is at the beginning of the path [m].
 
-    A chord spans between its own length and pi / 2 times it of the path, so the place of the head is bisected, as far
-    as the path goes.
+    A chord spans between 1 and pi / 2 times its own length of the path. These bounds, and the end of the path, give the
+    interval for a bisection of the place of the head.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
     sizes[:, kernels.CHORD] = dragon.chords
@@ -323,5 +323,5 @@ def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
 
 
 def _instant(time: Floats, k: int) -> str:
-    """The field of one of the times."""
+    """Field name of one of the times."""
     return f"times.{k}" if time.ndim else "times"

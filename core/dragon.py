@@ -1,4 +1,5 @@
-"""Dragon: the benches and their handles, frozen and checked once; and how far its holes may stray from their places."""
+"""Dragon: the benches and their handles, frozen and checked once; and Stray, the largest distance of its holes from
+their places."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_name, checked_number, checked_size
 
 BENCHES_MAX = 10_000_000
-# Decimals of a sum in metres [1]: 1 cm and 0.5 cm are 0.015 m, not 0.015000000000000001 m.
+# Decimals of a sum in metres [1], so that 1 cm and 0.5 cm give 0.015 m, not 0.015000000000000001 m.
 DECIMALS = 15
 
 
@@ -42,7 +43,7 @@ class Dragon(Shown):
 
     lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
     uniform_from: index of the bench from which all benches to the tail are equal (0 or 1 for a uniform body)
-    names: of all benches, empty for one without; none where no bench has any
+    names: one for each bench, empty for a bench without; no entries if no bench has a name
 
     >>> dragon = Dragon()
     >>> dragon.benches, dragon.chords[0].round(3), dragon.chords[1].round(3)
@@ -90,7 +91,7 @@ class Dragon(Shown):
     def of(
         cls, lengths: Sequence[float] | Floats, widths: Sequence[float] | Floats, overhangs: Sequence[float] | Floats
     ) -> Dragon:
-        """A dragon given bench by bench.
+        """A dragon with sizes for each bench.
 
         lengths, widths, overhangs: (n,) [m], head first
         raises: InvalidValue naming the bench when sizes are missing, out of range or leave no chord
@@ -145,7 +146,7 @@ class Dragon(Shown):
         return dragon
 
     def called(self, bench: int) -> str:
-        """A bench in sentences: its number, and its name if it has one."""
+        """A bench in a sentence: its number, and its name if it has one."""
         name = self.names[bench] if self.names else ""
         return f"{bench} ({name})" if name else str(bench)
 
@@ -156,7 +157,7 @@ class Dragon(Shown):
         return dragon
 
     def outlined(self, overhangs: Floats, widths: Floats) -> Dragon:
-        """The same chords, to the last bit, in benches of other overhangs and widths (n,) [m]."""
+        """A dragon with the same chords, to the last bit, and other overhangs and widths (n,) [m]."""
         dragon = Dragon.__new__(Dragon)
         dragon._freeze(self.chords + 2.0 * overhangs, widths, overhangs, self.names)
         object.__setattr__(dragon, "chords", self.chords)
@@ -165,7 +166,7 @@ class Dragon(Shown):
 
     @property
     def benches(self) -> int:
-        """Number of benches; there is one handle more."""
+        """Number of benches; there is one more handle."""
         return self.lengths.size
 
     def __repr__(self) -> str:
@@ -200,7 +201,7 @@ class Dragon(Shown):
 class Stray(Shown):
     """Largest distance of every hole from its place, by people and by play.
 
-    people: largest distance of a person from their place [m]; hole, pin: diameters in a joint [m]. A pin has
+    people: largest distance of a person from the nominal place [m]; hole, pin: diameters in a joint [m]. A pin has
     (hole - pin) / 2 of play on every side, which adds to the stray of people.
 
     >>> Stray(people=0.02, hole=0.055, pin=0.045).total

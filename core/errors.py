@@ -20,9 +20,9 @@ from typing import Self
 class BenchDragonError(Exception):
     """Root of the tree.
 
-    code: stable word for programs; field: dotted name of the parameter at fault, which the message has as spoken()
-    writes it; got: the given number, if of() made the error
-    others: further parameters that the message names; the message then has {word} and {field} in their places
+    code: stable word for programs; field: dotted name of the wrong parameter, which the message contains in the form
+    of spoken(); got: the given number, if of() made the error
+    others: further parameters in the message, which then has {word} and {field} in their places
 
     >>> InvalidValue("times.stop", "{field} must not be before {start}", start="times.start").renamed(
     ...     lambda name: name.removeprefix("times.")
@@ -47,7 +47,7 @@ class BenchDragonError(Exception):
 
     @classmethod
     def of(cls, field: str, rule: str, got: float, unit: str) -> Self:
-        """The error of a number that breaks a rule; what follows a colon in the rule is why, and stands at the end.
+        """The error of a number that breaks a rule; the part of the rule after a colon, the reason, comes last.
 
         >>> InvalidValue.of("times.3", "must be at most 9 s", 12.5, "s").message
         'times[3] must be at most 9 s, got 12.5 s'
@@ -61,7 +61,8 @@ class BenchDragonError(Exception):
     def named(self, field: str, got: float | None = None) -> Self:
         """The same error under another parameter name, and with another value if `got` is given.
 
-        For a caller that derives the parameters of core from its own: times from a range, a radius from a diameter.
+        For a caller that computes the parameters of core from others, such as times from a range, or a radius from a
+        diameter.
         """
         if self.got is not None:
             return type(self).of(field, self._rule, self.got if got is None else got, self._unit)
@@ -71,14 +72,14 @@ class BenchDragonError(Exception):
         return type(self)(field, self.message)
 
     def renamed(self, name_of: Callable[[str], str]) -> Self:
-        """The same error with other names for its field and for the parameters that its message names beside it."""
+        """The same error with other names for its field and for the other parameters in its message."""
         if self._others:
             return type(self)(name_of(self.field), self._template, **{k: name_of(v) for k, v in self._others.items()})
         return self.named(name_of(self.field))
 
 
 def said(number: float) -> str:
-    """A number as sentences print it: all its digits, no trailing point, and no sign before zero.
+    """A number for sentences: all its digits, no trailing point, and no sign before zero.
 
     >>> said(0.1 + 0.2), said(9.0), said(-0.0)
     ('0.30000000000000004', '9', '0')
@@ -87,7 +88,7 @@ def said(number: float) -> str:
 
 
 def said_bound(number: float, decimals: int, side: int) -> str:
-    """A bound with so many decimals, rounded to the side (-1: down, 1: up) on which it stays true.
+    """A bound with some decimals, rounded to the side (-1: down, 1: up) on which it stays true.
 
     >>> said_bound(432.9179242286, 9, -1), said_bound(16.0000001, 6, 1)
     ('432.917924228', '16.000001')
@@ -97,7 +98,7 @@ def said_bound(number: float, decimals: int, side: int) -> str:
 
 
 def spoken(field: str) -> str:
-    """A dotted field as people write it.
+    """A dotted field in the notation of people.
 
     >>> spoken("path.pieces.0.points.2")
     'path.pieces[0].points[2]'
@@ -120,14 +121,14 @@ class TooLarge(BenchDragonError):
 class TooMuchWork(BenchDragonError):
     """An answer was not found within the work that one question may take, or before it was stopped.
 
-    stopped: was it stopped, from another thread?
+    stopped: True if another thread stopped it
     """
 
     code = "too-much-work"
     stopped = False
 
     def named(self, field: str, got: float | None = None) -> Self:
-        """As of every error; it stays one that was stopped."""
+        """As in the base class; `stopped` is kept."""
         error = super().named(field, got)
         error.stopped = self.stopped
         return error

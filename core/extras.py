@@ -9,7 +9,7 @@ from typing import Any
 def wanted(module: str, extra: str, what: str) -> Any:
     """A module of an optional package.
 
-    module: dotted name; extra: of bench-dragon, which installs it; what: the caller, for the message
+    module: dotted name; extra: the extra of bench-dragon that installs it; what: the caller, for the message
     raises: ImportError naming the package and the extra if the package is not installed
 
     >>> wanted("no_such_package", "data", "Trajectory.to_dataframe()")

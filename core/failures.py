@@ -1,4 +1,4 @@
-"""What fails in a dance, each failure in one sentence."""
+"""Failures of a dance, each in one sentence."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from core.motion.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, Highest
 from core.paths.path import HeadState
 from core.shown import Shown
 
-# A first excess over a speed limit in a wider bracket than this is reported as the latest possible one [s].
+# Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
 EXCESS_KNOWN = 1e-6
 
 
@@ -39,10 +39,10 @@ class Failure(Shown):
     time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail
     benches: those at fault (for a speed: the handle); area: the venue's polygon, None if no area is involved
     message: one sentence
-    time_bracket: (proven not to fail up to, failing at) [s]; None where there is no search
-    head: the head at that time
-    peak_speed, peak_time: for a speed, the highest one [m/s] and its time [s]; in a run to a fold, where speeds grow
-        without bound, None and the time of the fold; None for all other failures
+    time_bracket: (proven not to fail up to, failing at) [s]; None without a search
+    head: state of the head at that time
+    peak_speed, peak_time: for a speed, the highest one [m/s] and its time [s]. In a run to a fold, where speeds grow
+        without bound: None and the time of the fold; None for all other failures
     """
 
     kind: FailureKind
@@ -60,7 +60,7 @@ class Failure(Shown):
 
 
 def touch_failures(contact: FirstContact, least: LeastClearance | None, margin: float) -> list[Failure]:
-    """The touch of two benches that came within a positive margin before: the dance stops there."""
+    """The touch of two benches after they came within a positive margin; the dance stops there."""
     told = margin == 0.0 or (contact.gap is not None and contact.gap <= 0.0)
     if told or least is None or least.distance > 0.0:
         return []
@@ -85,7 +85,7 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
 
 
 def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
-    """Words for coming nearer than the margin. come: the verb; near: to what, if not to one another."""
+    """Words for an approach within the margin. come: the verb; near: the other object, if not another bench"""
     if stray:
         return f"may {_meeting(margin, 'come', near)} with strays up to {said(stray)} m"
     if margin > 0.0:
@@ -94,7 +94,7 @@ def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
 
 
 def _gap(gap: float | None, margin: float) -> str:
-    """Words for the gap that is left, if a margin was asked."""
+    """Words for the remaining gap, if there is a margin."""
     if gap is None or margin == 0.0:
         return ""
     return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and overlap by {-gap:.6f} m"
@@ -130,14 +130,14 @@ def _area_failures(dragon: Dragon, area: AreaClearance, margin: float, stray: fl
 
 
 def keeps_limit(speed: HighestSpeed, limit: float) -> bool:
-    """Is the limit proven to be kept, to within SPEED_PROVEN?"""
+    """True if the limit is proven to be kept, to within SPEED_PROVEN."""
     highest = speed.speed_bracket[1]
     kept = speed.speed <= limit * (1.0 + SPEED_ROUNDING)
     return kept and highest is not None and highest <= limit * (1.0 + SPEED_PROVEN)
 
 
 def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float, end: RunEnd) -> Failure:
-    """The first excess, and the peak; speed: None towards a fold"""
+    """Failure of the first excess, with the highest speed. speed: None towards a fold"""
     proven, latest = excess.time_bracket
     time, handle = excess.time, excess.handle
     handles: tuple[int, ...] = ()
@@ -169,6 +169,6 @@ def fold_failure(dragon: Dragon, end: RunEnd, head: HeadState) -> Failure:
     assert end.bench is not None
     where = f"the head at ({head.x:.6f}, {head.y:.6f}) m, theta = {head.theta:.6f} rad"
     message = (
-        f"Bench {dragon.called(end.bench)} folds at {end.time:.6f} s, {where}: it can follow the spiral no further."
+        f"Bench {dragon.called(end.bench)} folds at {end.time:.6f} s, {where}: it cannot follow the spiral any further."
     )
     return Failure(FailureKind.FOLDS, end.time, (end.bench,), None, message)

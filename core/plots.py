@@ -1,4 +1,4 @@
-"""Drawings of a dance and its answers on axes of matplotlib, which only this module imports, when it draws.
+"""Drawings of a dance and its answers on axes of matplotlib. Only this module of core imports matplotlib, on demand.
 
 Lengths are in metres on both axes, x to the right. Colours are safe for colour-blind readers (cividis; Okabe and Ito's
 set) and differ in brightness, hatch or line style for print.
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 VERMILION, BLUE, GREY, PALE = "#D55E00", "#0072B2", "#7F7F7F", "#DDDDDD"
-# Beyond this many benches an SVG holds one raster picture instead of a shape for each bench.
+# Most benches that an SVG shows as shapes; for more it holds one raster picture.
 SHAPES_MAX = 3_000
 # Length of the arrow ahead of the head, and distance of its label inwards [m].
 HEAD_ARROW, HEAD_LABEL = 1.2, 1.0
@@ -111,7 +111,7 @@ def draw_enlarged(
     axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
     corner: Named | None, edge: Named | None, centre: tuple[float, float],
 ) -> None:  # fmt: skip
-    """Draw the neighbourhood of a contact: both benches, corner, edge, point; two corners or two edges may meet too.
+    """Draw the surroundings of a contact: both benches, corner, edge, point; two corners or two edges may meet too.
 
     outlines: corners (n, 4, 2) [m]; point: x, y [m]; half: half the side of the view [m]
     centre: of the path (x, y) [m], on the side of inner edges

@@ -1,7 +1,7 @@
-"""Searches that other modules share: where a claim begins to hold, and where samples are lowest.
+"""Searches that other modules share: the place from which a claim holds, and the lowest samples.
 
-Functions are sampled first, and what the samples show is refined: a border by bisected() or falls_to_zero(), a dip
-among the lowest ones of dips().
+Functions are sampled first. Then the result is refined: a border by bisected() or falls_to_zero(), a minimum among the
+lowest samples of dips().
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ def bisected(
     relative: float = 0.0,
     middle: Callable[[float, float], float] = mean,
 ) -> tuple[float, float]:
-    """Both ends of a bracket of the border beyond which a claim holds.
+    """Both ends of a bracket around the border beyond which a claim holds.
 
     holds: the claim, which is False at low and True at high; the search ends when it returns None
-    width, relative: the bracket is no wider than width + relative |high|, or its ends are neighbouring numbers
-    middle: of both ends, where the claim is asked next
+    width, relative: the bracket is at most width + relative |high| wide, or its ends are neighbouring numbers
+    middle: function of both ends that gives the next place to test
 
     >>> bisected(lambda x: x * x >= 2.0, 1.0, 2.0, width=0.1)
     (1.375, 1.4375)
@@ -49,17 +49,17 @@ def bisected(
 def falls_to_zero(
     value: Callable[[Decimal], Decimal], low: Decimal, high: Decimal, above: Decimal, below: Decimal, width: Decimal
 ) -> Decimal:
-    """Place where a function falls to 0 or below, never too early and too late by less than a width.
+    """Place where a function falls to 0 or below; never too early, and too late by less than a width.
 
-    above, below: its values at low, where it is positive, and at high, where it is not
+    above, below: its positive value at low, and its value at high, 0 or negative
 
-    It uses the method of false position with an occasional bisection.
+    Method: false position with an occasional bisection.
     """
     looks = 0
     while high - low > width:
         looks += 1
         middle = (low + high) / 2
-        if looks % 3:  # aimed a little beyond the zero, then before it, so that both ends come near
+        if looks % 3:  # alternately a little beyond the zero and before it, so that both ends approach it
             middle = low + (high - low) * above / (above - below) + (width / 3 if looks % 3 == 1 else -width / 3)
             middle = min(max(middle, low + width / 4), high - width / 4)
         found = value(middle)
@@ -68,7 +68,7 @@ def falls_to_zero(
 
 
 def dips(samples: Floats, most: int) -> NDArray[np.intp]:
-    """Indices of the inner samples that are not higher than their neighbours: at most `most`, lowest first.
+    """Indices of inner samples that are not higher than their neighbours: at most `most`, the lowest first.
 
     samples: (N,)
 

@@ -8,11 +8,11 @@ from enum import Enum
 
 import numpy as np
 
-# Significant digits of a number in one line, and in a table, which must tell both ends of a bracket apart.
+# Significant digits of a number in one line, and in a table, where the two ends of a bracket must differ.
 LINE_DIGITS, TABLE_DIGITS = 9, 15
-# A longer text is left out of a line, and an input whose repr is longer shows one line instead [characters].
+# Longest text within a line, and longest repr of an input before it shows one line instead [characters].
 TEXT_MOST, REPR_MOST = 60, 160
-# Entries of a list that a table shows; a longer list shows its first entries.
+# Most entries of a list in a table; a longer list shows its first entries.
 ENTRIES_MOST = 6
 # Units by field name: one word has one meaning. A class whose field means something else overrides it in `_units`.
 UNITS = {
@@ -150,7 +150,7 @@ def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
 
 
 def extent(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
-    """The range of the values, or the one value that all of them have.
+    """The range of the values, or their common value.
 
     values: (...), not empty
     """

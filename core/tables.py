@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 def data_frame(what: str, columns: Mapping[str, np.ndarray[Any, Any]], units: Mapping[str, str]) -> pandas.DataFrame:
     """A table with one row for each entry of the columns.
 
-    what: the caller, for the message; columns: (N,) each; units: of the columns whose name does not imply one;
-    `attrs["units"]` has all units
+    what: the caller, for the message; columns: (N,) each; units: of columns whose name does not imply one
+    `attrs["units"]` of the result has all units.
     raises: ImportError naming the extra `data` if pandas is not installed
     """
     frame = wanted("pandas", "data", what).DataFrame(columns)

@@ -18,12 +18,12 @@ Point = tuple[float, float]
 P = ParamSpec("P")
 R = TypeVar("R")
 
-# Sizes outside these lose digits in c^2 / b^2 without describing any dance [m].
+# Smallest and largest size [m]: sizes outside describe no dance, and lose digits in c^2 / b^2.
 SIZE_MIN = 1e-3
 SIZE_MAX = 1e4
-# Coordinates beyond this lose the digits that the chords need [m].
+# Largest coordinate [m]: larger ones lose the digits that the chords need.
 COORDINATE_MAX = 1e5
-# Angles beyond this lose the digits that the joints need [rad].
+# Largest angle [rad]: larger ones lose the digits that the joints need.
 ANGLE_MAX = 1e6
 # Longest name of a bench or an area [characters].
 NAME_MAX = 200
@@ -57,7 +57,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
-    """raises: InvalidValue naming the parameter if the value is of none of the kinds"""
+    """Check the type of a value. raises: InvalidValue naming the parameter if the value is of none of the kinds"""
     if not isinstance(value, kinds):
         words = " or a ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
         plain = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
@@ -68,10 +68,10 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
 
 
 def asked_of(name: str, kind: type) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Makes a question refuse its first parameter by this name if it is of another kind, whatever stands behind it.
+    """Decorator of a question that checks the type of its first argument before Python checks the number of arguments.
 
-    A question that took a spiral as its second argument would else be refused by Python's own words about its number
-    of arguments, which do not say that a dragon stands where a dance belongs.
+    A call of the old kind with a dragon and a spiral would else get Python's message on the number of arguments, which
+    does not say that the first one must be a dance.
     """
 
     def checking(question: Callable[P, R]) -> Callable[P, R]:
@@ -125,9 +125,9 @@ def listed(name: str, value: Any, what: str) -> list[Any]:
 
 
 def checked_name(what: str, name: object, field: str) -> None:
-    """Refuse a name that is no line of plain text: it stands in sentences and figures.
+    """Refuse a name that is not one line of plain text, because it appears in sentences and figures.
 
-    what: the beginning of the message; field: where the name stands
+    what: the beginning of the message; field: of the name
     raises: InvalidValue
     """
     if not isinstance(name, str):

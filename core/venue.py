@@ -1,4 +1,4 @@
-"""Venue: the square, and the obstacles that stand in it."""
+"""Venue: the square and its obstacles."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from core.values import Floats, Point, checked_name, checked_point, checked_type
 
 Ring = tuple[Point, ...]
 
-# Largest number of edges in a venue: each is followed like a bench at rest. Edges between repeated points count too.
+# Largest number of edges in a venue, because each costs as much as a bench at rest. Those between equal points count.
 EDGES_MAX = 2_000
 # Form of the rings of an area, for messages.
 WORDS = "a list of rings of points [x, y] in metres"
-# Words for the faults that polygon_fault() finds, as messages say them before the place.
+# Words in messages for the faults that polygon_fault() finds.
 FAULTS = {
     "self-intersection": "a self-intersection",
     "ring self-intersection": "a ring that touches itself",
@@ -32,7 +32,7 @@ FAULTS = {
 
 
 def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
-    """Refuse more edges than EDGES_MAX, counted only by the lengths of the rings.
+    """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone.
 
     raises: InvalidValue
     """
@@ -46,8 +46,8 @@ class Area(Shown):
     """A polygon: the square, or an obstacle in it.
 
     rings: the outer one, then the holes; each closed, at least 4 points (x, y) [m]
-    raises: InvalidValue with the reason and the place when the polygon is invalid; for too many edges before that is
-        looked at, which takes longer than in proportion to the rings
+    raises: InvalidValue with the reason and the place of a fault. Too many edges are refused first, because the time of
+        the check grows faster than their number.
     """
 
     name: str
@@ -83,14 +83,14 @@ class Area(Shown):
 
     @cached_property
     def edges(self) -> Floats:
-        """(E, 4) x, y, x, y [m] of every edge of some length."""
+        """x, y, x, y [m] of every edge with a positive length, (E, 4)."""
         found = np.array([(*a, *b) for ring in self.rings for a, b in pairwise(ring) if a != b])
         return found.reshape(-1, 4)
 
 
 @dataclass(frozen=True, repr=False)
 class Venue(Shown):
-    """The square with its holes, and obstacles that stand in it.
+    """The square with its holes, and the obstacles in it.
 
     >>> Venue(Area("square", (((0, 0), (9, 0), (9, 9), (0, 0)),))).square.edges.shape
     (3, 4)

@@ -33,7 +33,7 @@ from core.shown import Shown, worded
 from core.values import asked_of, checked_number, checked_type
 from core.venue import Venue
 
-# A dance whose benches touch at its start is judged for this long [s].
+# Length of the judged interval if benches already touch at the start [s].
 MOMENT = 1e-3
 
 
@@ -49,13 +49,13 @@ class Judgement(StrEnum):
 class Report(Shown):
     """The verdict on a dance, and the answers behind it.
 
-    start, stop: the stretch that is judged [s], which ends where benches touch
-    verdict: see Judgement; passed: is it PASSES?
-    failures: in order of time, none after the stop; among them what is undecided
-    first_contact: within the margin; least_clearance: of any two benches, None with fewer than three
+    start, stop: the judged interval [s], which ends at a touch of two benches
+    verdict: see Judgement; passed: True for PASSES
+    failures: in order of time, none after the stop, with the undecided conditions
+    first_contact: within the margin; least_clearance: of any two benches, None for fewer than three
     venue: None without one; sharpest_bend: None for a single bench
-    highest_speed: None in a run to a fold, where speeds grow without bound; all three are None where a quick check did
-        not need them
+    highest_speed: None in a run to a fold, where speeds grow without bound
+    A quick check leaves the last three None if the verdict does not need them.
     """
 
     start: float
@@ -87,13 +87,13 @@ def check(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> Report:
-    """Can the dragon dance this path: first contact, least clearance, venue, highest speed, sharpest bend.
+    """Verdict on a dance from its first contact, least clearance, venue, highest speed and sharpest bend.
 
-    margin: required between benches and to the venue [m]; stray: how far every hole may be from its place [m], what
-        benches can meet then fails too; speed_limit: of every handle [m/s]
-    start, stop: [s]; by default from 0 (on a route: from when the whole dragon is on it) to the end of the run
-    A dance fails if it folds before its stop, or before the end of its path if no stop is given. A dance that ends
-    earlier, because benches touch, is not followed to its fold.
+    margin: required between benches and to the venue [m]; stray: largest distance of every hole from its place [m], a
+        contact that it makes possible is a failure; speed_limit: of every handle [m/s]
+    start, stop: [s]; default: from 0 (on a route: as soon as the whole dragon is on it) to the end of the run
+    A dance fails if it folds before its stop, or before the end of its path without a stop. A dance that ends earlier,
+    because benches touch, is not followed to its fold.
     raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold; TooMuchWork
     """
     return _judged(dance, venue, (margin, stray), speed_limit, (start, stop), budget, details=True)
@@ -111,10 +111,10 @@ def quick_check(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> Report:
-    """The verdict and the failures of check() in a tenth of its time, for a dance that somebody is drawing.
+    """The verdict and the failures of check() in a tenth of its time, to use while a path is being drawn.
 
-    Whatever no failure needs is None: least clearance, how near the benches come to the venue, highest speed, sharpest
-    bend. Arguments and errors are those of check().
+    Answers that no failure needs are None: least clearance, clearance to the venue, highest speed, sharpest bend.
+    Arguments and errors are those of check().
     """
     return _judged(dance, venue, (margin, stray), speed_limit, (start, stop), budget, details=False)
 
@@ -168,7 +168,7 @@ def _judged(
         and seen < until
         and not is_clear_beyond(dance, venue, margin=margin, stray=strayed, start=begin, seen=seen)
     ):
-        message = f"From {seen:.6f} s on the spiral is too tight to follow the benches against the venue."
+        message = f"From {seen:.6f} s on the spiral is too tight to compare the benches with the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
     told = tuple(replace(failure, head=dance.path.head(dance.clock.place(failure.time))) for failure in failures)
@@ -185,7 +185,7 @@ def _in_venue(
     budget: Budget | None,
     nearest: bool,
 ) -> tuple[VenueClearance | None, float]:
-    """Clearance of the benches in the venue, as far as they can be followed there, and the time of that end [s].
+    """Clearance of the benches in the venue, as long as they can be followed, and the end of that time [s].
 
     kept: margin and stray [m]
     """

@@ -1,1 +1,1 @@
-"""Grading of what students hand in: which cells are right, and which known error explains those that are wrong."""
+"""Grading of students' files: the right and wrong cells, and the known error that explains the wrong ones."""

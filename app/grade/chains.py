@@ -1,7 +1,7 @@
-"""Chains of handles on curves that the contest does not mean: recomputed to compare with what was handed in.
+"""Chains of handles computed with known errors, to compare with a student's numbers.
 
-The right dance is `core`'s. Here are its wrong relatives: handles an arc apart instead of a chord, angles rounded on
-the way, and turns whose arcs do not meet the spiral tangentially, which `core` rightly refuses as paths.
+The right dance comes from `core`. Here are wrong ones: handles one arc apart instead of one chord, angles rounded in
+between, and turns whose arcs do not meet the spiral tangentially, which `core` refuses as paths.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from core.values import Floats
 
 # x, y [m] and speed [m/s] of every handle (T, H, 3) at times (T,) [s].
 Motion = Callable[[Floats], Floats]
-# Steps of Newton for the next angle, and of the false position for the next place: both reach 1e-12 long before.
+# Most steps of Newton for the next angle, and of false position for the next place: both reach 1e-12 much earlier.
 NEWTON_STEPS, FALSE_STEPS = 8, 40
-# The nearest place a chord away is looked for in steps of so many chords: where a path turns back, it is far [1].
+# Step of the search for the nearest place one chord away, in chords: where a path turns back, that place is far [1].
 WIDER = 0.05
 
 
@@ -29,7 +29,7 @@ def motion(position: Floats, speed: Floats) -> Floats:
 
 
 def link_speeds(position: Floats, tangent: Floats) -> Floats:
-    """Speeds (T, H) [m/s] of handles on rigid links, the first at 1 m/s: along a link both ends are equally fast.
+    """Speeds (T, H) [m/s] of handles on rigid links, the first at 1 m/s; both ends of a link are equally fast along it.
 
     position, tangent: (T, H, 2); v[k + 1] (T[k + 1] . u) = v[k] (T[k] . u), u along the link
     """
@@ -41,7 +41,7 @@ def link_speeds(position: Floats, tangent: Floats) -> Floats:
 
 
 def equal_arcs(dance: Dance) -> Motion:
-    """Handles one chord's length apart along the curve, so that all are equally fast."""
+    """Motion of handles one chord's length apart along the curve: all are equally fast."""
     back = np.concatenate([[0.0], np.cumsum(dance.dragon.chords)])
 
     def moved(times: Floats) -> Floats:
@@ -52,7 +52,7 @@ def equal_arcs(dance: Dance) -> Motion:
 
 
 def rounded_angles(dance: Dance, path: Spiral, decimals: int) -> Motion:
-    """Every handle's polar angle rounded to some decimals before the next one is computed."""
+    """Motion with every polar angle rounded to some decimals before the next one is computed."""
 
     def moved(times: Floats) -> Floats:
         theta = np.round(path.theta(times * dance.head_speed), decimals)
@@ -89,7 +89,7 @@ def _on_spiral(path: Spiral, theta: Floats) -> Floats:
 class Bent:
     """A turn of two arcs that may meet the spiral and each other at an angle.
 
-    right: the turn whose coils lead in and out; arcs: centre, radius, angle of its beginning, angle turned, of both
+    right: the turn whose coils lead in and out; arcs: of both the centre, radius, first angle and angle turned
     """
 
     right: Turn
@@ -117,7 +117,7 @@ class Bent:
 
 
 def on_bent(dragon: Dragon, path: Bent) -> Motion:
-    """A dragon along such a turn at 1 m/s: every handle is the nearest place behind its leader that is a chord away."""
+    """Motion of a dragon along such a turn at 1 m/s: each handle is at the nearest place a chord behind its leader."""
 
     def moved(times: Floats) -> Floats:
         s = times
@@ -136,7 +136,7 @@ def on_bent(dragon: Dragon, path: Bent) -> Motion:
 
 
 def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
-    """Places behind s whose points are one chord from `point`: bracketed, then by false position (Illinois)."""
+    """Places behind s with points one chord from `point`: bracketed, then by false position (Illinois)."""
 
     def excess(at: Floats) -> Floats:
         found: Floats = np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord

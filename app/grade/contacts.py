@@ -1,6 +1,6 @@
-"""Contact as papers and students judge it: by the angle sum, by the pose on the circle alone, or in steps of time.
+"""Contact by the rules of papers and students: the angle sum, the pose on the circle alone, or steps of time.
 
-Each function recomputes what such a rule gives. State: the angle sums of the whole run, sampled once for each shape.
+Each function recomputes the result of such a rule. State: the angle sums of the whole run, sampled once for each shape.
 """
 
 from __future__ import annotations
@@ -18,21 +18,21 @@ from core.shapes.angle_sum import angle_sums
 from core.values import Floats
 
 TURNING_RADIUS = 4.5  # [m], of the contest's turning circle
-# Angle sum [deg] that must be counted as 360 to obtain the paper's time, 0.9 degrees less.
+# Angle sum [deg] that gives the paper's time when it counts as 360: 0.9 degrees less.
 LOOSE_ANGLE = 359.1
-# Rounding of an angle sum [deg]: corners inside give 360 within 1e-12, corners 1e-9 m outside give less than this.
+# Rounding of an angle sum [deg]: corners inside give 360 within 1e-12; corners 1e-9 m outside fall short by more.
 EXACT_ANGLE = 360.0 - 1e-6
-# The head's neighbourhood: the ring around it has at most 34 benches; benches further back lie in a ring further out.
+# Benches near the head: the ring around it has at most 34 benches; benches further back lie in outer rings.
 RING_BENCHES = 40
-# Steps of the searches for a first time [s] and for sign changes in the pitch [m], and where bisection stops.
+# Steps of the searches for a first time [s] and for sign changes in the pitch [m], and width at which bisection stops.
 TIME_STEP, PITCH_STEP, RESOLUTION = 0.1, 0.001, 1e-10
-# Pitches that students try [m], as the paper does.
+# Pitches that students and the paper try [m].
 PITCH_RANGE = (0.30, 0.55)
-# Head radius from which the way to the circle is looked at: the least clearance is reached within it [m].
+# Head radius from which the way to the circle is checked: the least clearance is inside it [m].
 WAY_RADIUS = 4.8
-# The angle sums of the whole run in one array would take 500 MB.
+# Number of batches of instants: the angle sums of the whole run in one array would take 500 MB.
 SUM_BATCHES = 20
-# Poses (..., 3) and sizes (..., 2) -> corners (..., 4, 2).
+# Function from poses (..., 3) and sizes (..., 2) to corners (..., 4, 2).
 Outline = Callable[[Floats, Floats], Floats]
 
 
@@ -63,14 +63,14 @@ def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
 
 
 def angle_sum_time(outline: Outline, angle: float) -> float:
-    """First time [s] at which an angle sum reaches an angle [deg], among instants TIME_STEP apart, then bisected."""
+    """First time [s] at which an angle sum reaches an angle [deg]: in steps of TIME_STEP, then by bisection."""
     times, sums = _sampled_sums(outline)
     high = float(times[np.flatnonzero(sums >= angle)[0]])
     return bisected(lambda time: largest_sum(outline, time) >= angle, high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
 def stepped_pitch(step: float, right: float) -> float:
-    """The smallest pitch whose way to the circle has no contact at the instants of a grid [m]. right: the exact one"""
+    """Smallest pitch without a contact at the instants of a grid on the way to the circle [m]. right: the exact one"""
     sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
 
     def clear(pitch: float) -> bool:
@@ -96,7 +96,7 @@ def head_touches_at_start(path: Spiral) -> bool:
 
 
 def corner_at_start(path: Spiral) -> bool:
-    """Is the outer front corner of the head inside a body bench?"""
+    """True if the outer front corner of the head is inside a body bench."""
     dragon = Dragon(RING_BENCHES)
     handles = trajectory_of(Dance(dragon, path), [0.0]).position[0]
     corner, poses = bench_outlines(dragon, handles)[0, 0], bench_poses(handles)[2:]
@@ -107,10 +107,10 @@ def corner_at_start(path: Spiral) -> bool:
 
 
 def circle_pitch(touches: Callable[[Spiral], bool]) -> float:
-    """The largest pitch in PITCH_RANGE at which the pose on the circle, without the way there, touches [m]."""
+    """Largest pitch in PITCH_RANGE at which the pose on the circle touches, without a check of the way there [m]."""
 
     def touching(pitch: float) -> bool:
-        # On a spiral that starts at the circle the head is there at time 0.
+        # On a spiral that starts at the circle, the head is on it at time 0.
         return touches(Spiral(pitch, TURNING_RADIUS / pitch))
 
     pitches = np.arange(*PITCH_RANGE, PITCH_STEP).tolist()

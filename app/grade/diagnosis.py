@@ -1,9 +1,9 @@
-"""Which known error explains the wrong cells of a workbook.
+"""The known error that explains the wrong cells of a workbook.
 
-Input: the judgements of its sheets. Output: findings, each with the numbers that support it; none where nothing fits.
+Input: the judgements of its sheets. Output: findings, each with the numbers that support it; none if nothing fits.
 State: none. Argument: an error is recomputed as a model, and counts only if it gives nearly all of the wrong cells.
-First the positions are explained, by an error of geometry or by the right motion; then the speeds, by what that motion
-gives or by an error of speed made on it.
+First the positions are explained, by an error of geometry or by the right motion; then the speeds, by those of the same
+motion or by an error in computing them.
 """
 
 from __future__ import annotations
@@ -25,23 +25,23 @@ from app.grade.words import note
 from core import Budget
 from core.values import Floats
 
-# A model must give so large a share of the wrong cells, and of all cells [1].
+# Shares of the wrong cells, and of all cells, that a model must give [1].
 WRONG_SHARE, ALL_SHARE = 0.9, 0.95
-# A first look at a model takes so many instants, and goes on if it gives so large a share of their cells [1].
+# Instants at which a model is tried first, and share of their cells that it must give to be tried at all instants [1].
 LOOKS, LOOK_SHARE = 12, 0.75
-# Beside the decimals written a student's own arithmetic may be off by so much [m, m/s].
+# Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
 ARITHMETIC = 2e-6
-# With fewer decimals than these nothing can be told apart.
+# Fewest decimals with which errors can be told apart.
 DECIMALS_LEAST = 2
-# An instant follows from the head's place within this [s].
+# Uncertainty of an instant that follows from the head's place [s].
 INSTANT_OFF = 1e-5
-# Steps of difference quotients that are tried [s].
+# Steps of difference quotients to try [s].
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
 
 
 @dataclass(frozen=True)
 class _Fit:
-    """How well a model gives a sheet: shares of the wrong cells and of all, and the mean distance from the others."""
+    """Fit of a model: shares of the wrong cells and of all cells that it gives, and mean distance from the others."""
 
     wrong: float
     all: float
@@ -68,7 +68,7 @@ def diagnosed(judgements: list[Judgement], budget: Budget) -> list[Finding]:
 
 
 def _fit(one: Judgement, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
-    """given: (T, HANDLES, 3), what a model gives at the times of the sheet, or at some of them; at: which"""
+    """given: (T, HANDLES, 3), motion of a model at the times of the sheet, or at the ones in `at`"""
     components = list(COMPONENTS[one.table.kind])
     known = one.handles < given.shape[1]
     off = np.abs(one.values[at][:, known] - given[:, one.handles[known]][..., components])
@@ -83,12 +83,12 @@ def _fit(one: Judgement, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
 
 
 def _best(one: Judgement, times: Floats, models: Iterable[Model], budget: Budget) -> tuple[Model, _Fit] | None:
-    """The model that explains a sheet best; None where none does."""
+    """The model that explains a sheet best; None if none does."""
     found: list[tuple[Model, _Fit]] = []
     some = np.unique(np.linspace(0, times.size - 1, LOOKS).astype(np.int64))
     for model in models:
         budget.look()
-        # Most models are far off already at a few instants.
+        # Most models are already far off at a few instants.
         if _fit(one, model.motion(times[some]), some).all < LOOK_SHARE:
             continue
         fit = _fit(one, model.motion(times))
@@ -140,7 +140,7 @@ def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budg
 
 
 def _head(one: Judgement) -> Floats | None:
-    """The head's points as handed in (T, 2), NaN where there are none."""
+    """Points of the head in the student's sheet (T, 2), NaN where they are missing."""
     line = np.flatnonzero(one.handles == 0)
     return one.values[:, line[0], :2] if line.size else None
 
@@ -168,7 +168,7 @@ def _speeds(motion: Motion) -> Iterator[Model]:
 
 
 def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
-    """Findings on result2: the instant is told by where the head was put."""
+    """Findings on result2, whose instant follows from the place of the head."""
     right = of_dance(dance_of(Workbook.RESULT2))
     time = np.array([contact_time()])
     head = _head(one)
@@ -188,14 +188,14 @@ def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
 
 
 def _why_then(instant: float) -> list[Finding]:
-    """Shortcuts that give an instant: as it is, or as the rounded number that it seems to be."""
+    """Shortcuts that give an instant, either exactly or as a rounded number."""
     decimals = next((k for k in range(4) if abs(round(instant, k) - instant) < INSTANT_OFF), 4)
     exact = round(instant, decimals) if decimals < 4 else instant
     return explained("collision_time", exact, INSTANT_OFF) or explained("collision_time", exact, 0.5 * 10.0**-decimals)
 
 
 def _instants(head: Floats) -> Iterator[float]:
-    """Times at which the head is at the place where it was put [s], also on the mirrored spiral."""
+    """Times at which the head is at the student's place [s], also on the mirrored spiral."""
     dance = dance_of(Workbook.RESULT2)
     for point in (head[0], head[0] * [1.0, -1.0]):
         s = float(places(dance.path, point))

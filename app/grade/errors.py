@@ -9,7 +9,7 @@ ERRORS = {
         "相邻把手按弧长等距，应为弦长：刚性板凳保持的是直线距离。",
     ),
     "error_length_for_chord": (
-        "The length of a bench was taken for the distance of its handles: the overhang of 0.275 m at both ends is forgotten.",
+        "The length of a bench was used as the distance of its handles: the overhang of 0.275 m at both ends was forgotten.",
         "把板长当作把手间距：忘记减去两端各 0.275 m。",
     ),
     "error_overhang_once": (
@@ -22,7 +22,7 @@ ERRORS = {
         "所有板凳都取了龙头的板长 3.41 m。",
     ),
     "error_arc_of_circle": (
-        "The angle follows from ds = r dtheta, the arc of a circle: on the spiral ds = b sqrt(1 + theta^2) dtheta.",
+        "The angle was computed from ds = r dtheta, which holds on a circle: on the spiral ds = b sqrt(1 + theta^2) dtheta.",
         "角度由圆弧公式 ds = r dθ 得出：螺线上应为 ds = b√(1+θ²) dθ。",
     ),
     "error_arc_without_logarithm": (
@@ -30,7 +30,7 @@ ERRORS = {
         "弧长公式缺少对数项：应为 b/2·(θ√(1+θ²) + arsinh θ)。",
     ),
     "error_steady_angle": (
-        "The angular speed of the start was kept: at a constant speed along the spiral it grows inwards.",
+        "The angular speed of the start was kept: at a constant speed along the spiral it must grow inwards.",
         "角速度保持为初始值：沿螺线匀速时，越向内角速度越大。",
     ),
     "error_euler_steps": (
@@ -43,17 +43,17 @@ ERRORS = {
         "龙头起点在第 {turns} 圈，应为第 16 圈（距中心 8.8 m）。",
     ),
     "error_shifted_time": (
-        "Time 0 is elsewhere: all times are shifted by {shift} s.",
+        "Time 0 is wrong: all times are shifted by {shift} s.",
         "时间零点有误：所有时刻偏移 {shift} s。",
     ),
-    "error_other_instant": ("The dragon stands where it is at {time} s.", "队伍处于 {time} s 时的位置。"),
+    "error_other_instant": ("The positions are those at {time} s.", "队伍处于 {time} s 时的位置。"),
     "error_ratio_inverted": (
         "The ratio of the two arcs is inverted: the first one's radius should be twice the second one's.",
         "两段圆弧的半径比颠倒：前一段半径应为后一段的 2 倍。",
     ),
-    "error_equal_arcs_of_turn": ("Both arcs of the turn have one radius.", "两段圆弧半径相等。"),
+    "error_equal_arcs_of_turn": ("Both arcs of the turn have the same radius.", "两段圆弧半径相等。"),
     "error_arcs_not_tangent": (
-        "The arcs are semicircles on the line from entry to exit: they are tangent to each other and not to the spirals.",
+        "The arcs are semicircles on the line from entry to exit: they are tangent to each other, but not to the spirals.",
         "圆弧是以进出点连线为直径的半圆：两弧相切，但与螺线不相切。",
     ),
     "error_wrong_centre": (
@@ -78,23 +78,23 @@ ERRORS = {
         "把手落在错误的一圈上：取了弦长方程的另一个根。",
     ),
     "error_time_steps": (
-        "The event was looked for in steps of {step} s: this is the first one after it.",
+        "The contact was searched for in steps of {step} s: this is the first step after it.",
         "以 {step} s 为步长搜索：这是碰撞后的第一个时刻。",
     ),
     "error_time_steps_before": (
-        "The event was looked for in steps of {step} s: this is the last one before it.",
+        "The contact was searched for in steps of {step} s: this is the last step before it.",
         "以 {step} s 为步长搜索：这是碰撞前的最后一个时刻。",
     ),
     "error_no_overhang": (
-        "The rectangles end at the handles: the overhang of 0.275 m at both ends is forgotten.",
+        "The rectangles end at the handles: the overhang of 0.275 m at both ends was forgotten.",
         "矩形只画到把手处：忘记两端各 0.275 m。",
     ),
     "error_loose_angle": (
-        "The sum of angles was taken for 360 degrees when it lacked {angle} degrees: nothing touches there.",
+        "The sum of angles counted as 360 degrees although {angle} degrees were missing: nothing touches at that time.",
         "角度和还差 {angle}° 时就当作 360°：此时并未碰撞。",
     ),
     "error_literal_corners": (
-        "The corners follow equation 12 of a paper as it is printed, with a wrong sign: they draw no rectangle.",
+        "The corners follow equation 12 of a paper, which is printed with a wrong sign: they do not form a rectangle.",
         "顶点按论文公式 12 的印刷形式计算，符号有误：画出的不是矩形。",
     ),
     "error_pose_on_circle": (
@@ -110,19 +110,19 @@ ERRORS = {
         "只检验了龙头前外角，且只在圆上的一个时刻。",
     ),
     "error_pitch_time_steps": (
-        "The way to the circle was checked in steps of {step} s, which step over the narrowest graze.",
+        "The way to the circle was checked in steps of {step} s, which miss the closest graze.",
         "以 {step} s 为步长检验途中，跨过了最险的擦碰。",
     ),
     "error_pitch_steps": (
-        "The pitch was looked for in steps: this is the first feasible one among them.",
+        "The pitch was searched for in steps: this is the first feasible one of them.",
         "以固定步长搜索螺距：这是其中第一个可行值。",
     ),
     "error_truncated": (
-        "The number was cut off after {decimals} decimals: it is smaller than the least feasible pitch, so benches touch.",
+        "The number was cut off after {decimals} decimals: it is smaller than the minimum pitch, so benches touch.",
         "数值在第 {decimals} 位小数后被截断：小于最小可行螺距，会发生碰撞。",
     ),
     "error_speed_time_steps": (
-        "The highest speed was looked for in steps of {step} s, which miss its peak.",
+        "The highest speed was searched for in steps of {step} s, which miss its peak.",
         "以 {step} s 为步长寻找最高速度，错过了峰值。",
     ),
     "error_other_entry": (
@@ -130,11 +130,11 @@ ERRORS = {
         "调头起点在圆内，距中心 {entry} m，而不是在 4.5 m 的边界上。",
     ),
     "other_turn": (
-        "This is the shortest turn with the ratio {ratio} : 1, entered inside the circle; from its edge it has {length} m.",
+        "This is the shortest turn with the ratio {ratio} : 1, entered inside the circle; the turn from its edge has {length} m.",
         "这是半径比为 {ratio} : 1、在圆内更深处进入的最短调头曲线；从圆的边界进入时，问题 4 的曲线长 {length} m。",
     ),
     "evidence": (
-        "{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; they are up to {worst} {unit} off the right ones.",
+        "{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; their largest distance from the right values is {worst} {unit}.",
         "{sheet}：按此错误重新计算，{count} 个错误单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。",
     ),
     "evidence_behind": (
@@ -146,11 +146,11 @@ ERRORS = {
         "{time} s 时，{handle} 号把手与前一把手相距 {chord} m（正确），但沿曲线超前 {way} m，应落后 {right} m；共 {count} 处有误。",
     ),
     "gives_on_grid": (
-        "Recomputed with this error the number is {gives} {unit}, and the next in steps of {grid} {unit} is {value} {unit}; {right} {unit} is right.",
+        "Recomputed with this error the number is {gives} {unit}, and the next step of {grid} {unit} is {value} {unit}; the right value is {right} {unit}.",
         "按此错误重新计算得 {gives} {unit}，以 {grid} {unit} 为步长的下一个值为 {value} {unit}；正确为 {right} {unit}。",
     ),
     "gives": (
-        "Recomputed with this error the number is {gives} {unit}; {value} {unit} was given, {right} {unit} is right.",
+        "Recomputed with this error the number is {gives} {unit}; the given value is {value} {unit}, the right value {right} {unit}.",
         "按此错误重新计算得 {gives} {unit}；所给为 {value} {unit}，正确为 {right} {unit}。",
     ),
 }

@@ -1,4 +1,4 @@
-"""What the contest's workbooks hold when they are right."""
+"""The right content of the contest's workbooks."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core import trajectory as trajectory_of
 from core.values import Floats
 
 PITCH = 1.7  # [m], of the spiral that question 4 turns on
-# The run of result4 begins and ends this far from the beginning of the turn; result1 lasts so long [s].
+# Time of result4 before and after the beginning of the turn, and length of result1 [s].
 TURN_SPAN, SPIRAL_SPAN = 100, 300
 
 
@@ -25,7 +25,7 @@ class Workbook(StrEnum):
     RESULT4 = "result4"
 
 
-# What each workbook holds.
+# Kinds of sheets of each workbook.
 KINDS = {
     Workbook.RESULT1: (Kind.POSITION, Kind.SPEED),
     Workbook.RESULT2: (Kind.CONTACT,),
@@ -56,7 +56,7 @@ def times_of(workbook: Workbook) -> Floats:
 
 
 def cells_of(workbook: Workbook, kind: Kind) -> int:
-    """Number of cells with a number in a sheet."""
+    """Number of cells with numbers in a sheet."""
     return times_of(workbook).size * HANDLES * {Kind.POSITION: 2, Kind.SPEED: 1, Kind.CONTACT: 3}[kind]
 
 

@@ -1,7 +1,7 @@
-"""Known errors in where the handles are: each as the motion that it gives.
+"""Known errors in the places of the handles, each with the motion that it gives.
 
-Input: the right dance and what was handed in, from which a free number such as the start is taken. Output: models, each
-with the name of its error, its motion and the numbers that its words tell. State: none.
+Input: the right dance and the student's numbers, which give free values such as the start. Output: models, each with
+the name of its error, its motion and the numbers in its words. State: none.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core import trajectory as trajectory_of
 from core.values import Floats
 
-# Decimals to which a constant or an angle is rounded early.
+# Decimals to try for a constant or an angle that was rounded early.
 CONSTANT_DECIMALS, ANGLE_DECIMALS = (2, 3, 4, 5), (1, 2, 3, 4, 5)
 PI_ROUNDED = (3.14, 3.1416)
-# Times at which the head passes a place are found among places this far apart [m], and looked for within this [m].
+# Step of the search for the time at which the head passes a place [m], and largest distance from that place [m].
 PLACE_STEP, PLACE_NEAR = 0.01, 0.05
 
 
 @dataclass(frozen=True)
 class Model:
-    """A known error, recomputed. error: its name; motion: what it gives; values: numbers that its words tell"""
+    """A known error, recomputed. error: its name; motion: its result; values: numbers in its words"""
 
     error: str
     motion: Motion
@@ -49,7 +49,7 @@ def of_dance(dance: Dance) -> Motion:
 def geometries(dance: Dance, times: Floats, head: Floats | None) -> Iterator[Model]:
     """Every known error in the positions, the likeliest first.
 
-    times: (T,) [s] of the sheet; head: (T, 2) [m] the head as handed in, NaN where it is not
+    times: (T,) [s] of the sheet; head: (T, 2) [m] the head in the student's sheet, NaN where it is missing
     """
     right = of_dance(dance)
     yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
@@ -78,15 +78,15 @@ def _other_dragons(dance: Dance) -> Iterator[Model]:
         dragon = Dragon(benches, **given)
         try:
             yield Model(error, of_dance(Dance(dragon, dance.path)))
-        except BenchDragonError:  # The arcs are too tight for such a chord to be followed without a jump.
+        except BenchDragonError:  # The arcs are too tight for this chord: a handle would jump.
             assert isinstance(dance.path, Turn)
             yield Model(error, on_bent(dragon, Bent(dance.path, tuple(arcs_of(dance.path)))))
 
 
 def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
-    """The head at an angle that follows from a wrong arc length, at the time when the right head is there.
+    """Models whose head has an angle from a wrong arc length.
 
-    many: with several times, rounded angles too; a single one has a rounded angle at every other instant as well
+    many: True for several times, which allow rounded angles too: a single angle looks rounded by chance
     """
     b, start = path.growth, path.start_theta
 
@@ -133,7 +133,7 @@ def _rounded_head(dance: Dance, path: Spiral, decimals: int, times: Floats) -> F
 
 
 def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
-    """Numbers rounded before they were used."""
+    """Models with numbers rounded before their use."""
     turns = {}
     for decimals in CONSTANT_DECIMALS:
         turns[f"b = {round(path.growth, decimals):g}"] = 2.0 * math.pi * round(path.growth, decimals)
@@ -154,7 +154,7 @@ def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
         error = "ratio_inverted" if ratio < 1.0 else "equal_arcs_of_turn"
         yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
     entry, leaving = complex(*path.entry), complex(*path.exit)
-    # Semicircles on the line from the entry to the exit: tangent to the turning circle instead of the spiral.
+    # Semicircles on the line from entry to exit, which are tangent to the turning circle instead of the spiral.
     along = (leaving - entry) / abs(leaving - entry)
     total = 0.5 * abs(leaving - entry)
     radii = (total * path.ratio / (1.0 + path.ratio), total / (1.0 + path.ratio))
@@ -171,7 +171,7 @@ def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
 
 
 def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
-    """Centre, radius, angle of the beginning and angle turned of the right arcs."""
+    """Centre, radius, first angle and angle turned of the right arcs."""
     points = (complex(*path.entry), complex(*path.tangent_point))
     found = []
     for k, sign in enumerate((-1.0, 1.0)):
@@ -181,7 +181,7 @@ def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
 
 
 def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
-    """The start on another turn, and time 0 elsewhere, both told by where the head was put."""
+    """Models with another starting turn, or with shifted times; both follow from the student's places of the head."""
     known = np.flatnonzero(np.isfinite(head).all(axis=1))
     if not known.size:
         return
@@ -205,7 +205,7 @@ def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
 
 
 def time_at(dance: Dance, time: float, point: Floats) -> float:
-    """The time near this one at which the head is nearest to a point [s], by Newton along the path."""
+    """Time near a given one at which the head is nearest to a point [s], by Newton along the path."""
     for _ in range(5):
         s = time * dance.head_speed
         miss = point - dance.path.position(s)

@@ -1,4 +1,4 @@
-"""Plain grids of cells: what is left of a file once it has been read."""
+"""Plain grids of cells: the form of every file after reading."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Cell = float | str | None
 
 
 class Unreadable(Exception):
-    """A file that cannot be graded. said: why, and what to change"""
+    """A file that cannot be graded. said: the reason, and what to change"""
 
     def __init__(self, said: Note) -> None:
         super().__init__(said.code)
@@ -20,7 +20,7 @@ class Unreadable(Exception):
 
 @dataclass
 class Grid:
-    """Cells of one sheet, row by row; rows may differ in length. notes: what a reader should know of them"""
+    """Cells of one sheet, row by row; rows may differ in length. notes: remarks for the reader"""
 
     title: str
     rows: list[list[Cell]]
@@ -28,7 +28,7 @@ class Grid:
 
 
 def plain(text: str) -> str:
-    """Text without blanks at its ends, with half-width brackets, letters and digits, and the plain minus sign.
+    """Text without blanks at its ends, and with half-width brackets, letters and digits and an ASCII minus sign.
 
     >>> plain(" 龙尾（后） ")
     '龙尾(后)'

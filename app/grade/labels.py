@@ -1,6 +1,6 @@
-"""What a label says: of which handle, which axis, which unit, which instant.
+"""Meaning of a label: handle, axis, unit or instant.
 
-The words of the contest's own workbooks, in Chinese and English, and how students change them.
+It knows the words of the contest's workbooks, in Chinese and English, and their usual variants.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ X, Y, SPEED = 0, 1, 2
 
 @dataclass(frozen=True)
 class Label:
-    """handle: None where the label names none; -1: the tail, -2: its rear; component: None where it names none."""
+    """handle: -1: the tail, -2: its rear; handle and component: None if the label names none."""
 
     handle: int | None
     component: int | None
@@ -34,7 +34,7 @@ class Label:
 
 
 def label_of(cell: Cell) -> Label | None:
-    """What a text says of a line of numbers; None where it says nothing."""
+    """Meaning of a text beside a line of numbers; None if it is no label."""
     if not isinstance(cell, str):
         return None
     text = plain(cell)
@@ -58,7 +58,7 @@ def label_of(cell: Cell) -> Label | None:
 
 
 def instant_of(cell: Cell) -> float | None:
-    """The time that a cell names [s]: text with or without a unit, or a number."""
+    """Time in a cell [s], given as text with or without a unit, or as a number."""
     if isinstance(cell, float):
         return cell
     found = TIME.fullmatch(plain(cell)) if isinstance(cell, str) else None

@@ -1,8 +1,7 @@
-"""What a sheet holds: which handle, which instant and which unit every number stands for.
+"""Layout of a sheet: the handle, the instant and the unit of every number.
 
 Input: a grid of cells. Output: tables of positions, speeds, or both at one instant, with the place of every number in
-the grid. State: none. Labels decide where there are any, in either language and either orientation; otherwise the order
-does.
+the grid. State: none. Labels decide, in both languages and both orientations; without labels the order decides.
 """
 
 from __future__ import annotations
@@ -24,33 +23,33 @@ Ints = NDArray[np.int64]
 # Handles of the contest's dragon: the head's is 0, the rear one of the tail is the last.
 BENCHES = 223
 HANDLES = BENCHES + 1
-# Labels stand within so many rows and columns of the first cell.
+# Number of first rows and columns that may hold labels.
 MARGIN = 8
-# Fewer labels than this are taken for chance.
+# Fewer labels than this may be chance and are ignored.
 LABELS_LEAST = 3
 
 
 class Kind(StrEnum):
-    """What a table holds: x and y; speeds; or x, y and speed at one instant."""
+    """Kind of a table: x and y; speeds; or x, y and speed at one instant."""
 
     POSITION = "position"
     SPEED = "speed"
     CONTACT = "contact"
 
 
-# Words for a table by what it holds, where its sheet has no title.
+# Title of a table by its kind, if its sheet has none.
 SHEETS = {Kind.POSITION: "position", Kind.SPEED: "speeds", Kind.CONTACT: "contact"}
 COMPONENTS = {Kind.POSITION: (X, Y), Kind.SPEED: (SPEED,), Kind.CONTACT: (X, Y, SPEED)}
 
 
 @dataclass(frozen=True)
 class Table:
-    """Numbers of a sheet and where they stand.
+    """Numbers of a sheet and their places.
 
     times: (T,) [s]; one NaN for the instant of first contact
-    handles: (H,) by their labels; values: (T, H, C) in the units of the sheet's labels turned into m and m/s, NaN where
+    handles: (H,) by their labels; values: (T, H, C), converted from the units of the labels to m and m/s, NaN where
         there is none; row, column: of the same shape, places in the grid from 0
-    by_order: (H,) handles by the order in which they stand
+    by_order: (H,) handles by their order in the sheet
     """
 
     title: str
@@ -70,7 +69,7 @@ class Table:
 
 
 def tables_of(grid: Grid) -> list[Table]:
-    """The tables of a sheet; none where it holds no numbers that this program knows."""
+    """The tables of a sheet; none if no numbers are recognised."""
     cells = _trimmed(grid)
     if not cells:
         return []
@@ -131,7 +130,7 @@ def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
 
 
 def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
-    """The table of a sheet with a line for each handle. turned: the cells are the sheet's, columns for rows"""
+    """The table of a sheet with a line for each handle. turned: True if rows and columns of the sheet were swapped"""
     labels = [[label_of(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
     counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
     aside = int(np.argmax(counts))
@@ -147,7 +146,7 @@ def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
 
 
 def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
-    """Columns whose head names x, y or a speed and no handle."""
+    """Columns whose heading names x, y or a speed but no handle."""
     found = {}
     for row in heads:
         for k, cell in enumerate(row):
@@ -158,7 +157,7 @@ def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
 
 
 def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
-    """The lines that a label names; one without a label below one without an axis is its y, as in merged cells."""
+    """Lines with their labels. A line without one, below a label without an axis, is its y, as in merged cells."""
     found: list[tuple[int, Label]] = []
     for k, label in enumerate(labels):
         if label is not None and label.handle is not None:
@@ -170,7 +169,7 @@ def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
 
 
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
-    """Columns and the instants that they are for; by their order where no head tells."""
+    """Columns and their instants; by their order if no heading gives them."""
     best: dict[int, float] = {}
     for row in heads:
         told = {k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None}
@@ -183,7 +182,7 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
 
 
 def _numbered(lines: list[tuple[int, Label]]) -> tuple[dict[int, int], dict[int, int]]:
-    """Handle of every line, by its label and by its order. The tail follows the last body bench that is named."""
+    """Handle of every line, by its label and by its order. The tail follows the last body bench with a label."""
     last = max([BENCHES - 2, *(label.handle for _, label in lines if label.handle is not None)])
     by_label: dict[int, int] = {}
     by_order: dict[int, int] = {}
@@ -240,7 +239,7 @@ def _filled(
     times: dict[int, float],
     turned: bool,
 ) -> Table | None:
-    """The table of these lines and instants."""
+    """The table of the given lines and instants."""
     components = COMPONENTS[kind]
     lines = [(k, label) for k, label in lines if label.component in components]
     if not lines or not times:
@@ -266,7 +265,7 @@ def _filled(
 
 
 def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -> float:
-    """The number in a cell, also one stored as text; NaN, with a note, for other text."""
+    """Number in a cell, also if it is stored as text; NaN and a note for other text."""
     if isinstance(cell, float):
         return cell
     if cell is None:
@@ -282,11 +281,11 @@ def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -
 
 
 def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
-    """A table of numbers without labels of handles, told by its size."""
+    """A table of numbers without labels of handles, recognised by its size."""
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     if not numeric:
         return None
-    # Above the handles at most the times are numbers.
+    # The only numbers above those of the handles may be times.
     first = next((k for k in numeric[:2] if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
     if first is None:
         return None
@@ -302,7 +301,7 @@ def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
 
 
 def cell_name(row: int, column: int) -> str:
-    """Name of a cell in a spreadsheet, from a row and a column from 0.
+    """Name of a cell in a spreadsheet; row and column are counted from 0.
 
     >>> cell_name(1, 27)
     'AB2'

@@ -1,4 +1,4 @@
-"""Files as plain grids of cells, read without trust: a workbook or CSV, told apart by its content."""
+"""Files as plain grids of cells, read without trust: a workbook or CSV, recognised by its content."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from core import Budget
 
 # Longest file [bytes]; the contest's workbooks have 2 MB.
 FILE_MAX = 20_000_000
-# Lines of a CSV: one for each handle and instant is 67,425.
+# Most lines of a CSV; one for each handle and instant gives 67,425.
 LINES_MAX, CELLS_MAX = 200_000, 1_000_000
 # First bytes of a ZIP archive, and of the older container that also holds encrypted workbooks.
 ZIP, OLE = b"PK", bytes.fromhex("d0cf11e0a1b11ae1")
 ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-# What Chinese versions of Excel write, after UTF-8.
+# Encodings to try: UTF-8, then that of Chinese versions of Excel.
 CODINGS = ("utf-8-sig", "gb18030")
 
 
@@ -75,7 +75,7 @@ def _decoded(data: bytes) -> str:
 
 
 def _number(word: str, decimal: str) -> Cell:
-    """A number, a text, or None for a blank. decimal: "," where a comma may stand for the decimal point"""
+    """A number, a text, or None for a blank. decimal: "," if a comma may be the decimal point"""
     said = word.strip()
     pointed = said.replace(decimal, ".")
     return float(pointed) if NUMBER.fullmatch(pointed) else word if said else None

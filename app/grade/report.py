@@ -1,4 +1,4 @@
-"""What the grader answers: a verdict for each file and sheet, what explains the errors, and the rubric in words."""
+"""Answers of the grader: a verdict for each file and sheet, explanations of the errors, and the rubric in words."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from app.wire.models import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.budget import Halted
 
-# Endings of the names of workbooks.
+# Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
 VALUE = "in m for x and y, in m/s for a speed"
 
@@ -37,8 +37,8 @@ class CellAnswer(Answer):
     handle: str = Field(description="Name of the handle")
     quantity: str = Field(description="x, y or speed")
     time: float = Field(description="Instant [s]", json_schema_extra={"x-unit": "s"})
-    found: float = Field(description=f"What stands there, {VALUE}")
-    expected: float = Field(description=f"What is right, {VALUE}")
+    found: float = Field(description=f"Value in the cell, {VALUE}")
+    expected: float = Field(description=f"Right value, {VALUE}")
 
 
 class SheetAnswer(Answer):
@@ -47,21 +47,23 @@ class SheetAnswer(Answer):
     sheet: str = Field(description="Title of the sheet")
     holds: str = Field(description="position, speed, or contact: x, y and speed at first contact")
     verdict: Rating = Field(description="right, rounded, wrong, incomplete or unreadable")
-    decimals: int | None = Field(description="With rounded: decimals with which all cells are right; else null")
-    cells: int = Field(description="Cells that the contest asks for")
+    decimals: int | None = Field(
+        description="Decimals to which all cells are right, if the verdict is rounded; else null"
+    )
+    cells: int = Field(description="Cells that the contest requires")
     right: int = Field(description="Cells that are right within 5.1e-7")
     missing: int = Field(description="Cells that are missing")
-    worst: CellAnswer | None = Field(description="The cell that is furthest off; null where none is wrong")
-    first: CellAnswer | None = Field(description="The first wrong cell, row by row; null where none is wrong")
+    worst: CellAnswer | None = Field(description="The cell with the largest error; null if none is wrong")
+    first: CellAnswer | None = Field(description="The first wrong cell, row by row; null if none is wrong")
     picture: list[str] = Field(
-        description="Where the wrong cells are: a line for some handles, the head first, and a mark for some instants: "
+        description="Places of the wrong cells: lines for some handles, the head first, with marks for some instants: "
         ". right, o rounded, # wrong, ? missing"
     )
-    notes: list[str] = Field(description="What else a reader should know, in words")
+    notes: list[str] = Field(description="Remarks for the reader, in words")
 
 
 class DiagnosisAnswer(Answer):
-    """A known error that explains what is wrong."""
+    """A known error that explains wrong numbers."""
 
     error: str = Field(description="Name of the error")
     words: str = Field(description="The error in words")
@@ -72,20 +74,20 @@ class CriterionAnswer(Answer):
     """One point of the rubric."""
 
     criterion: str = Field(description="Name of the point")
-    met: bool | None = Field(description="null where the file does not show it")
-    words: str = Field(description="The point and what was found, in words")
+    met: bool | None = Field(description="True if the point is met; null if the file does not show it")
+    words: str = Field(description="The point and the finding, in words")
 
 
 class FileAnswer(Answer):
     """One file."""
 
     file: str = Field(description="Name of the file")
-    workbook: str | None = Field(description="result1, result2 or result4; null where that is unknown")
-    verdict: Rating = Field(description="The worst verdict of its sheets")
-    diagnosis: list[DiagnosisAnswer] = Field(description="Errors that explain what is wrong; empty where nothing fits")
+    workbook: str | None = Field(description="result1, result2 or result4; null if unknown")
+    verdict: Rating = Field(description="The worst verdict of all sheets")
+    diagnosis: list[DiagnosisAnswer] = Field(description="Errors that explain the wrong cells; empty if nothing fits")
     sheets: list[SheetAnswer] = Field(description="Its sheets")
     rubric: list[CriterionAnswer] = Field(description="The rubric of the contest's reviewers")
-    notes: list[str] = Field(description="What else a reader should know, in words")
+    notes: list[str] = Field(description="Remarks for the reader, in words")
 
 
 class TypedAnswer(Answer):
@@ -93,12 +95,12 @@ class TypedAnswer(Answer):
 
     answer: str = Field(description="collision_time, pitch, speed or turn_length")
     verdict: Rating = Field(description="right, as far as its digits go, or wrong")
-    found: float = Field(description="What was given, in the unit beside it")
-    expected: float = Field(description="What is right, in the unit beside it")
+    found: float = Field(description="The given number, in `unit`")
+    expected: float = Field(description="The right number, in `unit`")
     unit: str = Field(description="Unit of both")
-    digits: int = Field(description="Digits of what was given, from the first that is not 0: so far it is graded")
-    notes: list[str] = Field(description="What else a reader should know, in words")
-    diagnosis: list[DiagnosisAnswer] = Field(description="Shortcuts that give the number; empty where nothing fits")
+    digits: int = Field(description="Significant digits of the given number, to which it is graded")
+    notes: list[str] = Field(description="Remarks for the reader, in words")
+    diagnosis: list[DiagnosisAnswer] = Field(description="Shortcuts that give the number; empty if nothing fits")
 
 
 class GradeAnswer(Answer):
@@ -109,7 +111,7 @@ class GradeAnswer(Answer):
 
 
 def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
-    """The grade of one file. name: of the file, which may tell its workbook; raises: TooMuchWork"""
+    """The grade of one file. name: of the file, which may say which workbook it is; raises: TooMuchWork"""
     try:
         return _graded(name, data, language, budget)
     except Unreadable as error:
@@ -118,7 +120,7 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
         raise too_long(data, budget) from error
     except (MissingPackage, TooMuchWork):
         raise
-    except Exception as error:  # A fault of ours in one file must not keep the others from being graded.
+    except Exception as error:  # An error of ours in one file must not stop the grading of the others.
         return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]), language)
 
 
@@ -131,7 +133,7 @@ def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
 
 
 def too_long(data: bytes, budget: Budget) -> TooMuchWork:
-    """The error of a file that was not graded before its budget was stopped."""
+    """The error for a file whose budget was stopped before it was graded."""
     return budget.too_much("name", "must name a smaller file: it was not graded {then}", len(data), "bytes")
 
 
@@ -159,7 +161,7 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
 
 
 def typed(name: str, text: str, language: Language) -> TypedAnswer:
-    """The grade of a typed number. name: one of UNITS; text: as it was typed, whose digits tell its rounding
+    """The grade of a typed number. name: one of UNITS; text: as typed, because its digits show its rounding
 
     raises: InvalidValue
     """

@@ -1,9 +1,9 @@
-"""Was a handle put on the wrong ring?
+"""Handles on the wrong ring.
 
 Input: the judgement of positions. Output: a finding, or none. State: none. Argument: no two places of a spiral, or of
-the turn, are the same point, so every handle on the path has one arc length. Where each is a chord away from the one
-before, and yet one stands in front of it, or much further behind along the path than the chord is long, another root of
-the chord equation was taken.
+the turn, are the same point, so every handle on the path has one arc length. If a handle is one chord away from the one
+before, but in front of it, or much further behind along the path than the chord is long, another root of the chord
+equation was taken.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ from core import Spiral, Turn
 from core.paths.path import Path
 from core.values import Floats
 
-# Links to wrong handles that must be whole: the seams of what was only moved about are not [1].
+# Share of the links to wrong handles that must have their length: where rows were only exchanged they have not [1].
 RING_SHARE = 0.995
-# A handle is on the path, and a chord has its length, within this [m].
+# Tolerance for a handle on the path, and for the length of a chord [m].
 ON_PATH = 1e-4
-# Along the path a handle is at most half a circle behind, pi / 2 chords; the next root is beyond so many [1].
+# Along the path a handle is at most half a circle behind, pi / 2 chords; the next root is beyond this number [1].
 CHORDS_MOST = 2.0
 
 
 def wrong_ring(one: Judgement) -> Finding | None:
-    """The first handle on another ring, and how many are."""
+    """The first handle on another ring, and the number of them."""
     dance = dance_of(one.workbook)
     order = np.argsort(one.handles)
     if not np.array_equal(one.handles[order], np.arange(HANDLES)):
@@ -70,7 +70,7 @@ def places(path: Path, points: Floats) -> Floats:
 
 
 def _candidates(path: Path, points: Floats) -> list[Floats]:
-    """Where points would be on each piece of a path [m]."""
+    """Arc lengths that points would have on each piece of a path [m]."""
     radius = np.linalg.norm(points, axis=-1)
     if isinstance(path, Spiral):
         return [path.length - _arc(radius, path.growth)]

@@ -1,4 +1,4 @@
-"""The points that the contest's reviewers look at, each with what a file shows of it.
+"""The points that the contest's reviewers check, each with the evidence of a file.
 
 Input: judgements and findings of one workbook. Output: criteria, met, not met, or not shown. State: none.
 """
@@ -16,12 +16,12 @@ from app.grade.shortcuts import Finding
 from app.grade.verdict import Judgement, Rating
 from app.grade.words import Note, note
 
-# Mean speeds over a second differ from those at its middle by less than this, as handles turn [m/s].
+# Largest difference between the mean speed over a second and the speed at its middle, because handles turn [m/s].
 MEAN_SPEED = 0.1
-# Share of the cells that may be further off, at the kinks of the turn [1].
+# Share of the cells that may differ more, near the ends of the arcs of the turn [1].
 SHARE = 0.99
 GOOD = (Rating.RIGHT, Rating.ROUNDED, Rating.INCOMPLETE)
-# Findings that tell how first contact was looked for.
+# Findings that show the method of the search for first contact.
 STEPPED = {"time_steps", "time_steps_before"}
 NO_OVERHANG = {"no_overhang", "length_for_chord", "overhang_once", "one_corner"}
 NOT_SMOOTH = {"arcs_not_tangent", "wrong_centre"}
@@ -29,7 +29,7 @@ NOT_SMOOTH = {"arcs_not_tangent", "wrong_centre"}
 
 @dataclass(frozen=True)
 class Criterion:
-    """met: None where the file does not show it"""
+    """met: None if the file does not show it"""
 
     name: str
     met: bool | None
@@ -61,7 +61,7 @@ def _criteria(by_kind: dict[Kind, Judgement], errors: set[str]) -> Iterator[Crit
 
 
 def _shown(one: Judgement | None, against: set[str]) -> bool | None:
-    """Is a point met? Errors against it count more than numbers that are nearly right."""
+    """True if a point is met. An error against it counts more than numbers that are nearly right."""
     if one is None or against:
         return False if against else None
     return one.verdict in GOOD or None
@@ -73,7 +73,7 @@ def _criterion(name: str, met: bool | None) -> Criterion:
 
 
 def _share_consistent(position: Judgement, speed: Judgement) -> float | None:
-    """Share of the speeds that agree with the way that their handle goes from one instant to the next."""
+    """Share of the speeds that agree with the motion of their handle between two instants."""
     times, p, v = np.intersect1d(position.times, speed.times, return_indices=True)
     if times.size < 2:
         return None

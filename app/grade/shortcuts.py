@@ -1,7 +1,7 @@
-"""Known shortcuts to the contest's four numbers, each recomputed: what a typed answer looks like when one was taken.
+"""Known shortcuts to the contest's four numbers, each recomputed to compare its result with a typed answer.
 
-Input: the name of a number, its value and how far it may be rounded. Output: findings; none where no shortcut gives the
-value. State: each shortcut is computed once in a process.
+Input: the name of a number, its value and its rounding. Output: findings; none if no shortcut gives the value. State:
+each shortcut is computed once in a process.
 """
 
 from __future__ import annotations
@@ -46,26 +46,26 @@ from core.shapes.angle_sum import literal_corners
 from core.shapes.rectangles import corners
 
 SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
-# Steps of time in which students look for an event [s], and for the highest speed or the graze of a pitch [s].
+# Steps of time in students' searches for an event [s], and for the highest speed or the graze of a pitch [s].
 EVENT_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.04, 0.05, 0.08, 0.1, 0.2, 0.25, 0.5, 1.0)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-# A number tells which shortcut gave it if half of its last digit is at most this share of it [1]: 0.417 does, 1.3 not.
+# Precision from which a number shows its shortcut: half of its last digit, relative to it [1]. 0.417 has it, 1.3 not.
 DIGITS_SHARE = 2e-3
-# Steps in which students look for the pitch [m].
+# Steps of students' searches for the pitch [m].
 PITCH_GRIDS = (0.01, 0.005, 0.001, 0.0005, 0.0001, 0.00005)
-# A pitch that is short by more than this counts as infeasible, not as rounded [m].
+# A pitch that is too small by more than this counts as infeasible, not as rounded [m].
 INFEASIBLE = 1e-5
-# A truncated number loses at most so many decimals.
+# Most decimals of a number that was cut off.
 TRUNCATED = (2, 3, 4, 5)
 # The turn's speeds peak among the first handles, soon after the entry [s]; and the step in which they are sampled [s].
 PEAK_BENCHES, PEAK_SPAN, PEAK_STEP = 30, 40.0, 0.01
-# Errors of the turn that leave it smooth, so that a sample shows its highest speed.
+# Errors of the turn that keep it smooth, so that samples show its highest speed.
 SMOOTH = ("head_as_body", "body_as_head", "ratio_inverted", "equal_arcs_of_turn")
-# So many shortcuts to one number are told.
+# Most shortcuts shown for one number.
 FINDINGS_MOST = 3
-# Other entries that students take [m]; a length of two decimals meets one of them by chance one time in six.
+# Other entries that students use [m]; a length of two decimals fits one of them by chance in one case of six.
 ENTRIES = tuple(k / 50 for k in range(200, 225))
-# Ratios of the arcs at which the shortest turn answers question 4 too: the contest's, and that of the shortest of all.
+# Ratios of the arcs at which the shortest turn also answers question 4: the contest's, and that of the shortest of all.
 RATIOS = (2.0, 1.0)
 
 
@@ -80,7 +80,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Shortcut:
-    """What a shortcut gives. values: numbers that its words tell; exact: that number and no other is handed in"""
+    """Result of a shortcut. values: numbers in its words; exact: True if students hand in exactly this number"""
 
     error: str
     value: float
@@ -115,9 +115,9 @@ def shortest_length(ratio: float) -> float:
 
 
 def accepted(name: str, value: float, half_unit: float) -> float | None:
-    """The right value that a number is, as far as its digits go; None for a wrong one.
+    """The right value that a number agrees with, to its own digits; None for a wrong number.
 
-    A pitch that was rounded down is wrong: it is infeasible. Question 4 asks for a shorter turn too.
+    A pitch that was rounded down is wrong, because it is infeasible. Question 4 also accepts a shorter turn.
     """
     right = right_answer(name)
     if abs(right - value) <= 1.02 * half_unit and not (name == "pitch" and right - value > INFEASIBLE):
@@ -128,7 +128,7 @@ def accepted(name: str, value: float, half_unit: float) -> float | None:
 
 
 def other_turn(length: float) -> Note:
-    """What to say of one of the shortest turns."""
+    """Remark on one of the shortest turns."""
     ratio = next(ratio for ratio in RATIOS if shortest_length(ratio) == length)
     return note("other_turn", ratio=f"{ratio:g}", length=f"{right_answer('turn_length'):.7f}")
 
@@ -136,7 +136,7 @@ def other_turn(length: float) -> Note:
 def explained(name: str, value: float, half_unit: float) -> list[Finding]:
     """Findings on one of UNITS.
 
-    value: in its unit; half_unit: half of the last digit that is given, in that unit
+    value: in its unit; half_unit: half of its last digit, in that unit
     """
     if accepted(name, value, half_unit) is not None:
         return []
@@ -158,7 +158,7 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
 
 
 def _by_error(fits: list[Shortcut], value: float) -> list[Shortcut]:
-    """One shortcut for each error, the nearest first, with every step that gives the number."""
+    """One shortcut for each error, the nearest first, with all steps that give the number."""
     found: dict[str, list[Shortcut]] = {}
     for one in sorted(fits, key=lambda one: round(abs(one.value - value), 9)):
         found.setdefault(one.error, []).append(one)
@@ -218,7 +218,7 @@ def _pitches() -> Iterator[Shortcut]:
 
 
 def _truncated(value: float, right: float) -> Iterator[Shortcut]:
-    """The right number cut off, and so too small to be feasible."""
+    """The right number, cut off and therefore too small to be feasible."""
     for decimals in TRUNCATED:
         cut = math.floor(right * 10.0**decimals) / 10.0**decimals
         if abs(cut - value) < RESOLUTION and cut < right:
@@ -226,7 +226,7 @@ def _truncated(value: float, right: float) -> Iterator[Shortcut]:
 
 
 def _on_grid(value: float) -> Iterator[Shortcut]:
-    """A pitch that was looked for in steps: the first of a grid above the right one, or above that of a shortcut."""
+    """A pitch from a search in steps: the first of a grid above the right one, or above that of a shortcut."""
     for step in PITCH_GRIDS:
         for one in (Shortcut("pitch_steps", right_answer("pitch"), {}), *_shortcuts("pitch")[:3]):
             if abs(math.ceil(one.value / step) * step - value) < RESOLUTION:

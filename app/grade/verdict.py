@@ -1,7 +1,7 @@
-"""Which cells of a sheet are right.
+"""Right and wrong cells of a sheet.
 
-Input: a table and the workbook that it belongs to. Output: a judgement with counts, the worst and the first wrong cell
-and a picture of where they are. State: none.
+Input: a table and its workbook. Output: a judgement with counts, the worst and the first wrong cell, and a picture of
+their places. State: none.
 """
 
 from __future__ import annotations
@@ -18,25 +18,25 @@ from app.grade.layout import COMPONENTS, HANDLES, Kind, Table
 from app.grade.words import Note, note
 from core.values import Floats
 
-# Six decimals are right within half a unit of the last, and 2 % of that for those who round twice [m, m/s].
+# Tolerance of six decimals: half a unit of the last, and 2 % more for numbers that were rounded twice [m, m/s].
 RIGHT = 5.1e-7
-# Fewer decimals k are counted as rounded within this times 10^-k.
+# Tolerance of k decimals, fewer than six, in units of 10^-k; such numbers count as rounded.
 ROUNDED, DECIMALS = 0.51, (5, 4, 3, 2)
-# Decimals that a double can hold beside metres.
+# Most decimals of a number in metres that a double holds.
 DECIMALS_MOST = 12
-# Sizes in centimetres and millimetres are this much larger than in metres, more or less.
+# Typical factors of numbers in centimetres and millimetres.
 SCALES = {1e-2: (50.0, 200.0), 1e-3: (500.0, 2000.0)}
-# A handle is taken for the one that it is nearest to [m, m/s].
+# Distance within which a number counts for a handle, when labels are compared with the order [m, m/s].
 NEAR = 0.01
-# Size of the picture, and its marks: right, right but for rounding, wrong, missing.
+# Size of the picture, and its marks: right, rounded, wrong, missing.
 PICTURE_ROWS, PICTURE_COLUMNS = 14, 42
 MARKS = ".o#?"
-# Earliest time of a column that is looked at [s].
+# Earliest time of a column to grade [s].
 EARLIEST = -1000.0
 
 
 class Rating(StrEnum):
-    """How a sheet or a file is, from the best to the worst."""
+    """Verdict on a sheet or a file, from the best to the worst."""
 
     RIGHT = "right"
     ROUNDED = "rounded"
@@ -51,11 +51,11 @@ def worst_of(verdicts: Iterator[Rating]) -> Rating:
 
 @dataclass(frozen=True)
 class Judgement:
-    """What is right in a sheet.
+    """The judgement of a sheet.
 
-    values, wanted: (T, H, C) [m, m/s] as handed in, in our units, and right; handles (H,), times (T,) [s]
-    decimals: with which the sheet is right, where it is rounded; written: decimals that its numbers have
-    cells: that the contest asks for; right, missing: of them
+    values, wanted: the student's and the right numbers (T, H, C) [m, m/s]; handles (H,), times (T,) [s]
+    decimals: number to which a rounded sheet is right; written: decimals of its numbers
+    cells: number that the contest requires; right, missing: how many of them
     """
 
     table: Table
@@ -80,16 +80,16 @@ class Judgement:
 
     @property
     def is_off(self) -> bool:
-        """Is a number further off than the decimals that are written allow?"""
+        """True where a number is further off than its written decimals allow."""
         return float(np.nan_to_num(self.off).max(initial=0.0)) > max(RIGHT, ROUNDED * 10.0**-self.written)
 
     def worst(self) -> tuple[int, ...] | None:
-        """Index of the number that is furthest off; None where all are right."""
+        """Index of the number with the largest error; None if all are right."""
         off = np.nan_to_num(self.off)
         return tuple(map(int, np.unravel_index(off.argmax(), off.shape))) if off.size and off.max() > RIGHT else None
 
     def first(self) -> tuple[int, ...] | None:
-        """Index of the first wrong number of the sheet, as one reads it."""
+        """Index of the first wrong number of the sheet in reading order."""
         wrong = self.off > RIGHT
         if not wrong.any():
             return None
@@ -110,7 +110,7 @@ class Judgement:
 
 
 def workbook_of(tables: list[Table], name: str) -> Workbook:
-    """The workbook that tables are from: by what they hold, by the name of the file, by the number of instants."""
+    """Workbook of some tables: by their kinds, by the name of the file, or by the number of instants."""
     if any(table.kind is Kind.CONTACT for table in tables):
         return Workbook.RESULT2
     if any(table.times.min() < 0 for table in tables):
@@ -179,7 +179,7 @@ def _counted(
 
 
 def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
-    """What turns the numbers into metres; their size tells centimetres and millimetres."""
+    """Factor from the numbers to metres; their size shows centimetres and millimetres."""
     size = float(np.nanmedian(np.abs(table.values))) if np.isfinite(table.values).any() else 0.0
     right = float(np.median(np.abs(motion)))
     for scale, (low, high) in SCALES.items():
@@ -190,7 +190,7 @@ def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
 
 
 def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) -> NDArray[np.int64]:
-    """The handle of every line: by its label or, where that fits more numbers, by its order."""
+    """Handle of every line: by its label, or by its order if that fits more numbers."""
 
     def near(handles: NDArray[np.int64]) -> int:
         known = handles < HANDLES
@@ -203,7 +203,7 @@ def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) ->
 
 
 def _decimals(values: Floats) -> int:
-    """Decimals that the numbers have."""
+    """Number of decimals of the numbers."""
     some = values[np.isfinite(values)].ravel()[:5000]
     for k in range(DECIMALS_MOST):
         scaled = some * 10.0**k
@@ -213,5 +213,5 @@ def _decimals(values: Floats) -> int:
 
 
 def lacking(tables: list[Table], workbook: Workbook) -> list[Kind]:
-    """Kinds of sheets that a workbook of the contest has and this one has not."""
+    """Kinds of sheets that are missing in a workbook of the contest."""
     return [kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables}]

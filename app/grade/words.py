@@ -11,7 +11,7 @@ from app.grade.paper import PAPER
 
 @dataclass(frozen=True)
 class Note:
-    """Something to say: its name in WORDS, and the values that it tells of."""
+    """A remark: its name in WORDS, and its values."""
 
     code: str
     values: dict[str, object] = field(default_factory=dict)
@@ -25,7 +25,7 @@ def note(code: str, **values: object) -> Note:
 
 
 def say(code: str, language: Language, **values: object) -> str:
-    """A text of WORDS with its values, of which some may be notes."""
+    """A text of WORDS with its values, which may be notes themselves."""
     english, chinese = WORDS[code]
     told = {name: value.said(language) if isinstance(value, Note) else value for name, value in values.items()}
     return (chinese if language is Language.CHINESE else english).format(**told)
@@ -52,15 +52,15 @@ WORDS = (
         ),
         "broken": ("The workbook is damaged and cannot be opened ({why}).", "工作簿已损坏，无法打开（{why}）。"),
         "bomb": (
-            "The archive would unpack to {size} MB in {parts} parts, and at most {most} MB in 500 parts are read.",
+            "The archive would unpack to {size} MB in {parts} parts; the limit is {most} MB in 500 parts.",
             "压缩包解压后为 {size} MB、{parts} 个部分，最多读取 {most} MB、500 个部分。",
         ),
         "other_archive": (
-            "The file is an archive but no .xlsx workbook, as a .docx is: save the sheets as .xlsx or .csv.",
+            "The file is an archive, such as a .docx, but not an .xlsx workbook: save the sheets as .xlsx or .csv.",
             "文件是压缩包，但不是 .xlsx 工作簿（例如 .docx）：请另存为 .xlsx 或 .csv。",
         ),
         "declared": (
-            "The workbook declares a document type in {part}, which no spreadsheet program writes: it was not read.",
+            "The workbook was not read: {part} declares a document type, which no spreadsheet program writes.",
             "工作簿的 {part} 含有文档类型声明，电子表格软件不会写入：未读取。",
         ),
         "strict": (
@@ -68,7 +68,7 @@ WORDS = (
             "工作簿为“Strict Open XML”格式：请另存为普通 .xlsx。",
         ),
         "too_many_elements": (
-            "The workbook has more than {most} elements of XML, such as cells and values: delete what nobody asked for.",
+            "The workbook has more than {most} elements of XML, such as cells and values: delete what is not needed.",
             "工作簿的 XML 元素（单元格、数值等）超过 {most} 个：请删除多余内容。",
         ),
         "too_many_cells": ("The table has more than {most} cells.", "表格超过 {most} 个单元格。"),
@@ -77,11 +77,11 @@ WORDS = (
             "文件既不是工作簿，也不是文本表格（CSV）。",
         ),
         "no_workbook": (
-            "The file is named as a workbook but is none: its content is text. Save the sheets as .xlsx.",
+            "The file has the name of a workbook, but its content is text: save the sheets as .xlsx.",
             "文件名是工作簿，内容却是文本，不是工作簿：请把工作表另存为 .xlsx。",
         ),
         "failed": (
-            "The grader failed on this file ({why}), which is a fault of the grader: please report it.",
+            "The grader failed on this file ({why}). This is an error in the grader: please report it.",
             "评阅程序处理此文件时出错（{why}），这是程序的缺陷：请反馈。",
         ),
         "not_opened": ("The file cannot be opened: {why}.", "无法打开文件：{why}。"),
@@ -89,7 +89,7 @@ WORDS = (
             "No sheet has labels such as 龙头x (m) and times such as 0 s, or numbers for 224 handles.",
             "没有任何工作表含有“龙头x (m)”之类的标签和“0 s”之类的时间，或 224 个把手的数据。",
         ),
-        "no_numbers": ("The sheet has no numbers where they belong.", "工作表中应有数据处没有数值。"),
+        "no_numbers": ("The sheet has no numbers in the expected places.", "工作表中应有数据处没有数值。"),
         # -- notes --
         "macros": ("The workbook holds macros: they were not run.", "工作簿含有宏：未运行。"),
         "formulas": (
@@ -105,11 +105,11 @@ WORDS = (
             "{count} 处合并单元格，第一处是 {cell}：只有首个单元格有值。",
         ),
         "text_number": ("The number in {cell} is stored as text.", "{cell} 中的数值以文本形式保存。"),
-        "text": ("{cell} should hold a number and holds the text “{text}”.", "{cell} 应为数值，却是文本“{text}”。"),
+        "text": ("{cell} should hold a number, but holds the text “{text}”.", "{cell} 应为数值，却是文本“{text}”。"),
         "more_text": ("{count} further cells hold text.", "另有 {count} 个单元格为文本。"),
-        "unit": ("The numbers are in {unit}: they were read as such.", "数值单位为 {unit}：已按此读取。"),
+        "unit": ("The numbers are in {unit}, and were converted.", "数值单位为 {unit}：已按此读取。"),
         "by_order": (
-            "The labels of the handles are out of step: the handles were taken in the order in which they stand.",
+            "The labels of the handles are shifted: the handles were read in the order of the rows.",
             "把手标签有错位：已按排列顺序对应把手。",
         ),
         "extra_handles": (
@@ -117,7 +117,7 @@ WORDS = (
             "多出 {count} 个把手：从龙头到龙尾（后）共 224 个。",
         ),
         "extra_times": (
-            "{count} columns are for times that the contest does not ask for: they were not graded.",
+            "{count} columns were not graded: their times are not part of the contest.",
             "{count} 列的时刻不在赛题要求之内：未评分。",
         ),
         "missing": (
@@ -131,18 +131,18 @@ WORDS = (
         "contact": ("positions and speeds at first contact", "首次碰撞时的位置与速度"),
         # -- the rubric --
         "rubric_branch_yes": (
-            "Every handle follows the one before on the right branch.",
+            "Every handle is on the right branch behind the one before.",
             "每个把手都取了正确的分支（紧随前一把手）。",
         ),
         "rubric_branch_no": (
-            "A handle is on the wrong branch: it must be the first root behind the one before.",
+            "A handle is on the wrong branch: it must be at the first root behind the one before.",
             "有把手取错分支：应为前一把手之后的第一个根。",
         ),
         "rubric_branch_unknown": ("The branch of the next handle: not shown.", "下一把手的分支：未能判断。"),
         "rubric_speeds_yes": ("The speeds belong to the positions.", "速度与位置相符。"),
         "rubric_speeds_no": ("The speeds do not belong to the positions.", "速度与位置不符。"),
         "rubric_speeds_unknown": (
-            "Speeds consistent with the positions: not shown, that takes both sheets.",
+            "Speeds consistent with the positions: not shown, both sheets are necessary.",
             "速度与位置是否相符：需要两张工作表。",
         ),
         "rubric_overhang_yes": ("Benches are rectangles with their overhang.", "板凳按含伸出部分的矩形处理。"),
@@ -153,11 +153,11 @@ WORDS = (
         ),
         "rubric_refined_yes": ("First contact was refined.", "首次碰撞时刻经过细化求解。"),
         "rubric_refined_no": (
-            "First contact was only stepped over: refine it, by bisection for example.",
+            "The time of first contact is only a step of the search: refine it, for example by bisection.",
             "首次碰撞只按固定步长搜索：应细化，例如用二分法。",
         ),
         "rubric_refined_unknown": (
-            "First contact refined instead of stepped: not shown here.",
+            "Refined time of first contact: not shown here.",
             "首次碰撞是否细化：此处未体现。",
         ),
         "rubric_tangents_yes": ("The path is smooth where the arcs begin and end.", "圆弧与螺线相切，路径光滑。"),
@@ -167,7 +167,7 @@ WORDS = (
         ),
         "rubric_tangents_unknown": ("Continuity at the tangents: not shown here.", "切点处的连续性：此处未体现。"),
         "rubric_speeds_share": (
-            "{share} % of the speeds agree with the way from one instant to the next.",
+            "{share} % of the speeds agree with the motion between two instants.",
             "{share} % 的速度与相邻时刻的位移相符。",
         ),
         # -- verdicts and lines of the command --
@@ -177,7 +177,7 @@ WORDS = (
         "wrong": ("wrong", "错误"),
         "unreadable": ("unreadable", "无法读取"),
         "not_rounded": (
-            "All numbers are right to {decimals} decimals, but were not rounded to so many: they have {written}.",
+            "All numbers are right to {decimals} decimals, but are written with {written}.",
             "数值准确到 {decimals} 位小数，但并非舍入到该位数：数值有 {written} 位小数。",
         ),
         "to_digits": (", as far as its digits go ({digits})", "（{digits} 位有效数字）"),
@@ -187,16 +187,16 @@ WORDS = (
             "{title}：{verdict}，{cells} 个单元格中 {right} 个正确",
         ),
         "worst_cell": (
-            "worst: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
+            "worst: {cell}, {handle}, {quantity} at {time} s: {found}, right: {expected}",
             "误差最大：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
         ),
         "first_cell": (
-            "first: {cell}, {handle}, {quantity} at {time} s: {found}, right is {expected}",
+            "first: {cell}, {handle}, {quantity} at {time} s: {found}, right: {expected}",
             "首个错误：{cell}，{handle}，{time} s 时，{quantity}：{found}，正确为 {expected}",
         ),
         "quantity_speed": ("speed", "速度"),
         "nothing_fits": ("No known error gives these numbers.", "没有已知错误能得出这些数值。"),
-        "is_right": ("{right} {unit} is right.", "正确值为 {right} {unit}。"),
+        "is_right": ("The right value is {right} {unit}.", "正确值为 {right} {unit}。"),
         "collision_time": ("time of first contact", "首次碰撞时刻"),
         "pitch": ("minimum pitch", "最小螺距"),
         "turn_length": ("length of the turn", "调头曲线长度"),

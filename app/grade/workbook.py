@@ -1,12 +1,12 @@
 """Workbooks (.xlsx) as plain grids of cells, read by openpyxl without trust.
 
-Nothing in a file is run or followed: macros and links are left alone, and formulas count with the value that was stored
-with them. Sizes are checked before anything is unpacked. Then each part is looked through once for what openpyxl does
-not tell: document types, formulas, merged cells, and more elements than fit into memory. A budget may end all of this
-whenever bytes of the file are asked for, and between two rows.
+Nothing in a file is run or followed: macros and links are ignored, and a formula counts with its stored value. Sizes
+are checked before anything is unpacked. Then each part is read once for things that openpyxl does not report: document
+types, formulas, merged cells, and more elements than fit into memory. A stopped budget ends the reading at the next
+access to the file, or between two rows.
 
-A result1 takes 0.9 s, of which 0.2 s are for the look. calamine would take 0.1 s, but asks for 550 GB where one cell
-stands in the last corner of a sheet, and the process dies of it (python-calamine 0.9.1; all measured 2026-11-22).
+A result1 takes 0.9 s, of which that first reading takes 0.2 s. calamine would take 0.1 s, but a cell in the last corner
+of a sheet makes it allocate 550 GB, which ends the process (python-calamine 0.9.1; all measured 2026-11-22).
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ from core.budget import Halted
 if TYPE_CHECKING:
     from openpyxl.workbook.workbook import Workbook
 
-# What the parts of a file unpack to, together [bytes], and their number.
+# Largest size of all unpacked parts of a file together [bytes], and largest number of parts.
 UNPACKED_MAX, PARTS_MAX = 100_000_000, 500
-# Elements of all parts: result1 has 410,000. openpyxl holds those of a row together, which takes 300 bytes for each
-# (measured 2026-11-22).
+# Most elements of all parts: result1 has 410,000. openpyxl keeps those of a row in memory, 300 bytes for each (measured
+# 2026-11-22).
 ELEMENTS_MAX = 2_000_000
 # Largest sheet of a workbook: result1 has 449 x 302 cells, in either orientation; and the number of sheets.
 ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 2_000, 1_000, 20
 MAIN, MACROS = "xl/workbook.xml", "xl/vbaProject.bin"
-# Names of elements of a sheet; and how those of the strict form of the standard begin, which openpyxl cannot read.
+# Names of elements of a sheet; and the beginning of those in Strict Open XML, which openpyxl cannot read.
 CELL, FORMULA, VALUE, MERGED = (
     "http://schemas.openxmlformats.org/spreadsheetml/2006/main}" + name for name in ("c", "f", "v", "mergeCell")
 )
@@ -45,7 +45,7 @@ STRICT = b"http://purl.oclc.org/ooxml/"
 
 
 class _Watched(io.BytesIO):
-    """Bytes that nobody reads once a budget is stopped."""
+    """Bytes whose reading ends when a budget is stopped."""
 
     def __init__(self, data: bytes, budget: Budget) -> None:
         super().__init__(data)
@@ -68,7 +68,7 @@ def sheets_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
     try:
         with zipfile.ZipFile(source) as archive, warnings.catch_warnings():
             notes = _refuse_traps(archive)
-            # openpyxl warns of what it leaves out: styles, extensions, dates that no calendar has.
+            # openpyxl warns of things that it leaves out: styles, extensions, invalid dates.
             warnings.simplefilter("ignore")
             with closing(load_workbook(source, read_only=True, data_only=True, keep_links=False)) as book:
                 return _sheets(book, budget), notes
@@ -76,12 +76,12 @@ def sheets_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError) as error:
         raise Unreadable(note("truncated")) from error
-    except Exception as error:  # openpyxl has no error of its own for parts that are missing or hold nonsense.
+    except Exception as error:  # openpyxl raises many kinds of errors for missing or invalid parts.
         raise Unreadable(note("broken", why=f"{type(error).__name__}: {error}"[:120])) from error
 
 
 def _refuse_traps(archive: zipfile.ZipFile) -> list[Note]:
-    """Notes on macros, formulas and merged cells. raises: Unreadable for an archive that is no workbook, or a trap"""
+    """Notes on macros, formulas and merged cells. raises: Unreadable for an archive that is harmful or no workbook"""
     parts, names = archive.infolist(), archive.namelist()
     if any(part.flag_bits & 1 for part in parts):
         raise Unreadable(note("encrypted"))
@@ -139,14 +139,14 @@ def _survey(archive: zipfile.ZipFile, part: zipfile.ZipInfo, most: int) -> tuple
         with archive.open(part) as source:
             parser.ParseFile(source)
     except expat.ExpatError:
-        pass  # A picture, say. openpyxl itself refuses broken parts that it needs.
+        pass  # For example a picture. openpyxl itself refuses broken parts that it needs.
     return [note(what, count=len(cells), cell=cells[0]) for what, cells in seen.items() if cells], elements
 
 
 def _sheets(book: Workbook, budget: Budget) -> list[Grid]:
     grids = []
     for sheet in book.worksheets[:SHEETS_MAX]:
-        # Rows are as long as their cells need, whatever the file says of the size of a sheet.
+        # The cells decide the length of a row, because the stated size of a sheet may be wrong.
         sheet.reset_dimensions()
         rows = []
         for row in sheet.iter_rows(max_row=ROWS_MAX, values_only=True):
@@ -159,7 +159,7 @@ def _sheets(book: Workbook, budget: Budget) -> list[Grid]:
 
 
 def _cell(value: object) -> Cell:
-    """What a cell holds: a number, None for a blank, and anything else as text, such as dates and infinity."""
+    """Content of a cell: a number, None for a blank, and text for anything else, such as dates and infinity."""
     if isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max:
         return float(value)
     return None if value is None else str(value).strip() or None

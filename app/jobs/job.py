@@ -9,10 +9,10 @@ from typing import Any
 
 import orjson
 
-# Random bytes of a job's name, and the name: in hexadecimal, which no shell takes for an option.
+# Number of random bytes in a job's name, and the pattern of names: hexadecimal, so never like an option in a shell.
 ID_BYTES = 24
 ID_PATTERN = r"[0-9a-f]{48}"
-# Operation id of the call that asks one question for many designs; its jobs keep files of their own while they run.
+# Operation id of the call that asks one question for many designs; its jobs keep additional files while they run.
 SWEEP = "sweep"
 
 
@@ -34,8 +34,8 @@ class Job:
     """One job. Times are in seconds since 1970.
 
     progress: 0 to 100; rate: [percent/s]; time_left: [s]; done, total: designs of a sweep
-    deaths: processes that it ended; size: of its result, or of the shards of a sweep [bytes]
-    problem: why it failed, as the service would have answered; expired: its call and result are removed
+    deaths: number of its processes that died; size: of its result, or of the shards of a sweep [bytes]
+    problem: reason of a failure, as in a direct answer; expired: True if its call and result are removed
     """
 
     id: str
@@ -90,7 +90,7 @@ def _instant(seconds: float | None) -> str | None:
 
 @dataclass(frozen=True)
 class Room:
-    """Limits of a store: all jobs, unfinished jobs of one client, bytes of all calls and results."""
+    """Limits of a store: number of jobs, unfinished jobs of one client, bytes of all calls and results."""
 
     jobs: int
     of_client: int

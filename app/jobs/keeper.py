@@ -1,4 +1,4 @@
-"""The jobs in a process of the service: it opens the store, and starts a runner when there is work.
+"""The keeper of jobs in a process of the service: it opens the store, and starts a runner when there is work.
 
 Every process of the service has a keeper. One of them holds the lock and starts a runner when there is work; the runner
 ends with the process that started it. When that one is killed, the keeper of another process gets the lock.
@@ -25,16 +25,16 @@ from app.settings import SHARED_COUNTS, Settings
 
 logger = logging.getLogger("uvicorn.error")
 
-# How long work waits at most for a keeper of another process [s].
+# Longest wait of new work for a keeper in another process [s].
 KEEP_SECONDS = 1.0
-# How long a runner may take to end [s].
+# Longest time for a runner to end [s].
 END_SECONDS = 5.0
 
 
 class Keeper:
     """The jobs of one process of the service.
 
-    free: listeners that may still come; leaving: set when the process is asked to end, so that listeners go
+    free: places for more listeners; leaving: set when the process must end, so that listeners leave
     """
 
     def __init__(self, store: Store, settings: Settings) -> None:
@@ -50,7 +50,7 @@ class Keeper:
         self._thread.start()
 
     def hurry(self) -> None:
-        """Report new work, so that the keeper does not wait for its next look."""
+        """Report new work, so that the keeper checks the store at once."""
         self._wake.set()
 
     def stop(self) -> None:
@@ -60,7 +60,7 @@ class Keeper:
         self._thread.join()
         if self._runner is not None:
             assert self._runner.stdin is not None
-            self._runner.stdin.close()  # The runner ends with its input.
+            self._runner.stdin.close()  # The runner ends when its input ends.
             try:
                 self._runner.wait(END_SECONDS)
             except subprocess.TimeoutExpired:
@@ -87,7 +87,7 @@ class Keeper:
 def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
     """A process that ends when its standard input closes, so also when its parent is killed.
 
-    It has a session of its own: what a terminal sends to the service is not for it.
+    It runs in a new session, so signals from the service's terminal do not reach it.
     """
     environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS}
     command = [sys.executable, "-m", module, *arguments]
@@ -122,7 +122,7 @@ def scratch() -> Iterator[str]:
 
 @contextmanager
 def _told(keeper: Keeper) -> Iterator[None]:
-    """A context in which listeners leave when the process is asked to end, because the server waits for them."""
+    """Context in which a signal to end makes listeners leave, because the server waits for them."""
     if current_thread() is not main_thread():
         yield
         return

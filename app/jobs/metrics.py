@@ -1,4 +1,4 @@
-"""Metrics of the jobs, read from the store when they are asked for, so that all processes say the same."""
+"""Metrics of the jobs, read from the store on each request, so that all processes report the same."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from app.jobs.keeper import Keeper
 
 
 class JobMetrics(Collector):
-    """How many jobs are in each state, and how far sweeps are that are not finished."""
+    """Number of jobs in each state, and progress of unfinished sweeps."""
 
     def __init__(self, keeper: Callable[[], Keeper | str]) -> None:
-        """keeper: gives the jobs of this process, or why there are none"""
+        """keeper: function that gives the keeper of this process, or the reason why there is none"""
         self._keeper = keeper
 
     def describe(self) -> list[GaugeMetricFamily]:
-        """Nothing: a registry must not ask for the jobs before the service has started."""
+        """Empty, because a registry must not ask for the jobs before the service has started."""
         return []
 
     def collect(self) -> Iterator[GaugeMetricFamily]:
@@ -31,7 +31,7 @@ class JobMetrics(Collector):
         for state in JobState:
             states.add_metric([state], counts.get(state, 0))
         yield states
-        yield GaugeMetricFamily("bench_dragon_sweep_designs", "Designs of sweeps that are not finished", value=total)
-        yield GaugeMetricFamily("bench_dragon_sweep_designs_done", "Those that are answered", value=done)
+        yield GaugeMetricFamily("bench_dragon_sweep_designs", "Designs of unfinished sweeps", value=total)
+        yield GaugeMetricFamily("bench_dragon_sweep_designs_done", "Answered designs of unfinished sweeps", value=done)
         shards = sum(1 for _ in keeper.store.sweeps.glob("*/part-*"))
-        yield GaugeMetricFamily("bench_dragon_sweep_shards", "Files of sweeps that are not finished", value=shards)
+        yield GaugeMetricFamily("bench_dragon_sweep_shards", "Files of unfinished sweeps", value=shards)

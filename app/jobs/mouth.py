@@ -1,4 +1,4 @@
-"""What the process of a job tells the runner: lines of JSON on what was its standard output."""
+"""Messages from the process of a job to the runner: lines of JSON on its original standard output."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Any
 
 import orjson
 
-# Between two words about progress [s].
+# Time between two messages about progress [s].
 PROGRESS_SECONDS = 0.5
 
 
 class Mouth:
-    """Tells the runner what happens, on what was standard output; what others print goes to standard error."""
+    """Sends messages to the runner on the original standard output; other prints go to standard error."""
 
     def __init__(self) -> None:
         self._line = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
@@ -25,13 +25,13 @@ class Mouth:
         self._line.write(orjson.dumps(words) + b"\n")
 
     def is_due(self) -> bool:
-        """Is it time for a word about progress? If so, the next one is due a while later."""
+        """True if it is time for a message about progress; then the next one is due a while later."""
         due = time.monotonic() - self._latest >= PROGRESS_SECONDS
         if due:
             self._latest = time.monotonic()
         return due
 
     def share(self, done: float) -> None:
-        """So much of the work is done, 0 to 1."""
+        """Report the share of the work that is done, 0 to 1."""
         if self.is_due():
             self.say(share=float(done))

@@ -1,4 +1,4 @@
-"""Where the command finds jobs: in a data folder, or at the address of a service."""
+"""Places where the command finds jobs: a data folder, or the address of a service."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app.jobs.store import Store
 from app.settings import Settings
 from core import BenchDragonError, InvalidValue
 
-# How long a service may take to answer [s].
+# Longest wait for an answer of a service [s].
 PATIENCE = 60.0
 NO_RESULT = "job {} is {}, so it has no result"
 
@@ -43,9 +43,7 @@ class InFolder:
 
     def __init__(self, folder: Path) -> None:
         if not (folder / "jobs.sqlite").is_file():
-            raise InvalidValue(
-                "data", f"--data must be a data folder of the service, got {folder}, which holds no jobs"
-            )
+            raise InvalidValue("data", f"--data must be a data folder of the service, got {folder} without jobs")
         self.store = Store(folder)
 
     def list(self) -> list[dict[str, Any]]:
@@ -111,7 +109,7 @@ class OfService:
 
 
 def place(data: Path | None, url: str, token: str) -> Jobs:
-    """The place that the options name. raises: InvalidValue if they name none"""
+    """The place in the options. raises: InvalidValue if they name none"""
     if url and data is not None:
         raise InvalidValue("url", "--url takes the place of --data: give one of the two")
     if url:

@@ -48,14 +48,14 @@ from core import BenchDragonError
 
 logger = logging.getLogger("uvicorn.error")
 
-# Between two looks for news, and between two signs of life while there are none [s].
+# Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
-# When to come again after a refusal for want of room [s].
+# Time after which a client may ask again when there was no room [s].
 COME_AGAIN = {"Retry-After": "60"}
-# Number of an event, as a client states it; a longer one is no number of ours, and SQLite does not take it.
+# Number of an event in a client's header; longer numbers are not ours, and SQLite cannot store them.
 EVENT_ID = re.compile(r"[0-9]{1,18}")
 NOT_KEPT = {"Cache-Control": "no-store"}
-# A result up to this size is read before the answer begins, so that one that expires breaks no answer off [bytes].
+# Results up to this size are read before the answer begins, so that an expiry does not interrupt the answer [bytes].
 READ_AT_ONCE = 1_000_000
 PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 PROBLEMS = {
@@ -65,13 +65,13 @@ PROBLEMS = {
     404: "There is no such job, or no such format",
     406: "The question has no answer in this form",
     409: "The job is not finished",
-    410: "The result is gone, or there will be none",
+    410: "The result is removed, or there will be none",
     413: "The body is too long",
     415: "The body is not of type application/json",
     422: "A value is outside its limits, or a name is unknown",
-    429: "This client has as many unfinished jobs as it may",
+    429: "This client has reached its limit of unfinished jobs",
     500: "The service failed",
-    503: "No more jobs are taken now",
+    503: "No more jobs are accepted now",
     507: "The data folder is full",
 }
 
@@ -85,7 +85,7 @@ def keeper_of(request: Request) -> Keeper:
 
 
 def take(request: Request, task: Task) -> Response:
-    """A new job. raises: Refused where there is no room"""
+    """A new job. raises: Refused if there is no room"""
     keeper = keeper_of(request)
     limits = keeper.settings
     try:
@@ -95,7 +95,7 @@ def take(request: Request, task: Task) -> Response:
         detail = f"{limits.jobs_client_max} of your jobs are not finished, the limit: wait for one or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error
     except FullOfBytes as error:
-        detail = "The jobs that are kept take all the room that they may: remove those that you do not need."
+        detail = "The jobs that are kept take all the room, the limit: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
         detail = f"{limits.jobs_max} jobs are kept, the limit: remove those that you do not need, or come later."
@@ -134,7 +134,7 @@ def told(name: str, *statuses: int, model: type[BaseModel] | None = None, conten
     answer = {200: {"description": "The answer", "content": content}} if content else {}
     return {
         "operation_id": name,
-        "response_class": Response if model is None else JSONResponse,  # Of a plain Response FastAPI tells no schema.
+        "response_class": Response if model is None else JSONResponse,  # FastAPI writes no schema for a plain Response.
         "response_model": model,
         "responses": {**answer, **problems},
         "openapi_extra": {"security": GUARDED if 401 in statuses else []},
@@ -145,7 +145,7 @@ JobId = Annotated[str, Path(description="Name of the job, the last part of its a
 
 
 def found(request: Request, job_id: JobId) -> Job:
-    """raises: Refused (404) for a job that is not there"""
+    """The job with that name. raises: Refused (404) if there is none"""
     job = keeper_of(request).store.get(job_id)
     if job is None:
         detail = f"There is no job {shown(job_id)}: it was removed, it has expired, or its ID is wrong."
@@ -168,7 +168,7 @@ def ask_later(
     request: Request,
     wanted: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
 ) -> Response:
-    """Asks a question that is answered later; Location is the address of its job."""
+    """Asks a question to be answered later; Location is the address of its job."""
     if wanted.question not in CALLS:
         near = difflib.get_close_matches(wanted.question, CALLS, n=1)
         advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(CALLS))}"
@@ -176,7 +176,7 @@ def ask_later(
         raise Refused(422, detail, [ErrorItem(pointer="/question", detail=detail)])
     call, values = CALLS[wanted.question], dict(wanted.request)
     accept = wanted.accept
-    if call.question.formats and "format" in values:  # It stands in the path of the call.
+    if call.question.formats and "format" in values:  # The format is part of the path of the call.
         accept = format_of(values.pop("format"), call.question.formats)
     form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
@@ -222,7 +222,7 @@ def format_of(value: Any, formats: type[FileFormat]) -> str:
     **told("list_jobs", 401, 403, 422, 500, 503, model=JobList),
 )
 def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
-    """All jobs, for whoever has the token; a service without a token lists none."""
+    """All jobs, for clients with the token; a service without a token lists none."""
     if not keeper.settings.token:
         raise Refused(403, "This service has no token, so it lists no jobs: keep the address that Location gave you.")
     root = request.scope.get("root_path", "")
@@ -232,7 +232,7 @@ def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
 
 @router.get("/{job_id}", dependencies=[no_query], **told("job_status", 404, 422, 500, 503, model=JobStatus))
 def job(request: Request, found: Found) -> Response:
-    """How far a job is."""
+    """Status and progress of a job."""
     return Response(status(found, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
 
 
@@ -242,7 +242,7 @@ def job(request: Request, found: Found) -> Response:
     **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus),
 )
 def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
-    """Dismisses a job that is not finished; removes a finished one with all that is known of it (204)."""
+    """Dismisses an unfinished job, or removes a finished one with all its data (204)."""
     if keeper.store.dismiss(found.id):
         return job(request, keeper.store.get(found.id) or found)
     keeper.store.remove(found.id)
@@ -255,7 +255,7 @@ def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
     **told("job_result", 404, 409, 410, 422, 500, 503, content={"*/*": {"schema": {}}}),
 )
 def result(keeper: KeptKeeper, found: Found) -> Response:
-    """What the call itself would have answered, to the byte; of a failed job its problem."""
+    """The answer of the call, with the same bytes as a direct answer; for a failed job its problem."""
     if not found.is_finished:
         detail = f"The job is {found.state}, so it has no result yet: ask again, or follow its events."
         raise Refused(409, detail, headers={"Retry-After": "1"})
@@ -264,7 +264,7 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
         return Response(found.problem, known["status"], NOT_KEPT, PROBLEM_TYPE)
     file = keeper.store.result(found.id)
     if found.state is not JobState.DISMISSED and not found.expired:
-        with suppress(FileNotFoundError):  # It may go at any time.
+        with suppress(FileNotFoundError):  # The file may be removed at any time.
             if file.stat().st_size > READ_AT_ONCE:
                 return FileResponse(file, headers=NOT_KEPT, media_type=found.media_type)
             return Response(file.read_bytes(), headers=NOT_KEPT, media_type=found.media_type)
@@ -285,7 +285,7 @@ async def events(
     """The status of a job at every change, as server-sent events, until it is finished."""
     after = int(last_event_id) if EVENT_ID.fullmatch(last_event_id) else 0
     if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
-        return Response(status_code=204)  # The word for a browser not to come again.
+        return Response(status_code=204)  # It tells a browser not to connect again.
     if not keeper.free.acquire(blocking=False):
         detail = f"{keeper.settings.jobs_listeners_max} clients follow jobs, the limit: ask for the status instead."
         raise Refused(503, detail, headers=COME_AGAIN)
@@ -293,7 +293,7 @@ async def events(
 
 
 class News(StreamingResponse):
-    """Events of a job after one of them as they happen, until it is finished, it is gone, or the service ends."""
+    """Events of a job after a given one, as they happen, until the job is finished or removed, or the service ends."""
 
     def __init__(self, keeper: Keeper, job: str, after: int) -> None:
         self.keeper, self.job, self.latest = keeper, job, after
@@ -310,7 +310,7 @@ class News(StreamingResponse):
         yield b"retry: 1000\n\n"
         while not self.keeper.leaving.is_set():
             known = await run_in_threadpool(store.get, self.job)
-            # Asked for after the status, so that of a finished job none is missing.
+            # Read after the status, so that no event of a finished job is missing.
             for number, data in await run_in_threadpool(store.events, self.job, self.latest):
                 yield b"id: %d\ndata: %b\n\n" % (number, data)
                 self.latest, beat = number, monotonic()

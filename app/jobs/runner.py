@@ -1,10 +1,10 @@
 """The one process that runs the jobs of a data folder: python -m app.jobs.runner FOLDER
 
-Each job has a process of its own (app.jobs.work), which may be killed by a limit, by whoever dismisses the job, or by
-the system, and harms no other. What such a process has written counts from the moment at which this one gives it its
-name; before that it is begun anew, and as an answer depends on its call alone, with the same bytes.
+Each job has its own process (app.jobs.work). A limit, a client that dismisses the job, or the system may kill it
+without harm to other jobs. The file that such a process has written counts as soon as the runner gives it its final
+name; before that the job starts again and gives the same bytes, as an answer depends only on its call.
 
-input   the end of standard input: whoever started this process has ended, and so does it
+input   the end of standard input, which means that the parent has ended: the runner ends too
 state   the store, and the processes of the jobs that run
 output  the store
 """
@@ -38,13 +38,13 @@ from app.wire.problem import problem_of
 
 logger = logging.getLogger("app.jobs")
 
-# Between two looks at the store [s].
+# Time between two checks of the store [s].
 LOOK_SECONDS = 0.1
-# A runner with nothing to do ends after this, and is started again for the next job [s].
+# Time without work after which a runner ends; it is started again for the next job [s].
 IDLE_SECONDS = 10.0
-# How long the last runner may take to end when its keeper was killed [s].
+# Longest time for the last runner to end after its keeper was killed [s].
 LOCK_SECONDS = 5.0
-# Between two tries when the disk does not take what happened [s].
+# Time between two attempts to write to a full or failing disk [s].
 RETRY_SECONDS = 1.0
 
 
@@ -52,8 +52,8 @@ RETRY_SECONDS = 1.0
 class Work:
     """A process that does a job.
 
-    begun: since when, on the clock that never jumps [s]; most: how long it may take [s]; over: nobody waits for it
-    first: when it first said what share of the work is done [s], and the share
+    begun: start on the monotonic clock [s]; most: largest duration [s]; over: True if nobody needs it any more
+    first: time of its first report of progress [s], and the share done then
     """
 
     process: subprocess.Popen[bytes]
@@ -74,7 +74,7 @@ class Work:
         """Kill the process and its children."""
         self.over = True
         if self.process.returncode is not None:
-            return  # Its number may be another's by now.
+            return  # Another process may have its number by now.
         with contextlib.suppress(ProcessLookupError):
             if hasattr(os, "killpg"):
                 os.killpg(self.process.pid, signal.SIGKILL)
@@ -92,15 +92,15 @@ class Word:
 
 
 class Runner:
-    """Runs the waiting jobs of the store, up to a number at the same time."""
+    """Runs the waiting jobs of the store, up to a limit at the same time."""
 
     def __init__(self, store: Store, settings: Settings) -> None:
         self.store, self.settings = store, settings
         self.works: dict[str, Work] = {}
-        # A process that has loaded everything and waits for a job: a short one then takes no second to begin.
+        # A process that has loaded everything and waits for a job, so that a short job does not need a second to begin.
         self._spare: subprocess.Popen[bytes] | None = None
         self._words: queue.Queue[Word] = queue.Queue()
-        # What is not yet in the store: a full disk may need some time.
+        # Changes that are not in the store yet, because a full disk may refuse them for some time.
         self._unheeded: deque[Word] = deque()
 
     def run(self) -> None:
@@ -111,7 +111,7 @@ class Runner:
             try:
                 self.step()
             except (OSError, sqlite3.Error) as error:
-                if str(error) != said:  # Once: a disk may be full for hours.
+                if str(error) != said:  # Logged once, because a disk may be full for hours.
                     said = str(error)
                     logger.error("The store of the jobs failed, and is tried again each second: %s", said)
                 time.sleep(RETRY_SECONDS)
@@ -152,7 +152,7 @@ class Runner:
         Thread(target=self._hear, args=(job, work), daemon=True).start()
         assert process.stdin is not None
         with contextlib.suppress(BrokenPipeError):
-            # Not an argument: those are for everybody to see.
+            # Not as an argument, because every user can see arguments.
             process.stdin.write(f"{job}\n".encode())
             process.stdin.flush()
 
@@ -163,7 +163,7 @@ class Runner:
         assert work.process.stdout is not None
         with work.process.stdout as lines:
             for line in lines:
-                # A process that is killed may leave half a line.
+                # A killed process may leave half a line.
                 with contextlib.suppress(orjson.JSONDecodeError):
                     self._words.put(Word(job, work, orjson.loads(line)))
         work.process.wait()
@@ -200,14 +200,14 @@ class Runner:
 
 def too_long(seconds: float) -> bytes:
     """The problem of a job that exceeded its time limit."""
-    detail = f"The job took longer than {seconds:g} s, the most that one may take here: ask for less."
+    detail = f"The job took longer than {seconds:g} s, the limit here: ask for less."
     return problem_of(422, "too-much-work", detail).to_json()
 
 
 def died(code: int) -> bytes:
-    """The problem of a job whose process always ends without an answer. code: last exit code, or minus the signal"""
+    """The problem of a job whose process died at each attempt. code: last exit code, or minus the signal"""
     how = f"signal {-code}" if code < 0 else f"exit code {code}"
-    detail = f"The job ended its process each time it was tried, the last time by {how}: it may need too much memory."
+    detail = f"The process of the job died at each attempt, the last time by {how}: the job may need too much memory."
     return problem_of(500, "process-ended", detail).to_json()
 
 

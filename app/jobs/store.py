@@ -1,11 +1,11 @@
-"""What is known of every job, in one SQLite database of the data folder, and the results beside it as files.
+"""The store of all jobs: one SQLite database in the data folder, with the results beside it as files.
 
     FOLDER/jobs.sqlite   tables jobs and events; written ahead (WAL) and flushed at every change
-    FOLDER/results/ID    the bytes of an answer: there whole or not at all
-    FOLDER/sweeps/ID     the shards of a sweep that is not finished
+    FOLDER/results/ID    the bytes of an answer, complete or absent
+    FOLDER/sweeps/ID     the shards of an unfinished sweep
 
-Every change of a job is one transaction and one event, so that whoever listens sees each once. Only the runner moves a
-job on from accepted; anyone may dismiss it.
+Every change of a job is one transaction and one event, so a listener sees each change once. Only the runner changes an
+accepted job to running and further; anyone may dismiss it.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ import orjson
 
 from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
 
-# How long a change waits for that of another process [s].
+# Longest wait of a change for that of another process [s].
 PATIENCE = 5.0
-# Latest events of a job that are kept; who comes back later than that misses only steps of progress.
+# Number of latest events that are kept for a job; a client that comes back later misses only steps of progress.
 EVENTS_KEPT = 100
-# A job that ended its process so often is not tried again.
+# Number of dead processes after which a job is not tried again.
 DEATHS_MAX = 3
 DAY = 86_400.0  # [s]
-# Version of the tables below; a folder of another one is not touched.
+# Version of the tables below; a folder with another version is not changed.
 LAYOUT = 2
 TABLES = """
 CREATE TABLE IF NOT EXISTS jobs (
@@ -50,7 +50,7 @@ CREATE TABLE IF NOT EXISTS events (
 ) WITHOUT ROWID;
 """
 
-# What makes tables of layout 1 such tables.
+# Columns that are missing in tables of layout 1.
 FROM_1 = "done INTEGER", "total INTEGER", "kept INTEGER NOT NULL DEFAULT 0"
 COLUMNS = ", ".join(field.name for field in fields(Job))
 
@@ -69,7 +69,7 @@ class Store:
         for inner in (self.results, self.sweeps):
             inner.mkdir(mode=0o700, exist_ok=True)
         file = self.folder / "jobs.sqlite"
-        file.touch(mode=0o600)  # Whoever can read the names of jobs can read their results.
+        file.touch(mode=0o600)  # Other users must not read the names of jobs, which open their results.
         self._lock = Lock()
         self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
         try:
@@ -83,14 +83,14 @@ class Store:
         run("PRAGMA journal_mode = WAL")
         run("PRAGMA synchronous = FULL")
         run("PRAGMA foreign_keys = ON")
-        run("PRAGMA secure_delete = ON")  # A removed call is overwritten, not just forgotten.
+        run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk.
         with self._change():
             layout = run("PRAGMA user_version").fetchone()[0]
             if layout == 1:
                 for column in FROM_1:
                     run(f"ALTER TABLE jobs ADD COLUMN {column}")
             elif layout not in (0, LAYOUT):
-                raise OSError(f"the jobs of {self.folder} are of another version of this program (layout {layout})")
+                raise OSError(f"the jobs of {self.folder} belong to another version of this program (layout {layout})")
             for table in filter(str.strip, TABLES.split(";")):
                 run(table)
             run(f"PRAGMA user_version = {LAYOUT}")
@@ -108,7 +108,7 @@ class Store:
                 yield self._connection
                 self._connection.execute("COMMIT")
             except BaseException:
-                # SQLite has rolled back already where the disk is full.
+                # On a full disk SQLite has already rolled back.
                 if self._connection.in_transaction:
                     self._connection.execute("ROLLBACK")
                 raise
@@ -118,7 +118,7 @@ class Store:
             return rows.fetchall()
 
     def _move(self, run: sqlite3.Connection, job: str, where: str, /, **values: Any) -> bool:
-        """Set these values of a job if `where` holds: True if it did. The event informs listeners."""
+        """Set values of a job if the condition `where` holds, and inform listeners by an event; True if it held."""
         values["updated"] = time.time()
         setting = ", ".join(f"{name} = :{name}" for name in values)
         changed = run.execute(f"UPDATE jobs SET {setting} WHERE id = :id AND {where}", values | {"id": job}).rowcount
@@ -132,10 +132,10 @@ class Store:
         run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(found.status())))
         run.execute("DELETE FROM events WHERE job = ? AND number <= ?", (job, last + 1 - EVENTS_KEPT))
 
-    # What anyone may ask and do.
+    # Calls for every process.
 
     def create(self, question: str, call: bytes, client: str, room: Room) -> Job:
-        """A new job, safe on the disk. raises: Full where there is no room for it"""
+        """A new job, safe on the disk. raises: Full if there is no room for it"""
         now, job = time.time(), secrets.token_hex(ID_BYTES)
         with self._change() as run:
             kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
@@ -160,25 +160,25 @@ class Store:
         return _job(rows[0]) if rows else None
 
     def known(self, job: str) -> Job:
-        """raises: KeyError for a job that is not there"""
+        """The job with that name. raises: KeyError if there is none"""
         found = self.get(job)
         if found is None:
             raise KeyError(job)
         return found
 
     def all(self) -> list[Job]:
-        """The newest first."""
+        """All jobs, the newest first."""
         return [_job(row) for row in self._read(f"SELECT {COLUMNS} FROM jobs ORDER BY created DESC, id")]
 
     def counts(self) -> tuple[dict[str, int], int, int]:
-        """Number of jobs by state, and of the sweeps that are not finished the designs that are done, and all."""
+        """Number of jobs by state; number of answered designs, and of all designs, of the unfinished sweeps."""
         states = dict(self._read("SELECT state, count(*) FROM jobs GROUP BY state"))
         sums = "SELECT coalesce(sum(done), 0), coalesce(sum(total), 0) FROM jobs WHERE state IN ('accepted', 'running')"
         [(done, total)] = self._read(sums)
         return states, done, total
 
     def call(self, job: str) -> bytes:
-        """raises: KeyError for a job that is not there"""
+        """The call of a job. raises: KeyError if there is no such job"""
         rows = self._read("SELECT call FROM jobs WHERE id = ?", job)
         if not rows:
             raise KeyError(job)
@@ -194,7 +194,7 @@ class Store:
         return self.results / job
 
     def shards(self, job: str) -> Path:
-        """Folder of the shards of a sweep; not there before it runs."""
+        """Folder of the shards of a sweep; it does not exist before the sweep runs."""
         return self.sweeps / job
 
     def dismiss(self, job: str) -> bool:
@@ -218,21 +218,21 @@ class Store:
         self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
         with self._change() as run:
             run.execute("DELETE FROM jobs WHERE id = ?", (job,))
-        self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # What was written ahead still holds the call.
+        self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # The write-ahead log still holds the call.
 
     def has_work(self, days: float) -> bool:
-        """Does a runner have work? days: how long finished jobs are kept"""
+        """True if a runner has work. days: time for which finished jobs are kept"""
         latest = time.time() - days * DAY
         due = "SELECT 1 FROM jobs WHERE state IN ('accepted', 'running') OR finished < ? AND NOT expired"
         known = self._read(f"{due} OR finished < ? LIMIT 1", latest, latest - days * DAY)
-        return bool(known) or any(self.sweeps.iterdir())  # Shards of what is finished are to be removed.
+        return bool(known) or any(self.sweeps.iterdir())  # Shards of finished sweeps must be removed.
 
-    # What the runner alone does.
+    # Calls for the runner only.
 
     def begin(self) -> None:
         """Prepare for a runner: jobs left running wait again, and half-written files are removed."""
         with self._change() as run:
-            words = "Its process was ended from outside; it goes on."
+            words = "Its process was killed; the job continues."
             for (job,) in run.execute("SELECT id FROM jobs WHERE state = 'running'").fetchall():
                 self._move(run, job, "1", state=JobState.ACCEPTED, message=words, rate=None, time_left=None)
             kept = {row[0] for row in run.execute("SELECT id FROM jobs WHERE state = 'successful' AND NOT expired")}
@@ -241,7 +241,7 @@ class Store:
                     file.unlink(missing_ok=True)
 
     def take(self, sweeps: int = 1) -> str | None:
-        """Start the job that has waited longest; None if none may run. sweeps: largest number that run at once"""
+        """Start the job that has waited longest; None if none may run. sweeps: largest number of running sweeps"""
         running = f"SELECT count(*) FROM jobs WHERE state = 'running' AND question = '{SWEEP}'"
         may_run = f"state = 'accepted' AND (question != '{SWEEP}' OR ({running}) < ?)"
         with self._change() as run:
@@ -253,7 +253,7 @@ class Store:
         return job
 
     def tidy(self, works: Container[str]) -> None:
-        """Shards of sweeps that are finished or removed go. works: jobs that have a process, which may still write"""
+        """Remove the shards of finished or removed sweeps. works: jobs with a process, which may still write"""
         for folder in self.sweeps.iterdir():
             found = self.get(folder.name)
             if folder.name not in works and (found is None or found.is_finished):
@@ -265,7 +265,7 @@ class Store:
     def proceed(self, job: str, share: float, rate: float | None, **more: int) -> None:
         """Record the progress of a job: share done, 0 to 1, and rate [1/s].
 
-        more: of a sweep the designs `done` of the `total`, and the `size` of its shards [bytes]
+        more: for a sweep the designs `done` of the `total`, and the `size` of its shards [bytes]
         """
         left = (1.0 - share) / rate if rate else None
         percent = 100.0 * rate if rate else None
@@ -273,14 +273,14 @@ class Store:
             self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left, **more)
 
     def resume(self, job: str, kept: int) -> None:
-        """Note from how many designs a sweep continues; if it began with fewer last time, its deaths are forgotten."""
+        """Record the number of designs from which a sweep continues; if it has grown, earlier deaths are forgotten."""
         with self._change() as run:
             self._move(run, job, f"state = 'running' AND kept < {kept:d}", kept=kept, deaths=0)
 
     def succeed(self, job: str, written: Path, media_type: str) -> None:
         """Finish a job with its answer, which is safe on the disk before the status changes."""
         result = self.result(job)
-        if written.exists():  # Else this is said again because the disk did not take the state.
+        if written.exists():  # Otherwise this is a second attempt, after the disk refused the state.
             os.replace(written, result)
             flush_folder(self.results)
         size = result.stat().st_size if result.exists() else 0
@@ -302,20 +302,20 @@ class Store:
             return self._move(run, job, "state = 'running'", **ended)
 
     def die(self, job: str, problem: bytes) -> None:
-        """The job's process ended without a word: it is tried again, but for the third time fails with this problem."""
+        """Record a job's dead process: the job is tried again, but fails with this problem after DEATHS_MAX deaths."""
         found = self.get(job)
         if found is None:
             return None
         deaths = found.deaths + 1
         if deaths >= DEATHS_MAX:
             return self.fail(job, problem)
-        words = f"Its process ended without a word; it is tried again ({deaths} of {DEATHS_MAX - 1})."
+        words = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
         with self._change() as run:
             self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
         return None
 
     def expire(self, days: float) -> None:
-        """Remove calls and results of jobs that finished so many days ago; the jobs too after twice as many."""
+        """Remove calls and results of jobs this many days after their end, and the jobs after twice as many."""
         latest = time.time() - days * DAY
         old = self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest)
         for (job,) in old:

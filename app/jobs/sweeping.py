@@ -1,6 +1,6 @@
-"""The job of a sweep: its shards stand in a folder of the job, from which it continues if its process is killed.
+"""The job of a sweep: its shards are in a folder of the job, from which it continues if its process is killed.
 
-The table has the bytes that `bench-dragon sweep` gives to the same spec.
+The table has the same bytes as that of `bench-dragon sweep` with the same spec.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ from app.wire.models import JSON
 from app.wire.problem import Problem, problem_of
 from core import BenchDragonError
 
-# What keeps a sweep from its answers, though nothing is wrong with the spec.
+# Errors that stop a sweep although its spec is valid.
 FAILURES = (CannotStart, MissingPackage, NoAnswer, NoScheduler)
-# How long a scheduler is waited for that was never there [s].
+# Longest wait for a scheduler that has not answered yet [s].
 FIRST_SECONDS = 60.0
 
 
 class TooManyBytes(BenchDragonError):
-    """The files of a sweep take more room than they may."""
+    """The files of a sweep exceed their limit."""
 
     code = "content-too-large"
 
 
 def swept(task: Task, settings: Settings, folder: Path, mouth: Mouth) -> Path | Problem:
-    """File of the table in the form of the task, or why there is none.
+    """File of the table in the format of the task, or the problem of a sweep without one.
 
-    folder: of the shards; those that are there already are not answered again
+    folder: of the shards; existing shards are not answered again
     """
     try:
         spec = Spec.of(task.request)
@@ -66,7 +66,7 @@ def swept(task: Task, settings: Settings, folder: Path, mouth: Mouth) -> Path | 
 
 
 class _Teller:
-    """Tells how far a run is, and ends it when its files take too much room."""
+    """Reports the progress of a run, and ends it when its files exceed their limit."""
 
     def __init__(self, folder: Path, bytes_max: int, mouth: Mouth) -> None:
         self.folder, self.bytes_max, self.mouth = folder, bytes_max, mouth
@@ -85,13 +85,13 @@ class _Teller:
         size = sum(file.stat().st_size for file in self.folder.glob("*.parquet"))
         if size > self.bytes_max:
             words = f"The sweep has {size} bytes after {progress.designs} of {progress.total} designs"
-            raise TooManyBytes("over", f"{words}, and one may have {self.bytes_max} here: ask for fewer designs.")
+            raise TooManyBytes("over", f"{words}; the limit is {self.bytes_max} here: ask for fewer designs.")
         share, rate = progress.designs / progress.total, progress.rate / progress.total
         self.mouth.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
 
 
 def _renew(folder: Path, spec: Spec) -> None:
-    """Shards of another version of this program go: its answers may be others."""
+    """Remove shards of another version of this program, whose answers may differ."""
     kept = folder / SPEC_FILE
     if folder.exists() and not (kept.exists() and kept.read_bytes() == spec.canonical()):
         shutil.rmtree(folder)

@@ -1,4 +1,4 @@
-"""What a job does: one call of the service as a value, answered by the function that answers the call itself."""
+"""The task of a job: one call of the service as a value, answered by the same function as a direct call."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from core import BenchDragonError, Budget
 
 @dataclass(frozen=True)
 class Task:
-    """call: operation id; request: what the call takes, as JSON that fits it; form: media type of the answer"""
+    """call: operation id; request: valid input of the call, as JSON; form: media type of the answer"""
 
     call: str
     request: Any

@@ -1,4 +1,4 @@
-"""Jobs on the wire: the request that makes one, and what is told of it, in the words of OGC API Processes."""
+"""Jobs on the wire: requests for jobs, and their status in the terms of OGC API Processes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app.wire.models import JSON, measure
 from app.wire.problem import Problem
 
 EVENTS_TYPE = "text/event-stream"
-# Forms of the table of a sweep.
+# Formats of the table of a sweep.
 SWEEP_FORMS = (PARQUET_TYPE, CSV_TYPE, JSON)
 SWEEP_EXAMPLE = {
     "question": "collision_time",
@@ -31,22 +31,22 @@ class JobRequest(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
     question: str = Field(description="Operation id of the call that answers it, such as collision_time")
-    request: dict[str, Any] = Field({}, description="What the call takes: its query parameters, or its body")
-    accept: str = Field("*/*", description="Form of the result, as in the header Accept of the call", max_length=200)
+    request: dict[str, Any] = Field({}, description="Input of the call: its query parameters, or its body")
+    accept: str = Field("*/*", description="Format of the result, as in the header Accept of the call", max_length=200)
 
 
 class SweepRequest(Spec):
-    """One question over some of its parameters, as the file of a sweep says it."""
+    """One question with values for some of its parameters, as in the file of a sweep."""
 
     accept: str = Field(
         "*/*",
-        description=f"Form of the table, as in a header Accept; the first of {', '.join(SWEEP_FORMS)} if any will do",
+        description=f"Format of the table, as in a header Accept; with */* the first of {', '.join(SWEEP_FORMS)}",
         max_length=200,
     )
 
 
 def pointer_in_sweep(field: str, asked: SweepRequest) -> str:
-    """Where a sweep gives a field: its own, or a parameter of its question.
+    """JSON pointer to a field in the request of a sweep: its own, or a parameter of its question.
 
     >>> pointer_in_sweep("path.pitch", SweepRequest(question="check", over={"path.pitch": [-1]}))
     '/over/path.pitch'
@@ -62,31 +62,31 @@ class Link(BaseModel):
     """A link to a resource of a job."""
 
     href: str = Field(description="Address")
-    rel: str = Field(description="What is there: self, monitor (its events), or results")
-    type: str = Field(description="Media type; of results, that of the answer")
+    rel: str = Field(description="Target: self, monitor (its events), or results")
+    type: str = Field(description="Media type; for results that of the answer")
 
 
 class JobStatus(BaseModel):
     """Status of a job, by the names of OGC API Processes."""
 
-    jobID: str = Field(description="Name of the job; whoever knows it may see and dismiss the job")  # noqa: N815
+    jobID: str = Field(description="Name of the job, with which anyone may see and dismiss it")  # noqa: N815
     type: str = Field(description="Always process")
     processID: str = Field(description="Operation id of the call that answers")  # noqa: N815
-    status: JobState = Field(description="How far it is")
-    message: str = Field(description="The same in words")
-    created: str = Field(description="When it was asked for, in ISO 8601")
-    started: str | None = Field(description="When it last began to run")
-    finished: str | None = Field(description="When it ended, however it did")
-    updated: str = Field(description="When any of this last changed")
-    progress: int = measure("%", "Share of the work that is done, 0 to 100; 0 where a question cannot say")
-    rate: float | None = measure("%/s", "How fast it goes on average")
+    status: JobState = Field(description="Status of the job")
+    message: str = Field(description="The status in words")
+    created: str = Field(description="Time of the request, in ISO 8601")
+    started: str | None = Field(description="Time of its last start")
+    finished: str | None = Field(description="Time of its end, in success or not")
+    updated: str = Field(description="Time of the last change")
+    progress: int = measure("%", "Share of the work that is done, 0 to 100; 0 if the question cannot tell")
+    rate: float | None = measure("%/s", "Average rate of progress")
     time_left: float | None = measure("s", "Time left at that rate")
     done: int | None = Field(
-        description="Designs of a sweep that are answered; null before that, and for other questions"
+        description="Answered designs of a sweep; null before the first report, and for other questions"
     )
     total: int | None = Field(description="Designs of a sweep; null as for done")
-    problem: Problem | None = Field(description="Why it failed, as the call itself would have answered")
-    links: list[Link] = Field(description="Where its status, its events and its result are")
+    problem: Problem | None = Field(description="Reason of a failure, as in a direct answer of the call")
+    links: list[Link] = Field(description="Addresses of its status, its events and its result")
 
 
 class JobList(BaseModel):

@@ -1,10 +1,10 @@
-"""The process of one job: python -m app.jobs.work FOLDER, the job's id on standard input, what happens on output.
+"""The process of one job: python -m app.jobs.work FOLDER, with the job's id on standard input.
 
-It asks the question and writes the answer into a new file, which the runner then names. It
-changes nothing in the store: whatever becomes of it, nothing is lost or done by halves.
+It asks the question and writes the answer into a new file, to which the runner gives its final name. It changes nothing
+in the store, so its death at any moment loses nothing and leaves nothing half done.
 
-output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}; of a sweep also
-        {"kept": DESIGNS}, and beside the share its rate, the designs and the bytes
+output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}; for a sweep also
+        {"kept": DESIGNS}, and with the share its rate, the designs and the bytes
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from app.wire.problem import Problem, problem_of
 
 logger = logging.getLogger("app.jobs")
 
-# Jobs yield to whoever waits for an answer (man 2 nice).
+# Lower priority of jobs, so that direct answers come first (man 2 nice).
 NICENESS = 10
 
 
@@ -41,24 +41,24 @@ def limit_memory(most: int) -> None:
 
 
 def answer(task: Task, settings: Settings, mouth: Mouth, shards: Path) -> bytes | Path | Problem:
-    """The answer of the service to the task; of a sweep the file of its table. shards: folder of a sweep"""
+    """The answer of the service to the task; for a sweep the file of its table. shards: folder of a sweep"""
     try:
         if task.call == SWEEP:
-            from app.jobs.sweeping import swept  # What it needs takes 0.3 s to load, and no other job needs it.
+            from app.jobs.sweeping import swept  # The import takes 0.3 s, and no other job needs it.
 
             return swept(task, settings, shards, mouth)
         return task.answer(settings, mouth.share)
     except MemoryError:
         most = settings.job_memory_max
-        detail = f"The job needs more memory than the {most} bytes that one may have here: ask for less."
+        detail = f"The job needs more memory than {most} bytes, the limit here: ask for less."
         return problem_of(422, "too-much-work", detail)
     except Exception:
         logger.exception("A job failed: %s", task.call)
-        return problem_of(500, "internal-error", "The service failed on this job; the log of the service says why.")
+        return problem_of(500, "internal-error", "The service failed on this job; its log has the reason.")
 
 
 def written(found: bytes | Path, folder: Path) -> Path:
-    """A new file with the answer, safe on the disk; of a file a copy. raises: OSError, and leaves no file"""
+    """A new file with the answer, or with a copy of a file, safe on the disk. raises: OSError, and leaves no file"""
     handle, name = tempfile.mkstemp(prefix=".", dir=folder)
     try:
         with os.fdopen(handle, "wb") as file:
@@ -83,7 +83,7 @@ def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> None:
     if not isinstance(found, Problem):
         size = len(found) if isinstance(found, bytes) else found.stat().st_size
         if size > most:
-            detail = f"The answer has {size} bytes, and one that is kept may have {most}: ask for less."
+            detail = f"The answer has {size} bytes, the limit for a kept one is {most}: ask for less."
             found = problem_of(413, "content-too-large", detail)
     if not isinstance(found, Problem):
         try:
@@ -101,9 +101,9 @@ def main() -> None:
     log_to_stderr(settings.log_json)
     limit_memory(settings.job_memory_max)
     mouth = Mouth()
-    # Byte by byte, so that nothing behind the line is taken from who follows the input.
+    # Read byte by byte, so that the rest of the input stays for the thread that waits for its end.
     job = b"".join(iter(lambda: os.read(sys.stdin.fileno(), 1).strip(), b"")).decode()
-    if not job:  # Whoever started this process is gone.
+    if not job:  # The parent of this process is gone.
         return
     follow_input()
     store = Store(Path(sys.argv[1]))

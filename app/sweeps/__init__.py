@@ -1,7 +1,7 @@
-"""Sweeps: a million designs are one call.
+"""Sweeps: a million designs in one call.
 
-`sweep()` answers any question over any of its parameters into a folder, on the cores of this machine or on a Dask
-cluster; called again it goes on where it stopped. The names load pyarrow, of the extra `sweep`, when they are used.
+`sweep()` answers any question for many values of its parameters into a folder, on the cores of this machine or on a
+Dask cluster; a second call continues a stopped one. Names are loaded on first use, as they need the extra `sweep`.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _PLACES = {
 
 
 def __getattr__(name: str) -> Any:
-    """A public name, loaded when it is used."""
+    """A public name, loaded on its first use."""
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

@@ -1,4 +1,4 @@
-"""A sweep as one call of Python."""
+"""A sweep as one call in Python."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ def sweep(
     dask: str | None = None,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Sweep:
-    """Answer a question for every design, into a folder; the same call again goes on where it stopped.
+    """Answer a question for every design into a folder; the same call continues a stopped sweep.
 
-    question: an operation id such as "collision_time", or a Question of one's own
+    question: an operation id such as "collision_time", or your own Question
     over: parameters that vary, by dotted names: a list or array of values, or a Range; all combinations are designs
-    request: the other parameters, else their defaults; samples: how ranges without a count are sampled
-    shard_size: designs in one file, else about 5 s of work; dask: address of a scheduler, or "local"
+    request: the other parameters, default: their defaults; samples: method for ranges without a count
+    shard_size: designs in one file, default: about 5 s of work; dask: address of a scheduler, or "local"
     raises: InvalidValue, TooLarge, MissingPackage, OSError
     """
     own = question if isinstance(question, Question) else None
@@ -49,7 +49,7 @@ def sweep(
 
 
 def engine_of(dask: str | None, workers: int | None = None, **waits: float) -> Callable[[], Engine]:
-    """What makes the engine: processes of this machine, or a Dask cluster, with its `patience` and `first` wait.
+    """Function that starts the engine: processes of this machine, or a Dask cluster with `patience` and `first` wait.
 
     raises: MissingPackage
     """

@@ -1,7 +1,7 @@
 """The engine across machines: an existing Dask cluster, or a new one on this machine.
 
-Workers need bench-dragon of the same version; they share no folder, as their answers travel to the client, which
-writes them. Whatever is lost on the way, with a worker, a future or the scheduler, is asked again.
+Workers need the same version of bench-dragon, but no common folder: the client receives and writes their answers. A
+piece that is lost with a worker, a future or the scheduler is submitted again.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from distributed.comm.core import connect
 from app.sweeps.engines import Done, NoAnswer, NoScheduler, arrived, attempt
 from app.sweeps.shards import Piece
 
-# The word for a cluster of this machine, in place of an address.
+# Name of a new cluster on this machine, in place of an address.
 LOCAL = "local"
-# A scheduler that is gone is waited for so long, and tried so often [s].
+# Longest wait for a lost scheduler, and time between two attempts to reach it [s].
 PATIENCE, AGAIN = 600.0, 1.0
-# So many failures in a row, with no answer between them and a scheduler there, end a run.
+# Number of failures in a row, while the scheduler answers, that ends a run.
 FAILURES = 8
-# What a connection, an answer on its way, and the look at lost futures may take [s].
+# Longest time for a connection and for the transfer of an answer, and time between two checks for lost futures [s].
 CONNECT, ANSWER, LOOK = 10.0, 60.0, 2.0
 
 
 def _local(workers: int | None) -> LocalCluster:
-    """A cluster of this machine. A piece whose worker died is not tried there again: processes of its own follow."""
+    """A cluster of this machine. It does not retry a piece whose worker died: the run does."""
     return LocalCluster(
         n_workers=workers,
         threads_per_worker=1,
@@ -42,7 +42,7 @@ def _local(workers: int | None) -> LocalCluster:
 
 
 async def _greet(address: str) -> None:
-    """Connect once: a Client waits for ever for who never answers. raises: OSError, TimeoutError"""
+    """Connect once, because a Client waits forever for an address without an answer. raises: OSError, TimeoutError"""
     if address.startswith("tcp://") or "://" not in address:
         async with asyncio.timeout(CONNECT):
             await (await connect(address, timeout=CONNECT)).close()
@@ -56,8 +56,8 @@ class Cluster:
     def __init__(
         self, address: str, workers: int | None = None, patience: float = PATIENCE, first: float = 0.0
     ) -> None:
-        """address: of the scheduler, or LOCAL; workers: of a local cluster, else one for each core
-        patience: how long to wait for a lost scheduler; first: for one that was never there [s]
+        """address: of the scheduler, or LOCAL; workers: of a local cluster, default: one for each core
+        patience: longest wait for a lost scheduler [s]; first: for one that has not answered yet [s]
         raises: NoScheduler"""
         self._own = _local(workers) if address == LOCAL else None
         self._address = self._own.scheduler_address if self._own else address
@@ -70,12 +70,12 @@ class Cluster:
 
     @property
     def workers(self) -> int:
-        """Number of threads of all workers when they were last counted."""
+        """Number of threads of all workers at the last count."""
         return self._workers
 
     def submit(self, piece: Piece) -> None:
         """Submit a piece to the cluster, now or after the connection is restored."""
-        # Not "pure": a future that was cancelled would be found again by its key.
+        # Not "pure", because then a cancelled future would be found again by its key.
         try:
             future = self._client.submit(attempt, piece, pure=False)
         except Exception as error:
@@ -123,7 +123,7 @@ class Cluster:
         return []
 
     def _failed(self, piece: Piece, error: Exception) -> None:
-        """Submit again, as a failing cluster raises many kinds of errors. raises: NoAnswer after many in a row"""
+        """Submit a piece again: a failing cluster raises many kinds of errors. raises: NoAnswer after many in a row"""
         self._failures += 1
         if self._failures >= FAILURES and self._client.status == "running":
             words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
@@ -150,17 +150,17 @@ class Cluster:
             self._workers = max(sum(self._client.nthreads().values()), 1)
 
     def _connected(self, patience: float) -> Client:
-        """A client of the scheduler, once it answers. raises: NoScheduler"""
+        """A client, as soon as the scheduler answers. raises: NoScheduler"""
         until = time.monotonic() + patience
         while True:
             try:
-                with ThreadPoolExecutor(1) as thread:  # Who asks may have an event loop, as in a notebook.
+                with ThreadPoolExecutor(1) as thread:  # The caller's thread may have an event loop, as in a notebook.
                     thread.submit(asyncio.run, _greet(self._address)).result()
                 client = Client(self._address, timeout=CONNECT, set_as_default=False)
                 self._workers = max(sum(client.nthreads().values()), 1)
                 return client
             except (OSError, TimeoutError, ValueError) as error:
                 if time.monotonic() >= until:
-                    words = "start one there, or name another, and run the sweep again: it goes on"
+                    words = "start one there, or name another, and run the sweep again: it continues"
                     raise NoScheduler("dask", f"no Dask scheduler answers at {self._address}: {words}") from error
                 time.sleep(AGAIN)

@@ -1,6 +1,6 @@
-"""The columns of a table of answers, known from the answer's model before any answer is.
+"""The columns of a table of answers, taken from the answer's model before the first answer.
 
-So each part of a sweep has the same columns of the same types, also one in which every design failed.
+So every part of a sweep has the same columns of the same types, even if all its designs failed.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ TYPES = {bool: pa.bool_(), int: pa.int64(), float: pa.float64(), str: pa.string(
 class Column:
     """One column.
 
-    name: dotted place in the answer; steps: the names and indices that lead there; kind: bool, int, float or str
-    as_json: what lies there is a list or an object, and the column has its JSON
+    name: dotted place in the answer; steps: the names and indices to that place; kind: bool, int, float or str
+    as_json: True for a list or an object, which the column holds as JSON
     """
 
     name: str
@@ -37,7 +37,7 @@ class Column:
         return pa.field(self.name, TYPES[self.kind])
 
     def value(self, answer: Any) -> Any:
-        """The value of this column in an answer; None if it has none."""
+        """Value of this column in an answer; None if the answer has none."""
         for step in self.steps:
             if answer is None:
                 return None
@@ -52,7 +52,7 @@ def _dumped(value: Any) -> Any:
 
 
 def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> list[Column]:
-    """A column for every number, word and truth value of an answer: dotted names for inner objects and pairs, JSON for
+    """A column for every number, text and truth value of an answer: dotted names for inner objects and pairs, JSON for
     lists of any length."""
     return [column for column in _columns_of(model, ()) if column.name not in left_out]
 
@@ -77,7 +77,7 @@ def _columns_of(kind: Any, steps: tuple[str | int, ...]) -> Iterator[Column]:
 
 
 def value_type(values: Sequence[Any]) -> type:
-    """The type of a column of values given: bool, int, float or str; str is also for what is kept as JSON."""
+    """Type of a column of given values: bool, int, float or str; values kept as JSON are str."""
     kinds = {type(value) for value in values}
     if kinds == {int, float}:
         return float

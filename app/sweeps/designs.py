@@ -1,4 +1,4 @@
-"""The designs of a sweep: any of them from its index, without the ones before it."""
+"""The designs of a sweep: each follows from its index alone."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from core.values import Floats
 
 Indices = NDArray[np.int64]
 
-# One round of Philox gives so many words of 64 bits; a word becomes a number in [0, 1) by its upper 53.
+# Words of 64 bits from one round of Philox; the upper 53 bits of a word give a number in [0, 1).
 PHILOX_WORDS = 4
 DROPPED_BITS, UNIT = np.uint64(11), 2.0**-53
-# Sobol points are multiples of 2 to minus this, for up to 2 to this of them.
+# Bits of Sobol points: the coordinates of up to 2^bits points are multiples of 2^-bits.
 SOBOL_BITS = 30
 
 
 def designs(spec: Spec, start: int, stop: int) -> dict[str, list[Any]]:
     """Values of every parameter that varies, for the designs from `start` to before `stop`.
 
-    The index of a design, written with one digit for each parameter that is not sampled, the last parameter's last,
-    has the places in their lists as digits, and the number of the sample before them.
+    The index of a design is a number in a mixed base: the number of the sample, then one digit for each parameter that
+    is not sampled, which is its place in the list of values.
     """
     rest = np.arange(start, stop, dtype=np.int64)
     found: dict[str, list[Any]] = {}
@@ -46,7 +46,7 @@ def _grid_values(axis: Range, place: Indices) -> list[float]:
 
 
 def sample_points(samples: Samples, dimensions: int, indices: Indices) -> Floats:
-    """Samples by their indices, (n, dimensions) in [0, 1)."""
+    """Samples with these indices, (n, dimensions) in [0, 1)."""
     distinct, where = np.unique(indices, return_inverse=True)
     points = _sobol if samples.sequence == "sobol" else _philox
     first, last = int(distinct[0]), int(distinct[-1])
@@ -54,14 +54,14 @@ def sample_points(samples: Samples, dimensions: int, indices: Indices) -> Floats
 
 
 def _philox(samples: Samples, dimensions: int, first: int, count: int) -> Floats:
-    """Sample k takes the rounds from k * rounds on, rounds = dimensions / 4 rounded up."""
+    """Independent samples: sample k uses the rounds from k * rounds on, with rounds = dimensions / 4 rounded up."""
     rounds = -(-dimensions // PHILOX_WORDS)
     words = np.random.Philox(key=samples.seed, counter=first * rounds).random_raw(count * rounds * PHILOX_WORDS)
     return np.asarray((words >> DROPPED_BITS).reshape(count, -1)[:, :dimensions] * UNIT, np.float64)
 
 
 def _sobol(samples: Samples, dimensions: int, first: int, count: int) -> Floats:
-    """Sample k is the exclusive or of the directions at the bits of its Gray code k ^ (k >> 1)."""
+    """Sobol points: sample k is the exclusive or of the directions at the bits of its Gray code k ^ (k >> 1)."""
     bits = samples.count.bit_length()
     directions = _directions(dimensions, bits)
     index = np.arange(first, first + count, dtype=np.uint64)
@@ -77,7 +77,7 @@ def _sobol(samples: Samples, dimensions: int, first: int, count: int) -> Floats:
 def _directions(dimensions: int, bits: int) -> NDArray[np.uint64]:
     """The first directions (bits, dimensions): sample 2^(b + 1) - 1 has the Gray code 2^b, so it is direction b.
 
-    scipy goes there sample by sample, which takes a second for 10^8 of them, once in a process.
+    scipy reaches them sample by sample, which takes a second for 10^8 samples, once in a process.
     """
     from scipy.stats import qmc
 

@@ -1,4 +1,4 @@
-"""Engines answer pieces of shards, in whatever order. Files are the truth, so an engine is disposable."""
+"""Engines: they answer pieces of shards in any order. All results are in files, so an engine may end at any time."""
 
 from __future__ import annotations
 
@@ -8,32 +8,32 @@ from typing import Protocol
 from app.sweeps.shards import Piece
 from core import BenchDragonError
 
-# Pieces submitted and not answered yet, for each worker.
+# Pieces that are submitted but not answered, for each worker.
 WINDOW = 4
 
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """A piece and its rows as an Arrow stream; None: the process that had it died."""
+    """A piece and its rows as an Arrow stream; None: its process died."""
 
     piece: Piece
     rows: bytes | None
 
 
 class NoAnswer(BenchDragonError):
-    """A worker failed at a whole piece, not at one of its designs: it lacks something, or the mistake is ours."""
+    """A worker failed at a whole piece, not at one design: a package is missing, or this program has an error."""
 
     code = "no-answer"
 
 
 class NoScheduler(BenchDragonError):
-    """Nobody answers at the address of a cluster."""
+    """No scheduler answers at the address of a cluster."""
 
     code = "no-scheduler"
 
 
 def attempt(piece: Piece) -> tuple[bytes | None, str]:
-    """Rows of a piece, else why there are none: errors with fields of their own do not travel between processes."""
+    """Rows of a piece, or the reason why there are none: errors with extra fields cannot be sent between processes."""
     try:
         return piece.answered(), ""
     except Exception as error:
@@ -49,16 +49,16 @@ def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
 
 
 class Engine(Protocol):
-    """Where pieces are answered.
+    """The place where pieces are answered.
 
-    alone: a process has one piece at a time, so that if it dies the piece is the cause or the process was killed
+    alone: True if a process has one piece at a time: if it dies, the piece is the cause, or somebody killed it
     """
 
     alone: bool
 
     @property
     def workers(self) -> int:
-        """Number of pieces that are answered at the same time now; at least 1."""
+        """Number of pieces that can be answered at the same time now; at least 1."""
 
     def submit(self, piece: Piece) -> None:
         """Take a piece."""

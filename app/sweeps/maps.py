@@ -1,4 +1,4 @@
-"""Maps of a sweep: a value against one parameter or two."""
+"""Maps of a sweep: one value against one or two parameters."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from core.values import Floats
 
 WIDTH, HEIGHT = 7.5, 5.5  # [inch]
 LEVELS = 10
-# Fewer points than this have no contours.
+# Fewest points with contours.
 CONTOUR_MIN = 3
-# Dots of sampled designs are this large [points^2].
+# Size of the dots of sampled designs [points^2].
 DOT = 9.0
 
 
 def value_map(sweep: Sweep, value: str) -> Figure:
     """A value against the parameters: a line or dots for one, a heat map with contours for two.
 
-    A design without the value is left blank.
-    raises: InvalidValue where there is no row, no such column of numbers, or more than two parameters
+    A design without the value stays blank.
+    raises: InvalidValue if there is no row, no such column of numbers, or more than two parameters
     """
     spec, names = sweep.spec, list(sweep.spec.over)
     if len(names) > 2:

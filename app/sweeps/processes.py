@@ -18,11 +18,11 @@ from app.sweeps.shards import Piece
 from app.sweeps.worker import receive, send
 from core import BenchDragonError
 
-# What is heard of a process that is no more.
+# Message in place of an answer when a process has ended.
 GONE = object()
-# So many processes in a row may end before they are ready.
+# Number of processes in a row that may end before they are ready.
 STARTS = 5
-# A process that was told to leave is given so long [s].
+# Longest wait for a process to end after a request [s].
 PATIENCE = 5.0
 
 
@@ -39,7 +39,7 @@ class _Worker:
         self.piece: Piece | None = None
         self.ready = False
         self._events = events
-        # In a session of its own, so that Ctrl-C stops the sweep and does not interrupt the workers one by one.
+        # In a new session, so that Ctrl-C stops the sweep and does not interrupt the workers one by one.
         self._process = subprocess.Popen(
             [sys.executable, "-P", "-m", "app.sweeps.worker"],
             stdin=subprocess.PIPE,
@@ -74,7 +74,7 @@ class _Worker:
         self._process.kill()
         self._process.wait(PATIENCE)
         for stream in (self._process.stdin, self._process.stdout):
-            # A pipe that nobody reads any more cannot be flushed.
+            # A pipe without a reader cannot be flushed.
             with contextlib.suppress(OSError):
                 cast(Any, stream).close()
 

@@ -1,6 +1,6 @@
-"""The questions that a sweep may ask: those of the registry whose answers are numbers, and what a design of each costs.
+"""The questions that a sweep may ask: those of the registry with numbers as answers, and the cost of a design of each.
 
-A question of one's own is swept alike, as long as a worker can import what it is made of.
+Your own question can be swept in the same way, if a worker can import its functions and models.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ from app.wire.models import Answer
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 
-# Answered within the limits that the service has by default, so that a row does not depend on who computes it.
+# The service's default limits, so that a row does not depend on the machine that computes it.
 LIMITS = Settings.model_construct()
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """One question, asked in one way.
+    """One question in one form.
 
-    name: the operation id; request, answer: models of what goes in and what comes out
-    ask: the answer to a request
-    seconds: estimated cost of a design [s]; it decides how many designs a shard has, alike on every machine
-    shown: the column that a map draws unless told otherwise
+    name: the operation id; request, answer: models of the input and of the output
+    ask: function from a request to its answer
+    seconds: estimated cost of a design [s]; it fixes the number of designs in a shard, equal on every machine
+    shown: the default column of a map
     left_out: columns that no table needs
     """
 
@@ -62,7 +62,7 @@ class Question:
 
 
 def _ways(question: registry.Question, seconds: float, shown: str, *left_out: str) -> tuple[Question, ...]:
-    """A question of the registry, flat and as a body."""
+    """A question of the registry in both forms: with flat parameters and with a body."""
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
     known = (question.model, ask, seconds, shown, frozenset(left_out))
@@ -74,12 +74,12 @@ def _known(name: str) -> registry.Question:
 
 
 def _row(answer: Callable[..., Answer], model: type[Answer], name: str) -> registry.Question:
-    """A question of the registry that answers with lists, with another answer: a row."""
+    """A question of the registry with lists as its answer, changed to answer with a row."""
     return replace(_known(name), answer=answer, model=model)
 
 
 _LEAST = registry.Question(least_clearance, LeastClearance, flat=DanceQuery, body=DanceFields)
-# The ways to ask each, the flat one first. The seconds are those of the defaults on one core of a small machine.
+# The forms of each question, the flat one first. The seconds are for the defaults on one core of a small machine.
 _ALL = {
     "collision_time": _ways(_known("collision_time"), 1e-3, "time", "certificate.method"),
     "minimum_pitch": _ways(_known("minimum_pitch"), 2e-2, "pitch"),
@@ -95,20 +95,20 @@ _ALL = {
     "overlaps": _ways(_row(overlaps_row, OverlapsRow, "overlaps"), 1e-2, "separation"),
 }
 QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in registry.CALLS}
-# Questions of the service whose answers are no row, and why.
-PICTURE = "it answers with a picture: sweep the question whose numbers it draws"
+# Questions of the service whose answers cannot be a row, with the reason.
+PICTURE = "its answer is a picture: sweep the question behind its numbers"
 NO_ROWS = {
     "pitch_scan": "it is a sweep itself: sweep collision_time over pitch",
     "tolerance_curve": "it is a sweep itself: sweep tolerance over pitch",
-    "envelope": "it answers with polygons: sweep check with a venue",
-    "course": "it answers with a drawn path: sweep check",
+    "envelope": "its answer is polygons: sweep check with a venue",
+    "course": "its answer is a drawn path: sweep check",
     "paper": "it takes no parameters",
     **{name: PICTURE for name, question in registry.QUESTIONS.items() if question.model is None},
 }
 
 
 def question_of(name: str, parameters: Collection[str] = ()) -> Question:
-    """The question with that operation id, asked in the way that knows most of these parameters; flat if all do.
+    """The question with that operation id, in the form that has most of these parameters; flat if both have all.
 
     raises: InvalidValue
     """

@@ -1,4 +1,4 @@
-"""Rows of questions that answer with lists: what a table of many designs has of each."""
+"""Rows for questions with lists as answers: the numbers of each answer in a table of many designs."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from core import InvalidValue
 
 
 class ClearanceRow(Answer):
-    """The smallest clearance from the first instant asked for to the last."""
+    """The smallest clearance between the first and the last instant of the request."""
 
     clearance: float = measure("m", "Smallest separation of two benches that are not neighbours")
-    time: float = measure("s", "When it is so small")
+    time: float = measure("s", "Time of that clearance")
     benches: Pair = Field(description="The pair with that separation")
 
 
 class TrajectoryRow(Answer):
-    """The two ends of the dragon at the last instant asked for, and the speeds over all of them."""
+    """The two ends of the dragon at the last instant of the request, and the speeds at all instants."""
 
     time: float = measure("s", "Last instant")
     head_x: float = measure("m", "Of the first handle, at the last instant")
@@ -38,10 +38,10 @@ class TrajectoryRow(Answer):
 
 
 class OverlapsRow(Answer):
-    """How many pairs overlap, and the deepest."""
+    """The number of overlapping pairs, and the deepest overlap."""
 
     pairs: int = Field(description="Pairs that overlap, or are nearer than the margin")
-    separation: float | None = measure("m", "Least of theirs; null: there is no such pair")
+    separation: float | None = measure("m", "Smallest separation of these pairs; null: there is no such pair")
     benches: Pair | None = Field(description="The pair with that separation")
     agree: bool = Field(description="True if all engines found the same pairs")
 
@@ -75,7 +75,7 @@ def trajectory_row(asked: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
 
 
 def overlaps_row(asked: overlaps.OverlapsRequest, terms: Terms) -> OverlapsRow:
-    """The number of overlapping pairs, and the deepest."""
+    """The number of overlapping pairs, and the pair with the deepest overlap."""
     found = overlaps.overlaps(asked, terms)
     deepest = min(found.overlaps, key=lambda pair: pair.separation, default=None)
     return OverlapsRow(

@@ -1,7 +1,7 @@
-"""Run a sweep into a folder: submit the shards whose files are missing, write each as it comes.
+"""Run a sweep into a folder: submit the shards whose files are missing, and write each when it is complete.
 
-A folder has the spec in sweep.json and one Parquet file for each shard. Nothing else is remembered, so a run that was
-stopped, or killed, goes on by being run again.
+A folder has the spec in sweep.json and one Parquet file for each shard. It holds the whole state, so a stopped or
+killed run continues when it is started again.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from core import InvalidValue
 
 SPEC_FILE = "sweep.json"
 TABLE_FILE = "sweep.parquet"
-# Between two reports of the progress, when nothing is done [s].
+# Longest time between two reports of the progress [s].
 TICK = 0.5
-# A single design is taken for the cause once so many processes died of it: any of them may have been killed by hand.
+# Number of dead processes after which their single design counts as the cause: somebody may have killed fewer by hand.
 DEATHS = 3
 
 
@@ -33,8 +33,8 @@ DEATHS = 3
 class Progress:
     """Progress of a run.
 
-    designs: answered; total: of the sweep; rate: designs per second in this run, 0 before the first
-    left: time that the others take at that rate [s]
+    designs: number answered; total: number in the sweep; rate: designs per second in this run, 0 before the first
+    left: time for the others at that rate [s]
     """
 
     designs: int
@@ -138,9 +138,7 @@ def begin(folder: Path, spec: Spec) -> None:
     kept = folder / SPEC_FILE
     if not kept.exists():
         if any(not file.name.startswith(shards.TEMPORARY) for file in folder.iterdir()):
-            raise InvalidValue(
-                "output", f"{folder} has files already and is not a sweep: name an empty or a new folder"
-            )
+            raise InvalidValue("output", f"{folder} has files but no sweep: name an empty or a new folder")
         shards.write_durably(kept, spec.canonical())
     elif kept.read_bytes() != spec.canonical():
         raise InvalidValue(
@@ -167,9 +165,9 @@ def run(
 ) -> None:
     """Answer every design that has no row in the folder yet.
 
-    engine: makes where they are answered, and is not called when nothing is missing
+    engine: function that starts the engine; not called if nothing is missing
     progress: called at least every TICK
-    raises: InvalidValue, OSError, and what the engine raises; after KeyboardInterrupt the next run continues
+    raises: InvalidValue, OSError, and the errors of the engine; after KeyboardInterrupt the next run continues
     """
     begin(folder, spec)
     missing = missing_shards(folder, spec)
@@ -179,7 +177,7 @@ def run(
     running = _Run(folder, spec, question, iter(missing), answered)
     running.through(engine(), progress)
     if running.aside:
-        # Whoever shares a process with others may be blamed for them, so these are answered alone.
+        # A design that shared a process may not be the cause of its death, so these designs are answered alone.
         running.ready.extend(running.aside)
         running.aside.clear()
         running.through(Processes(), progress)

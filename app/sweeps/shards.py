@@ -1,4 +1,4 @@
-"""Shards: a stretch of designs answered, and the files that a folder keeps of them."""
+"""Shards: parts of a sweep with consecutive designs, and their files in a folder."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from core import BenchDragonError, InvalidValue
 
 PART = re.compile(r"part-(\d{6})\.parquet")
 TEMPORARY = ".part-"
-# Code of the error of a design whose process died each time.
+# Error code for a design whose process died at each attempt.
 KILLED = "killed"
-KILLED_MESSAGE = "the process that answered this design died, each time"
+KILLED_MESSAGE = "the process that answered this design died at each attempt"
 
 
 class OtherVersion(BenchDragonError):
@@ -39,7 +39,7 @@ class OtherVersion(BenchDragonError):
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Designs from `start` to before `stop` of one shard of a sweep: what an engine is given."""
+    """Designs from `start` to before `stop` of one shard of a sweep: the unit of work of an engine."""
 
     spec: Spec
     question: Question
@@ -60,12 +60,12 @@ class Piece:
         return Piece(*own, self.start, middle), Piece(*own, middle, self.stop)
 
     def answered(self) -> bytes:
-        """The rows of all designs, as an Arrow stream: a design that is refused, or fails, is a row with its error.
+        """The rows of all designs, as an Arrow stream; a refused or failed design gives a row with its error.
 
         raises: OtherVersion
         """
         if core.__version__ != self.version:
-            words = f"must be {self.version} on every worker, as where the sweep was begun, got {core.__version__}"
+            words = f"must be {self.version} on every worker, as at the start of the sweep, got {core.__version__}"
             raise OtherVersion("bench-dragon", f"bench-dragon {words}")
         question, request = self.question, self.spec.request
         columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
@@ -92,12 +92,12 @@ def _all_columns(answer: type[BaseModel], left_out: frozenset[str]) -> tuple[Col
 
 
 def kept_columns(spec: Spec, question: Question) -> list[Column]:
-    """The columns of the answer, but for those that repeat a parameter of the sweep."""
+    """The columns of the answer, except those that repeat a parameter of the sweep."""
     return [column for column in _all_columns(question.answer, question.left_out) if column.name not in spec.over]
 
 
 def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
-    """rows: code and message of the error, then a value for each column"""
+    """The table of a piece. rows: code and message of the error, then a value for each column"""
     fields = [pa.field("error.code", pa.string()), pa.field("error.message", pa.string())]
     fields += [column.field for column in columns]
     arrays = {
@@ -110,7 +110,7 @@ def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]
 
 
 def _parameter(spec: Spec, name: str, values: list[Any]) -> pa.Array:
-    """The values of a parameter, in the type of all its values in the sweep; of several types, as JSON."""
+    """The values of a parameter, in the common type of its values in the sweep; JSON for several types."""
     axis = spec.over[name]
     if isinstance(axis, Range):
         return pa.array(values, pa.float64())
@@ -133,7 +133,7 @@ def part_name(shard: int) -> str:
 
 
 def write_part(folder: Path, spec: Spec, shard: int, pieces: Iterable[bytes]) -> None:
-    """The file of a shard from its pieces in order, the same bytes whatever the pieces were.
+    """Write the file of a shard from its pieces in order; its bytes do not depend on the division into pieces.
 
     raises: OSError
     """
@@ -146,7 +146,7 @@ def write_part(folder: Path, spec: Spec, shard: int, pieces: Iterable[bytes]) ->
 
 
 def write_durably(file: Path, data: bytes) -> None:
-    """Write a file completely or not at all; it is safe on the disk when this returns."""
+    """Write a file completely or not at all; it is safe on the disk after the return."""
     handle, name = tempfile.mkstemp(prefix=TEMPORARY, dir=file.parent)
     try:
         with os.fdopen(handle, "wb") as sink:
@@ -166,7 +166,7 @@ def keep(temporary: Path, file: Path) -> None:
     os.umask(mask)
     temporary.chmod(0o666 & ~mask)
     os.replace(temporary, file)
-    if hasattr(os, "O_DIRECTORY"):  # Windows has no folder to flush.
+    if hasattr(os, "O_DIRECTORY"):  # Windows cannot flush a folder.
         folder = os.open(file.parent, os.O_DIRECTORY)
         try:
             os.fsync(folder)
@@ -181,7 +181,7 @@ def parts(folder: Path) -> set[int]:
 
 
 def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
-    """The file of a shard. raises: InvalidValue for one of another sweep or no whole one"""
+    """The file of a shard. raises: InvalidValue for a file of another sweep, or an incomplete one"""
     file = folder / part_name(shard)
     try:
         opened = pq.ParquetFile(file)
@@ -189,5 +189,5 @@ def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
         raise InvalidValue("folder", f"{file} is not part of a sweep: remove it and run the sweep again") from error
     if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
         opened.close()
-        raise InvalidValue("folder", f"{file} is of another sweep: remove it and run the sweep again")
+        raise InvalidValue("folder", f"{file} belongs to another sweep: remove it and run the sweep again")
     return opened

@@ -1,6 +1,6 @@
-"""The spec of a sweep: one question over some of its parameters, the same on every machine.
+"""The spec of a sweep: one question with values for some of its parameters, the same on every machine.
 
-A spec never changes. Its canonical bytes name it, and a shard is known by that name and its index.
+A spec never changes. Its name is the hash of its canonical bytes, and that name and an index identify a shard.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8
 SHARDS_MAX = 10**6
-# What a shard should take [s], and most designs in one. A small sweep has about so many shards all the same, for
-# all cores.
+# Time that a shard should take [s], largest number of designs in a shard, and least number of shards, so that a small
+# sweep uses all cores too.
 SHARD_SECONDS = 5.0
 SHARD_MAX = 100_000
 SHARDS_SMALL = 64
 VALUES_MAX = 100_000
-# Dimensions for which scipy knows Sobol points.
+# Most dimensions of scipy's Sobol points.
 SOBOL_DIMENSIONS = 21_201
 # The first columns of every table.
 OWN_COLUMNS = ("design", "error.code", "error.message")
@@ -43,12 +43,14 @@ class _Told(BaseModel):
 
 
 class Range(_Told):
-    """Values from `start` to `stop`: `count` of them evenly spaced, both ends included, or samples if count is null."""
+    """Values from `start` to `stop`: `count` evenly spaced values with both ends, or samples if count is null."""
 
     start: float = measure("as the parameter", "First value")
     stop: float = measure("as the parameter", "Last value")
-    count: int | None = Field(None, ge=2, le=DESIGNS_MAX, description="How many; null: sampled")
-    scale: Literal["linear", "log"] = Field("linear", description="Evenly spaced values, or their logarithms")
+    count: int | None = Field(None, ge=2, le=DESIGNS_MAX, description="Number of values; null: sampled")
+    scale: Literal["linear", "log"] = Field(
+        "linear", description="linear: evenly spaced values; log: evenly spaced logarithms"
+    )
 
     @model_validator(mode="after")
     def _has_logarithms(self) -> Self:
@@ -71,7 +73,7 @@ class Range(_Told):
 
 
 class Samples(_Told):
-    """How sampled ranges are sampled together; point k depends on k alone."""
+    """Method for all sampled ranges together; point k depends on k alone."""
 
     count: int = Field(ge=1, le=DESIGNS_MAX, description="Number of samples")
     sequence: Literal["sobol", "philox"] = Field(
@@ -91,32 +93,32 @@ Axis = Annotated[
 
 
 class Spec(_Told):
-    """One question over some of its parameters.
+    """One question with values for some of its parameters.
 
-    The designs are all combinations of the lists and evenly spaced ranges, for each sample of the sampled ranges in
-    turn; the last parameter runs fastest.
+    The designs are all combinations of the lists and evenly spaced ranges, repeated for each sample of the sampled
+    ranges; the last parameter varies fastest.
     """
 
     question: str = Field(description="The operation id")
     over: dict[Parameter, Axis] = Field(
-        min_length=1, description="Parameters that vary, by dotted names, and over what"
+        min_length=1, description="Parameters that vary, by dotted names, with their values"
     )
-    request: dict[str, Any] = Field(default_factory=dict, description="The other parameters; else their defaults")
-    samples: Samples | None = Field(None, description="How sampled ranges are sampled")
+    request: dict[str, Any] = Field(default_factory=dict, description="The other parameters; default: their defaults")
+    samples: Samples | None = Field(None, description="Method for ranges without a count")
     shard_size: int | None = Field(None, ge=1, le=SHARD_MAX, description="Designs in a shard; null: about 5 s of work")
 
     @classmethod
     def of(cls, told: Any, question: Question | None = None) -> Self:
-        """A spec as JSON, TOML or Python give it, complete: the size of its shards is in it.
+        """A complete spec, with the size of its shards, from values of JSON, TOML or Python.
 
-        question: the one that its name means, if it is none of ours
+        question: the question with that name, if it is not in the registry
         raises: InvalidValue, TooLarge
         """
         spec = checked(cls, told)
         asked = question or spec.asks
         size = spec.shard_size or min(int(SHARD_SECONDS / asked.seconds), SHARD_MAX, -(-spec.designs // SHARDS_SMALL))
         request = spec.request
-        # Cross-checks cost more than the answer, and a sweep has its neighbours to be compared with.
+        # A cross-check costs more than the answer, and an answer in a sweep can be compared with its neighbours.
         if "cross_check" in asked.request.model_fields and "cross_check" not in spec.over:
             request = {"cross_check": "none"} | request
         spec = spec.model_copy(update={"shard_size": max(size, 1), "request": request})
@@ -167,7 +169,7 @@ class Spec(_Told):
         return index * self.shard_size, min((index + 1) * self.shard_size, self.designs)
 
     def canonical(self) -> bytes:
-        """The spec as bytes, the same however it was written, with the version of the program that answers it."""
+        """The spec as bytes, independent of its notation, with the version of the program that answers it."""
         told = self.model_dump(mode="json") | {"version": core.__version__}
         # The order of the parameters is the order of the designs, so it is part of the spec.
         return orjson.dumps(told | {"over": list(told["over"].items())}, option=orjson.OPT_SORT_KEYS)
@@ -179,9 +181,9 @@ class Spec(_Told):
 
     def _check(self, question: Question) -> None:
         if bool(self.sampled) is not bool(self.samples):
-            words = "is for ranges without a count, and there is none: leave it out, or a count"
+            words = "is for ranges without a count, and there are none: leave out samples, or a count"
             if self.sampled:
-                words = f"must say how {', '.join(self.sampled)} is sampled: give samples, or the range a count"
+                words = f"must say how to sample {', '.join(self.sampled)}: give samples, or give the range a count"
             raise InvalidValue("samples", f"samples {words}")
         if len(self.sampled) > SOBOL_DIMENSIONS:
             raise TooLarge("over", f"over must have at most {SOBOL_DIMENSIONS} sampled ranges, got {len(self.sampled)}")
@@ -200,7 +202,7 @@ class Spec(_Told):
     def _check_names(self, question: Question) -> None:
         """Refuse mistakes that affect every design: unknown parameters, and an invalid base.
 
-        A value of an axis that is refused is a bad design, and a row of the table.
+        A refused value of an axis affects only its designs, which become rows with the error.
         """
         first = {name: axis.start if isinstance(axis, Range) else axis[0] for name, axis in self.over.items()}
         values = placed(self.request, first)

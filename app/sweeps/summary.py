@@ -15,7 +15,7 @@ from core.values import Floats
 
 
 def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
-    """A column as numbers, NaN where a row has none. raises: InvalidValue for a column of something else"""
+    """A column as numbers, NaN where a row has none. raises: InvalidValue for a column without numbers"""
     column = table[name]
     if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
         raise InvalidValue("value", f"value must be a column of numbers, got {name}: {sweep.numbers()}")
@@ -27,8 +27,8 @@ def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
 class Summary:
     """A sweep in a few lines.
 
-    rows: answered so far; total: designs; errors: number of rows by code
-    value: its name; least, greatest: its ends and the designs that have them, None where there is no number
+    rows: number of designs answered so far; total: number of designs; errors: number of rows by code
+    value: name of a column; least, greatest: its extreme values with their designs, None without a number
     """
 
     rows: int
@@ -50,7 +50,7 @@ class Summary:
 
 
 def summary(sweep: Sweep, value: str) -> Summary:
-    """The sweep in a few lines. raises: InvalidValue where there is no row, or no such column of numbers"""
+    """The sweep in a few lines. raises: InvalidValue if there is no row, or no such column of numbers"""
     table = sweep.table([*sweep.spec.over, "error.code", value])
     numbers = numbers_of(sweep, table, value)
     codes = Counter(code for code in table["error.code"].to_pylist() if code)

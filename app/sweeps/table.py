@@ -1,4 +1,4 @@
-"""The table of a sweep: all rows in the order of the designs, from the parts or from one file made of them."""
+"""The table of a sweep: all rows in the order of the designs, from the parts or from the joined file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import pandas
 
 
-# Rows in a group of the one file, the least that is read at once.
+# Rows in a group of the joined file: the smallest part that can be read.
 GROUP = 100_000
 
 
@@ -39,16 +39,16 @@ class Sweep:
 
     @classmethod
     def open(cls, folder: Path) -> Sweep:
-        """The sweep of a folder. raises: InvalidValue if it has none, or one of a different version"""
+        """The sweep in a folder. raises: InvalidValue if it has none, or one of a different version"""
         file = folder / SPEC_FILE
         try:
             told = orjson.loads(file.read_bytes())
             version = told.pop("version")
             spec = Spec.model_validate(told | {"over": dict(told["over"])})
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise InvalidValue("folder", f"{folder} has no sweep: there is no {SPEC_FILE} of one in it") from error
+            raise InvalidValue("folder", f"{folder} has no sweep: it holds no valid {SPEC_FILE}") from error
         if version != core.__version__:
-            words = f"must be of version {core.__version__}, which answers now, got {version}"
+            words = f"must be of this version, {core.__version__}, got {version}"
             raise InvalidValue("folder", f"folder {folder} {words}: run the sweep into a new folder")
         return cls(folder, spec)
 
@@ -86,7 +86,7 @@ class Sweep:
         return ", ".join(field.name for field in schema if any(kind(field.type) for kind in kinds))
 
     def to_dataframe(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
-        """One row for each design that was answered.
+        """One row for each answered design.
 
         raises: ImportError without pandas, naming the extra; InvalidValue
         """
@@ -94,9 +94,9 @@ class Sweep:
         return data_frame("Sweep.to_dataframe()", found, {})
 
     def compact(self) -> Path:
-        """One file of all parts, which takes their place; the same bytes whoever answered what.
+        """Join all parts into one file, which replaces them; its bytes do not depend on the division of work.
 
-        raises: InvalidValue where parts are missing
+        raises: InvalidValue if parts are missing
         """
         whole = self.folder / TABLE_FILE
         if not whole.exists():
@@ -118,9 +118,9 @@ class Sweep:
             writer.close()
 
     def to_json(self, file: Path) -> None:
-        """The table as JSON, a list for each column, there whole or not at all.
+        """Write the table as JSON, a list for each column, completely or not at all.
 
-        raises: InvalidValue where parts are missing; OSError
+        raises: InvalidValue if parts are missing; OSError
         """
         self._check_complete()
         with _written(file) as name, open(name, "wb") as sink:
@@ -163,7 +163,7 @@ def _columns(table: pa.Table) -> Iterator[tuple[str, pa.ChunkedArray]]:
 
 @contextlib.contextmanager
 def _written(file: Path) -> Iterator[str]:
-    """A name to write to; the file takes its own name once that is done."""
+    """A temporary name to write to; the file gets its final name when it is complete."""
     handle, name = tempfile.mkstemp(prefix=shards.TEMPORARY, dir=file.resolve().parent)
     os.close(handle)
     try:

@@ -1,8 +1,7 @@
 """A process that answers pieces, one after another: python -m app.sweeps.worker.
 
-It reads them from its standard input and writes answers to its standard output, each as a length and so many bytes of
-pickle. The first answer is None: it is ready. It leaves when its input ends, which is also when the process that
-started it is gone.
+It reads pieces from standard input and writes answers to standard output, each as a length and that number of bytes of
+pickle. The first answer, None, says that it is ready. It ends when its input ends, so also when its parent is gone.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ def send(stream: BinaryIO, value: Any) -> None:
 
 
 def receive(stream: BinaryIO) -> bytes:
-    """Read the pickle of one value. raises: EOFError where the stream ends"""
+    """Read the pickle of one value. raises: EOFError at the end of the stream"""
     head = stream.read(LENGTH.size)
     if len(head) < LENGTH.size:
         raise EOFError
@@ -39,17 +38,17 @@ def receive(stream: BinaryIO) -> bytes:
 
 
 def main() -> None:
-    """Answer what comes in until nothing does."""
+    """Answer pieces until the input ends."""
     source, sink = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # What a library prints is no answer.
+    os.dup2(2, 1)  # The prints of libraries must not mix with answers.
     from app.sweeps.engines import attempt
 
     gc.collect()
-    gc.freeze()  # What was imported stays, so nobody needs to look through it again and again.
+    gc.freeze()  # Imported objects stay, so the garbage collector need not check them again.
     send(sink, None)
     waiting: queue.SimpleQueue[bytes] = queue.SimpleQueue()
 
-    # A thread of its own reads, so that the end of the input is noticed in the middle of a piece.
+    # A separate thread reads, so that the process notices the end of its input even during a piece.
     def read() -> None:
         while True:
             try:
@@ -62,7 +61,7 @@ def main() -> None:
         data = waiting.get()
         try:
             answer = attempt(pickle.loads(data))
-        except Exception as error:  # The piece is of something that this process cannot import.
+        except Exception as error:  # This process cannot import something that the piece needs.
             answer = (None, f"{type(error).__name__}: {error}")
         try:
             send(sink, answer)

@@ -1,1 +1,1 @@
-"""When benches come near each other, and how near."""
+"""Times and distances at which benches come near each other."""

@@ -1,6 +1,6 @@
-"""The claim that a search for first contact proved, in complete sentences.
+"""The proven claim of a search for first contact, in complete sentences.
 
-Numbers have all their digits: a rounded one would describe another dance, or an instant that is not proven.
+Numbers have all their digits, because a rounded one would describe another dance, or an instant that is not proven.
 """
 
 from __future__ import annotations

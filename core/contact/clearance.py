@@ -1,4 +1,4 @@
-"""Clearance at given times with its local minima, and the least over a stretch: sampled, then proven by a march."""
+"""Clearance at given times with its local minima, and the least over an interval: sampled, then proven by a march."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-# Clearances are sampled in steps of this fraction of the shortest chord [1], or longer ones where that is too much work
-# (Search.samples()); a dip is refined to this width [m of head travel], in a profile [s].
+# Step of the samples of a clearance, as a part of the shortest chord [1], longer if that is too much work
+# (Search.samples()); and width to which a dip is refined [m of head travel], in a profile [s].
 PROFILE_STEP = 0.2
 DIP_WIDTH = 1e-11
-# Width to which the least distance is proven [m]; the second one is used if the first takes too many steps.
+# Width to which the least distance is proven [m]; the second one is used if the first needs too many steps.
 PROOF_WIDTHS = (1e-5, 1e-3)
-# Number of the lowest samples that are refined before the proof begins.
+# Number of lowest samples to refine before the proof begins.
 DIPS_REFINED = 5
-# Largest number of times that a proof may find a smaller distance; each one is smaller by PROOF_WIDTHS[0] or more.
+# Most smaller distances that a proof may find; each one is smaller by PROOF_WIDTHS[0] or more.
 ROUNDS = 100
 
 Pair = tuple[int, int]
@@ -97,7 +97,7 @@ class ClearanceProfile(Shown):
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the clearance against time, with its local minima as dots.
 
-        returns: the axes given, or those of a new figure, in seconds and metres
+        returns: the given axes, or those of a new figure, in seconds and metres
         raises: ImportError without matplotlib, naming the extra
         """
         axes = plots.wanted_axes(ax, "ClearanceProfile.plot()")
@@ -108,11 +108,11 @@ class ClearanceProfile(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class LeastClearance(Shown):
-    """The least clearance over a stretch of the dance.
+    """The least clearance over an interval of the dance.
 
-    distance: the least found [m], reached at `time` [s] by `benches`. Where benches touch, it is 0 at the first touch,
-        and nothing is said of later times; where they overlap at the start, it is negative, their separation there
-    at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that takes too many steps,
+    distance: the least one found [m], reached at `time` [s] by `benches`. If benches touch, it is 0 at the first touch,
+        without a statement on later times; if they overlap at the start, it is their negative separation there
+    at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that needs too many steps,
         PROOF_WIDTHS[1]; None if the search gave up first, or benches overlap at the start
     """
 
@@ -130,9 +130,9 @@ def clearance_profile(
     """Exact clearance and its pair at every time, and its local minima refined.
 
     times: (T,) or one [s]
-    grazes: looked for between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones
-        for thousands of benches on a long way), refined to rounding; a dip of a pair
-        that is the nearest for less than a step may be missed here, never by first_contact()
+    grazes: searched between the first and the last time in steps of PROFILE_STEP of the shortest chord (longer ones for
+        thousands of benches on a long way), then refined to rounding. The dip of a pair that is nearest for less than a
+        step may be missed here, but never by first_contact()
     raises: OutsideRun after the end of the run; InvalidValue for fewer than three benches; TooMuchWork
     """
     dragon, clock = dance.dragon, dance.clock
@@ -162,13 +162,13 @@ def _grid(search: Search, begin: float, until: float) -> list[float]:
 
 
 def _affordable(search: Search, travel: float, leaders: int | None = None) -> tuple[float, Pair]:
-    """Search.clearance() at the expense of the budget of the whole question."""
+    """Search.clearance(), whose work counts in the budget of the whole question."""
     search.budget.afford(search.room)
     return search.clearance(travel, leaders)
 
 
-# Where the clearance passes from one pair to another it has a kink that points up, so each of its local minima is one
-# of a single pair: of the nearest one at either end of a step, if that pair comes nearer at first and parts at last.
+# Where the nearest pair changes, the clearance has a kink that points up. So each local minimum is one of a single
+# pair: the nearest pair at one end of a step, if it approaches at the beginning of the step and parts at its end.
 def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
     if time.size < 2:
         return ()
@@ -199,8 +199,8 @@ def least_clearance(
 ) -> LeastClearance | None:
     """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
 
-    stray: how far every hole may be from its place [m]: the clearance is then the least that benches may have left, as
-        proven for the hulls of the ground that they may cover (core/tolerance/reach.py)
+    stray: largest distance of every hole from its place [m]: the result is then the least possible clearance, proven
+        for the hulls of the ground that benches may cover (core/tolerance/reach.py)
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
     begin, until = dance.span(start, stop)
@@ -220,19 +220,19 @@ def least_clearance(
     return LeastClearance(distance, at_least, max(clock.time(travel), begin), pair)
 
 
-# The least gap that samples show does occur, so it is an upper bound of the least gap of all. The march gets that gap
-# less a width as its margin. Either it reaches the end, which proves that nothing comes nearer; or it meets a lower
-# gap. Then that one is refined, and the march goes on from there with a lower margin: what it has passed is clear of
-# the higher margin, and so of the lower. A dip whose bottom lies between the margin and the gap is crossed in steps
-# far shorter than it is wide, so the march refines it.
+# The least gap of the samples is an upper bound of the least gap of all. The march gets this gap less a width as its
+# margin. Either it reaches the end, which proves that nothing comes nearer, or it meets a smaller gap. Then that one is
+# refined, and the march continues from there with a smaller margin: the part behind it keeps the larger margin, and so
+# the smaller one. A dip whose bottom is between the margin and the gap is crossed in steps far shorter than its width,
+# so the march refines it.
 def least_over(
     search: Search, begin: float, until: float, head_speed: float, fold: RunEnd | None = None
 ) -> tuple[Dip, float | None]:
-    """The least gap of the search's pairs between two travels of the head, and what is proven of it [m].
+    """The least gap of the search's pairs between two travels of the head, and its proven lower bound [m].
 
     A gap of 0 stands for the first touch. The call changes the search's margin.
-    fold: where the run ends, if right after `until` and at a fold. Steps shrink to nothing before it, where handles
-        are fast without bound, so a bound on the motion left takes the place of the last ones: least_to_fold()
+    fold: end of the run, if it is a fold right after `until`. Steps shrink to nothing before it, because speeds grow
+        without bound, so a bound on the remaining motion replaces the last ones: least_to_fold()
     """
     best = sampled_least(search, samples_between(search, begin, until))
     proven_to, proven = begin, None
@@ -285,7 +285,7 @@ def samples_between(search: Search, begin: float, until: float) -> Samples:
 
 
 def samples_where(search: Search, known: Samples, within: float) -> Samples:
-    """Samples again, with what this search finds where the known gap is at most so much [m]."""
+    """The samples, computed again by this search where the known gap is at most `within` [m]."""
     again = [_sampled(search, travel) if gap <= within else gap for travel, gap in zip(*known, strict=True)]
     return Samples(known.travels, np.array(again))
 
@@ -295,7 +295,7 @@ def _sampled(search: Search, travel: float) -> float:
 
 
 def sampled_least(search: Search, samples: Samples) -> Dip:
-    """The least clearance at the ends and in the dips that samples show."""
+    """The least clearance at the ends and in the dips of the samples."""
     grid = samples.travels
     ends = [(gap, travel, pair) for travel in (grid[0], grid[-1]) for gap, pair in (search.clearance(travel),)]
     return min(ends + [refined_dip(search, *grid[k - 1 : k + 2]) for k in dips(samples.gaps, DIPS_REFINED).tolist()])

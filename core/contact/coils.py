@@ -1,7 +1,6 @@
 """Two coils of one route: the radius beyond which nothing on them touches, so that a search may end there.
 
-It serves a dance through the turn, and any other that comes in along a coil and leaves along one with the same centre
-and pitch.
+It serves a dance through the turn, and any other route that begins and ends with coils of the same centre and pitch.
 """
 
 from __future__ import annotations
@@ -18,23 +17,23 @@ from core.kernels.constants import COIL_ARC, COIL_GROWTH, FREE, PIECE_KIND, S_EN
 from core.paths.route import Route
 from core.values import Floats
 
-# Factor between the radii that are tried as the radius from which rings are clear [1], and the largest one [m].
+# Factor between the tried radii from which rings may be clear [1], and the largest one [m].
 RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
 # Upper bound of an arc over its chord [1].
 STRETCH = 0.5 * math.pi
-# The foot of the perpendicular from the centre on a chord lies no further than this times the growth from the middle of
-# the chord, where ring_least() says anything (core/kernels/rings.py) [1].
+# Largest distance, in units of the growth, between the middle of a chord and the foot of the perpendicular from the
+# centre, wherever ring_least() has a bound (core/kernels/rings.py) [1].
 FOOT = 1.67
-# Bounds must exceed the margin by this [m], far above their rounding: they add up lengths that all together are below 4
-# RADIUS_MAX (longer chords or a wider pitch are left out). ring_least() is good to 1e-11 of them (RING_ROUNDING of
-# core/contact/search.py), 4e-7 m; where it says anything d is good to 2,000 u of itself, so what is divided by it is to
-# 1e-12, 4e-8 m; all else is good to 50 u, 2e-10 m. Between the coils the path runs at most 1e-8 m beside its pieces, as
-# joints miss by 1e-9 m and rad at most (core/paths/route.py).
+# Amount by which bounds must exceed the margin [m], far above their rounding. The lengths in their sums are together
+# below 4 RADIUS_MAX (longer chords or a wider pitch are not handled). The error of ring_least() is at most 1e-11 of
+# them (RING_ROUNDING of core/contact/search.py), 4e-7 m; where it has a bound, the relative error of d is at most 2,000
+# u, so that of quotients by it 1e-12, 4e-8 m; all other terms are good to 50 u, 2e-10 m. Between the coils the path is
+# at most 1e-8 m beside its pieces, because joints miss by at most 1e-9 m and rad (core/paths/route.py).
 CLEARLY = 1e-6
-# Arc lengths from a centre, of which u = 2^-53 is the unit of rounding, are good to 10 u of themselves each [1].
+# Largest relative error of an arc length from a centre: 10 u, with u = 2^-53 [1].
 ARC_ROUNDING = 2e-15
-# Coils count as having one centre if theirs lie no further apart than this [m]; CLEARLY makes up for it.
+# Largest distance of two centres that count as one [m]; CLEARLY includes it.
 CENTRES_APART = 1e-9
 
 
@@ -43,9 +42,9 @@ class TwoCoils:
     """A coil inwards and one outwards around one centre, with other pieces between them.
 
     growth: of both [m/rad]; offset: angle between them at one radius, at most pi [rad]
-    extent: no point of the path between them is further from the centre [m], and none of the last BLEND of either coil,
-        where the coil may be led to that path
-    length: of the path between them [m]; radius: where the one outwards begins [m]
+    extent: largest distance from the centre [m] of the path between them, and of the last BLEND of either coil, where
+        the coil may be blended into that path
+    length: of the path between them [m]; radius: at the beginning of the coil outwards [m]
     """
 
     growth: float
@@ -55,13 +54,13 @@ class TwoCoils:
     radius: float
 
     def arc(self, radius: float) -> float:
-        """Arc of the coil outwards from its beginning to a radius, longer by up to ARC_ROUNDING of the whole [m]."""
+        """Arc of the coil outwards from its beginning to a radius, rounded up by at most ARC_ROUNDING of it [m]."""
         end, begin = (float(kernels.spiral_arc(r / self.growth)) for r in (radius, self.radius))
         return self.growth * (end - begin + ARC_ROUNDING * end)
 
 
 def two_coils(path: Route) -> TwoCoils | None:
-    """The coils with which a route begins and ends; None if it has no such two of one centre and one pitch."""
+    """The coils at the two ends of a route; None unless there are two with one centre and one pitch."""
     table = path.table
     first, last = table[0].tolist(), table[-1].tolist()
     spirals = [kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "spiral" for row in (first, last)]
@@ -81,7 +80,7 @@ def two_coils(path: Route) -> TwoCoils | None:
 def _extent(path: Route, row: Floats, centre: Floats) -> float:
     """Upper bound of the distance of a piece's points from a point [m].
 
-    The distance to one of its ends and half its length; on an arc also the distance of the circle's furthest point.
+    It is the distance to one of its ends plus half its length; for an arc also the furthest point of the circle.
     """
     ends = path.position(row[1:3])
     extent = float(np.hypot(*(ends - centre).T).max() + 0.5 * (row[2] - row[1]))
@@ -95,16 +94,16 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 # directions that differ by x, |x| <= pi, the polar angles on their own coils differ by offset + 2 pi m + x, in one
 # order or the other. So growth offset takes the place of the pitch, and no bench lies beside another of its turn.
 #
-# A bench with a handle within `rings` has its other one on a coil not further out than pi c / 2 of arc, as no arc
-# under a chord is longer, and so no point further out than that radius + o + w / 2. If the path between the coils is
-# longer than that arc, no bench stands on both. From radius_beyond() of that radius and the margin outwards nothing
-# comes near a bench on a coil. So once all handles of the leading benches, up to the first of the equal ones, are
-# there, on the coil outwards, these benches meet nothing any more. Every bench behind them repeats in place what one of
-# them met (core/kernels/repeats.py), or is there too. Hence nothing touches, however long the coils are.
+# A bench with a handle within `rings` has its other handle on a coil at most pi c / 2 of arc further out, because no
+# arc under a chord is longer. So no point of the bench is further out than that radius + o + w / 2. If the path between
+# the coils is longer than that arc, no bench is on both coils. From beyond() of that radius and the margin outwards
+# nothing comes near a bench on a coil. So once all handles of the leading benches, up to the first of the equal ones,
+# are there on the coil outwards, these benches meet nothing any more. Every bench behind them repeats a meeting of one
+# of them in the same place (core/kernels/repeats.py), or is there too. Hence nothing touches, for coils of any length.
 
 
 def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
-    """A radius >= extent from which both coils are clear of themselves and of each other [m], None if not known."""
+    """A radius >= extent from which both coils are clear of themselves and of each other [m]; None if not known."""
     growth, chords = coils.growth, dragon.chords[: dragon.uniform_from + 1]
     longest, rings = float(chords.max()), _rings(dragon)
     overhang, half = _sideways(dragon)
@@ -126,7 +125,7 @@ def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
 
 
 def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
-    """Arc of the coil outwards up to the head when nothing can touch any more [m]; None if not known."""
+    """Arc of the coil outwards to the head's place from which nothing can touch any more [m]; None if not known."""
     growth, leaders = coils.growth, dragon.chords[: dragon.uniform_from + 1]
     longest, rings = float(leaders.max()), rings_clear(dragon, coils, margin)
     if rings is None or STRETCH * longest >= coils.length:
@@ -136,22 +135,22 @@ def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
 
 
 def beyond(dragon: Dragon, growth: float, handles: float, margin: float) -> float:
-    """A radius: a bench on a coil from there outwards is clear of all benches with handles within `handles` [m]."""
+    """Radius from which a bench on a coil is clear of all benches with handles within the radius `handles` [m]."""
     overhang, half = _sideways(dragon)
     return wholly_outside(dragon, growth, handles + overhang + half + margin + CLEARLY)
 
 
 def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
-    """A radius: every bench with both handles on a coil at this radius or further out lies wholly outside `radius` [m].
+    """Least radius of both handles on a coil for which the whole bench is outside `radius` [m].
 
-    sqrt((radius + w / 2)^2 + c^2 / 4), but only where the foot of the perpendicular from the centre is no further from
-    the inner handle than c / 2; else by the triangle inequality: core/kernels/rings.py
+    sqrt((radius + w / 2)^2 + c^2 / 4) if the foot of the perpendicular from the centre is at most c / 2 from the inner
+    handle; else by the triangle inequality, see core/kernels/rings.py.
     """
     return float(kernels.radius_beyond(growth, radius, _rings(dragon)))
 
 
 def _rings(dragon: Dragon) -> kernels.Rings:
-    """Input of the kernels' ring bounds for a dragon in which any bench may be the outer one of a pair."""
+    """Input of the kernels' ring bounds for a dragon whose benches may all be the outer one of a pair."""
     chords, rings = dragon.chords[: dragon.uniform_from + 1], kernels.Rings()
     rings.chord = rings.all_chord = float(chords.max())
     rings.shortest = rings.all_shortest = float(chords.min())
@@ -172,10 +171,10 @@ def clear_places(
     """Rings.clear_place and Rings.end_place of a route that begins (and ends) with a coil [m]; FREE and -FREE if not
     known.
 
-    radius: clear_radius of the first coil, FREE if it is not known or the path begins otherwise [m]; rounding: largest
+    radius: clear_radius of the first coil [m], FREE if it is not known or the path begins otherwise; rounding: largest
         error of a travel [m]
-    Both are PLACE_SPARE further than their bounds ask, for the rounding of handles, and the latter beyond what travels
-    may be off by; the former is BLEND behind the end of the coil, where the coil may be led to the next piece.
+    Both are PLACE_SPARE further than their bounds require, for the rounding of handles, and the latter also by the
+    error of travels. The former is BLEND behind the end of the coil, where the coil may be blended into the next piece.
     """
     if radius >= FREE:
         return FREE, -FREE

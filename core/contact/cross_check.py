@@ -1,7 +1,7 @@
-"""Four engines judge the dance just before and just after a contact: does the pair meet when the search says so?
+"""Cross-check of a contact: four engines judge the dance just before and just after it.
 
-A judgement uses only the claim of the search: the time or the pitch, and the pair. The whole dragon
-is judged: before, no two benches that share no handle are within the margin; after, the reported pair is, and no other.
+A judgement uses only the claim of the search: the time or the pitch, and the pair. It covers the whole dragon: before,
+no two benches that share no handle may be within the margin; after, only the reported pair may be.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ from core.values import Floats, asked_of, checked_number, checked_type
 Pair = tuple[int, int]
 Indices = NDArray[np.int64]
 
-# Head travel between first contact and the poses that are judged [m]: far above the rounding of positions
-# (1e-13 m), far below a bench. Within 1e-10 m of a pitch at which two benches only graze, their gap is then too small
-# for the angle sum to see (1e-12 m).
+# Head travel between first contact and the judged poses [m]: far above the rounding of positions (1e-13 m), far below
+# the size of a bench. Within 1e-10 m of a pitch at which two benches only graze, the gap is then too small for the
+# angle sum (1e-12 m).
 CHECK_TRAVEL = 1e-6
 # The same travel in units of the last digit of arc lengths so long that rounding hides a shorter one [1].
 CHECK_DIGITS = 64
 # The same for a pitch [m].
 CHECK_PITCH = 1e-6
-# A pair that meets within these travels or pitches is no deeper than this afterwards [m]: the check sees 2e-6 m, and
-# two benches near one another by at most twice the highest speed of a handle over that of the head, or by the turns
+# Largest depth of a second pair that counts as meeting together with the reported one [m]. The two poses are 2e-6 m
+# apart, in which two benches approach by at most twice the highest handle speed over the head's, or by the turns
 # between them for each metre of pitch. Near a fold speeds are higher; such a pair counts as a different finding there.
 TOGETHER_DEPTH = 1e-5
-# Longest dragon that is judged whole [benches], and the largest number of pairs of cubes around benches that may meet
-# in it [1]: FCL takes about 1 microsecond for each, 3 where they touch, and 30 where they touch with a margin.
+# Longest dragon that is judged as a whole [benches], and largest number of meeting pairs of cubes around its benches
+# [1]: FCL takes about 1 microsecond for each, 3 if the benches touch, and 30 if they touch with a margin.
 WHOLE_BENCHES = 2_000
 CLOSE_MAX = 30_000
 
@@ -52,16 +52,16 @@ CLOSE_MAX = 30_000
 class ContactCheck(Shown):
     """The engines' verdicts on a reported contact.
 
-    agree: every engine asked finds nothing before, and only the reported pair after
-    engines: before: does it find any two benches judged within the margin just before; None for a contact at the start,
-        which has no before. after: does it find the reported pair just after, and no other but those of `together`; at
-        the start others may be found too
-    judged: the benches judged, ascending: all, only the pair, or, in a dragon too long or too crowded, those near the
-        pair
-    together: other pairs that meet with the reported one, as nearly as the two poses can tell: apart before, within the
-        margin after by no more than TOGETHER_DEPTH. A corner that meets a straight row where two benches of it overlap
-        touches both at once. Only the exact separation decides this; the engines may find them or not.
-    left_out: engines that cannot judge the case: the angle sum sees only corners inside a bench, so it cannot judge a
+    agree: True if every engine finds nothing before, and only the reported pair after
+    engines: verdict of each. before: True if it finds two judged benches within the margin just before; None for a
+        contact at the start. after: True if it finds the reported pair just after, and no others except those of
+        `together`; at the start it may find others too
+    judged: the judged benches, ascending: all, only the pair, or, in a dragon that is too long or too crowded, those
+        near the pair
+    together: other pairs that meet at the same time, to the resolution of the two poses: apart before, and after within
+        the margin by at most TOGETHER_DEPTH. A corner that meets a straight row where two of its benches overlap
+        touches both at once. Only the exact separation decides this; engines may find these pairs or not.
+    left_out: engines that cannot judge the case. The angle sum sees only corners inside a bench, so it cannot judge a
         margin or, at the start, benches that cross without a corner inside the other
     """
 
@@ -81,7 +81,7 @@ class ContactCheck(Shown):
 
 
 @asked_of("contact", FirstContact)
-@bounded("the engines' word on the contact was not found")
+@bounded("the engines' verdict on the contact was not found")
 def contact_check(
     contact: FirstContact,
     dance: Dance,
@@ -92,9 +92,9 @@ def contact_check(
 ) -> ContactCheck | None:
     """The engines' verdicts CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
-    A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at either.
-    whole: judge the whole dragon, else only the reported pair. With a stray each pair has a distance of its own: the
-        engines judge the reported pair within the gap that it has then, and shapely the grounds that all may cover
+    A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at one of them.
+    whole: True judges the whole dragon, False only the reported pair. With a stray each pair has its own distance: the
+        engines judge the reported pair with its gap at that time, and shapely judges the ground that benches may cover
     returns: None if nothing touches or nothing is decided
     raises: InvalidValue
 
@@ -131,7 +131,7 @@ def contact_check(
 
 
 @asked_of("found", MinimumPitch)
-@bounded("the engines' word on the minimum pitch was not found")
+@bounded("the engines' verdict on the minimum pitch was not found")
 def pitch_check(
     found: MinimumPitch,
     dragon: Dragon,
@@ -143,9 +143,9 @@ def pitch_check(
 ) -> ContactCheck | None:
     """The engines' verdicts at a pitch CHECK_PITCH larger and one CHECK_PITCH smaller than the minimum.
 
-    The head stands where the pair meets just below that pitch, or at the start if the start limits the pitch.
-    whole: judge the whole dragon, else only the reported pair; with a stray shapely judges the grounds that all may
-        cover, in either case
+    The head is where the pair meets just below that pitch, or at the start if the start limits the pitch.
+    whole: True judges the whole dragon, False only the reported pair; with a stray shapely always judges the ground
+        that benches may cover
     returns: None if no pair limits the pitch
     raises: InvalidValue
     """
@@ -156,7 +156,7 @@ def pitch_check(
         return None
     poses = []
     for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
-        # A spiral that starts at a radius has its head there at time 0.
+        # On a spiral that starts at this radius, the head is there at time 0.
         turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
         front = dragon if whole or strayed else dragon.leading(found.benches[1] + 1)
         poses.append(_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
@@ -167,7 +167,7 @@ def pitch_check(
 
 
 def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
-    """Poses (T, n, 3) of the dragon at instants, or at the nearest ones within its run."""
+    """Poses (T, n, 3) of the dragon at instants, moved into the run if they are outside."""
     held = [min(max(time, dance.earliest), dance.end.time) for time in times]
     return bench_poses(trajectory(dance, held, budget=budget).position)
 
@@ -182,7 +182,7 @@ def judged_contact(
     at_start: bool = False,
     budget: Budget | None = None,
 ) -> ContactCheck:
-    """The engines' verdicts on a pair that is reported to come within the margin between two instants.
+    """The engines' verdicts on a pair that, by the search, comes within the margin between two instants.
 
     poses: (2, n, 3) just before and just after, or at a start and just after; sizes: (n, 2) length and width [m]
     """
@@ -238,11 +238,11 @@ def judged_grounds(
     at_start: bool = False,
     budget: Budget | None = None,
 ) -> ContactCheck:
-    """Shapely's verdict on the grounds that benches may cover, as judged_contact() of the whole dragon.
+    """Shapely's verdict on the ground that benches may cover, as judged_contact() for the whole dragon.
 
-    together: those that meet between the two instants. The search takes the largest gap along a direction for the
-    distance, which is up to SHORT less: so grounds are asked to be apart by the margin before, and to be within it and
-    SHORT of it after
+    together: pairs that meet between the two instants. The search uses the largest gap along a direction as the
+    distance, which is up to SHORT less than the true one. So the grounds must be apart by the margin before, and within
+    the margin and SHORT after.
     """
     sizes = np.stack([ground.bounds.lengths, ground.bounds.widths], axis=-1)
     judged = judged_benches(poses[1], sizes, pair, margin)
@@ -280,8 +280,8 @@ def _told(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, .
     return ContactCheck(agree, tuple(judged.tolist()), words, together, left_out)
 
 
-# Not all benches judged follow one another in the dragon, so the engines seek pairs among all of them, and neighbours
-# are left out by their numbers.
+# The judged benches need not be consecutive, so the engines search among all of them, and neighbours are removed by
+# their numbers.
 def _found(
     engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices, budget: Budget | None
 ) -> list[set[Pair]]:
@@ -296,7 +296,7 @@ def _found(
 
 
 def _meeting_together(others: list[Pair], poses: Floats, sizes: Floats, margin: float) -> set[Pair]:
-    """Those pairs that come within the margin between the two instants, and are barely within it after."""
+    """Pairs that come within the margin between the two instants, and are barely within it after."""
     if not others:
         return set()
     a, b = np.array(others).T
@@ -307,9 +307,10 @@ def _meeting_together(others: list[Pair], poses: Floats, sizes: Floats, margin: 
 
 
 def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> Indices:
-    """The benches to judge, ascending: all, those near the pair, or the pair, whichever first is not too much work.
+    """The benches to judge, ascending: all, those near the pair, or the pair; the first of these that is not too much
+    work.
 
-    Near are those whose upright boxes come within the length of the longest bench of the box around the pair.
+    A bench is near if its upright box comes within the length of the longest bench of the box around the pair.
     poses: (n, 3); sizes: (n, 2)
     """
     everyone = np.arange(len(poses))
@@ -329,7 +330,7 @@ def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> I
 
 # FCL's tree compares upright cubes around the spheres around the boxes, not the upright boxes themselves.
 def _is_manageable(poses: Floats, sizes: Floats, margin: float) -> bool:
-    """Do few enough cubes around benches meet for FCL to finish in 0.1 s, or in 1 s with a margin?"""
+    """True if so few cubes around benches meet that FCL finishes in 0.1 s, or in 1 s with a margin."""
     if len(poses) * (len(poses) - 1) // 2 <= CLOSE_MAX:
         return True
     upright = np.column_stack([poses[:, :2], np.zeros(len(poses))])

@@ -1,12 +1,12 @@
 """First contact, with a certificate.
 
-The proof is written above the loops that carry it out: `core/kernels/bounds.py`, `bends.py`, `pairs.py`, `rings.py`,
-`repeats.py` and `marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one
-axis fixed in one of the two benches separates them by more than the margin over all of [L, R], because the gap along
-that axis is known at both ends and its second derivative is bounded in between. Benches further out than a radius known
-in closed form cannot touch. In a dragon whose body benches are alike, pair (i, j) repeats, in place, what pair
-(m, m + j - i) met when handle m stood where handle i stands (m the first of the equal benches), so once every bench has
-passed the start of the one before it, only the pairs of the first m + 1 benches are followed.
+The proof is written above its loops: `core/kernels/bounds.py`, `bends.py`, `pairs.py`, `rings.py`, `repeats.py` and
+`marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in one
+of the two benches separates them by more than the margin over all of [L, R]: the gap along that axis is known at both
+ends, and its second derivative is bounded in between. Benches further out than a radius in closed form cannot touch. In
+a dragon with equal body benches, pair (i, j) repeats, in the same place, the meeting of pair (m, m + j - i) when handle
+m was where handle i is now (m: the first of the equal benches). So once every bench has passed the start of the one
+before it, only the pairs of the first m + 1 benches need a search.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ from core.values import asked_of, checked_number
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# A run without contact is drawn this long before its end [s], where the chain still exists.
+# Time before the end at which a run without contact is drawn [s], because the chain still exists there.
 BEFORE_END = 1e-6
-# Distance ahead at which a search that gave up begins to look for a certain overlap [m of head travel].
+# Distance ahead at which a search that gave up first tests for a certain overlap [m of head travel].
 BEYOND = 1e-3
 
 
 class Outcome(StrEnum):
-    """How a search for first contact ended."""
+    """Outcome of a search for first contact."""
 
     CONTACT = "contact"
     CONTACT_AT_START = "contact_at_start"
@@ -65,10 +65,10 @@ class Feature(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Evidence(Shown):
-    """How the answer is known.
+    """Evidence for the answer.
 
     method: the claim and its proof, in sentences (core/contact/claim.py)
-    steps: proven steps taken
+    steps: number of proven steps
     clear_until: time until which nothing touches [s]; None if no time is proven clear, because benches touch at the
         start or the search is undecided from the start
     bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
@@ -84,16 +84,16 @@ class Evidence(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class FirstContact(Shown):
-    """When two benches that share no handle first come within the margin.
+    """First time at which two benches that share no handle come within the margin.
 
-    time: [s], None when clear or undecided; 0 for contact_at_start
-    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); for undecided the
-        same, or up to the end of the run if no overlap is certain; None when clear or at the start
-    head: the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet;
-    point: (x, y) [m] of the corner; end: where the run ends when clear
-    gap: separation of the pair in its places at that time [m]: the margin, or what it is at the start or with a stray;
-        None without a pair
-    margin, stray: [m], as asked; dance: the one asked about
+    time: [s], None if clear or undecided; 0 for contact_at_start
+    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided the
+        same, or up to the end of the run if no overlap is certain; None if clear or at the start
+    head: state of the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet
+    point: (x, y) [m] of the corner; end: end of the run if clear
+    gap: separation of the pair in its nominal places at that time [m]: the margin, or another value at the start or
+        with a stray; None without a pair
+    margin, stray: [m]; dance: the dance of the question
     """
 
     outcome: Outcome
@@ -126,9 +126,9 @@ class FirstContact(Shown):
     def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
         """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.
 
-        enlarged: only the neighbourhood of the contact, with the corner and the edge that meet
-        returns: the axes given, or those of a new figure, in metres
-        raises: ImportError without matplotlib, naming the extra; InvalidValue (enlarged) where nothing meets
+        enlarged: True shows only the surroundings of the contact, with the corner and the edge that meet
+        returns: the given axes, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra; InvalidValue (enlarged) if nothing meets
         """
         axes = plots.wanted_axes(ax, "FirstContact.plot()")
         dance, benches = self.dance, self.benches
@@ -176,7 +176,7 @@ class FirstContact(Shown):
         return (self.end or self.dance.end).time - BEFORE_END
 
 
-# In the order of the features of the kernels, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
+# Names in the order of the kernels' features, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
 # with the centre on their right, the second for those with the centre on their left.
 CORNERS = (
     ("front-outer", "front-inner", "rear-inner", "rear-outer"),
@@ -196,17 +196,17 @@ def first_contact(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> FirstContact:
-    """When two benches that share no handle first come within the margin, proven not to miss an earlier one.
+    """First time at which two benches that share no handle come within the margin, proven to miss no earlier one.
 
-    margin: [m], the clearance required; contact means separation <= margin
-    stray: how far every hole may be from its place [m], see core/tolerance/reach.py: the answer is then the first time
-        at which two benches may come within the margin, because the grounds that they may cover come within it
-    start, stop: the times between which to look [s]; None for the end of the run
+    margin: required clearance [m]; contact means separation <= margin
+    stray: largest distance of every hole from its place [m], see core/tolerance/reach.py: the answer is then the first
+        time at which two benches may come within the margin, because the grounds that they may cover do
+    start, stop: interval of the search [s]; None for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
-        at most 1e-9 s wide, except where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s), within
-        about 5e-5 m of a graze along waypoints, behind bench 60, or where a second pair meets at once, and where
+        at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s);
+        within about 5e-5 m of a graze along waypoints, behind bench 60, or if a second pair meets at once; and where
         benches that stray nearly graze (1e-7 s). Both ends hold in spite of rounding (core/kernels/rounding.py,
-        pairs.py). The answer is undecided where rounding hides it: benches whose clearance at the start equals the
+        pairs.py). The answer is undecided if rounding hides it: for benches whose clearance at the start equals the
         margin to about 1e-12 m
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
@@ -219,7 +219,7 @@ def first_contact(
     budget = budget or Budget()
     found = contact_within(budget, dance, margin=margin, stray=stray, start=start, stop=stop)
     if found.outcome is Outcome.UNDECIDED:
-        budget.afford()  # it may be so for want of work
+        budget.afford()  # it may be undecided because the work is spent
     return found
 
 
@@ -232,7 +232,7 @@ def contact_within(
     start: float = 0.0,
     stop: float | None = None,
 ) -> FirstContact:
-    """first_contact() as a part of a larger question: it is also undecided when that question's budget is spent."""
+    """first_contact() as a part of a larger question; it is also undecided if the budget of that question is spent."""
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     strayed = checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
@@ -262,7 +262,7 @@ def contact_within(
 
 
 def _known_overlap(search: Search, proven: float, last: float, clock: Clock, until: float) -> float:
-    """Time at which benches are certainly within the margin after a search gave up [s]; `until` if not known."""
+    """Time after the end of a failed search at which benches are certainly within the margin [s]; else `until`."""
     state, found, _ = search.approach(min(proven + BEYOND, last), last, clock.slowest)
     return until if state is Ended.STUCK or found.touching is None else clock.time(found.touching)
 

@@ -1,7 +1,7 @@
-"""The last stretch before a fold: a bound on the remaining motion of benches, and so on how near they may come.
+"""The last part of a run before a fold: a bound on the remaining motion of benches, and so on their clearance.
 
-Steps of the march shrink to nothing before a fold, where handle speeds grow without bound, about forty of them for each
-tenth of what is left; this bound replaces them.
+Steps of the march shrink to nothing before a fold, because handle speeds grow without bound: each tenth of the
+remaining way needs about forty of them. This bound replaces them.
 """
 
 from __future__ import annotations
@@ -19,39 +19,38 @@ from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, 
 from core.kernels.results import Marched
 from core.values import Floats
 
-# The last stretch before a fold, where handle speeds grow without bound: dismissed by a bound on the motion left [m].
+# Length of the last part before a fold that only the bound on the remaining motion covers [m].
 FOLD_SLIVER = 1e-9
-# Distances before the fold at which the march is left, as shares of the chord of the bench that folds [1]: first where
-# the bound suffices at pitches from 0.66 to 2 m, after half of the steps, then where it suffices with a fifth of that
-# clearance. (With 1e-3 first it suffices from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1 times as long as a
-# contact; 2026-11-22.)
-# Number of instants on that way at which a graze is looked for [1].
+# Distances before the fold at which the march may end, as shares of the chord of the bench that folds [1]. At the first
+# one the bound is enough for pitches from 0.66 to 2 m, after half of the steps; at the second one also with a fifth of
+# that clearance. (With 1e-3 as the first one it is enough from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1
+# times as long as a contact; measured 2026-11-22.)
+# Number of samples on that way to find a graze [1].
 FOLD_WAYS = (3e-4, 3e-5)
 WAY_SAMPLES = 12
-# Largest number of stretches into which the way to a fold is cut; each takes 0.1 to 0.3 ms.
+# Most parts into which the way to a fold is divided; each takes 0.1 to 0.3 ms.
 FOLD_STRETCHES = 200
-# Angles at which dragons fold, and those of handles from leader to follower, are good to far less than this part [1]:
-# see least_left().
+# Upper bound on the relative error of the angle of a fold, and of angles from leader to follower [1], see least_left().
 THETA_ROUNDING = 1e-12
-# Work of one stretch, and of each bench in it [1].
+# Work of one part of the way, and of each bench in it [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 
 
 def last_travel(until: float, to_fold: bool) -> float:
-    """Travel to march to for a run until a travel [m]: a little short of a fold."""
+    """End of the march for a run until a travel [m]: a little before a fold."""
     return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
 
 
-# A march that goes on begins at twice that distance before the fold, so that it also sees a graze at the seam. If the
-# run begins where the ring bound clears all pairs (`rings_reach`), that march need not open again: all before it is
-# clear.
+# A march that continues begins at twice that distance before the fold, so that it also sees a graze at the seam. If the
+# run begins where the ring bound clears all pairs (`rings_reach`), that march need not follow all pairs again, because
+# everything before it is clear.
 def approach_fold(
     search: Search, begin: float, last: float, head_speed: float, end: RunEnd
 ) -> tuple[Ended, Marched, float]:
-    """Search.approach() from a travel to a fold, `last` a little short of it [m]; REACHED means clear up to the fold.
+    """Search.approach() from a travel to a fold, with `last` a little before it [m]; REACHED: clear up to the fold.
 
-    The march is left FOLD_WAYS before the fold. It goes on where the bound does not suffice there, or where a narrower
-    graze than those before may lie ahead.
+    The march ends FOLD_WAYS before the fold. It continues if the bound is not enough there, or if a narrower graze than
+    those before may lie ahead.
     """
     assert end.theta is not None
     assert end.bench is not None
@@ -76,7 +75,7 @@ def approach_fold(
 
 
 def _leaves(search: Search, early: float, last: float, found: Marched, theta: float) -> bool:
-    """May a march be left at a travel [m]: is the way to the fold clear, without a narrower graze that samples show?"""
+    """True if a march may end at a travel [m]: the way to the fold is clear, and samples show no narrower graze."""
     if search.dragon.benches >= 3:
         least = least_left(search, early - search.travel_rounding(early), theta)
         return least > search.margin and not _dips_ahead(search, early, last, found)
@@ -84,7 +83,7 @@ def _leaves(search: Search, early: float, last: float, found: Marched, theta: fl
 
 
 def _dips_ahead(search: Search, early: float, last: float, found: Marched) -> bool:
-    """Do samples between two travels [m] show a graze, narrower than the one found before?"""
+    """True if samples between two travels [m] show a graze that is narrower than the one found before."""
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2  # evenly spaced for handles, which move as its root
     gaps = [search.clearance(travel, leaders)[0] for travel in (last - left).tolist()]
@@ -95,17 +94,17 @@ def _dips_ahead(search: Search, early: float, last: float, found: Marched) -> bo
 
 
 def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
-    """Do all pairs stay further apart than the margin from a travel [m] to the fold?"""
+    """True if all pairs stay further apart than the margin from a travel [m] to the fold."""
     least = least_to_fold(search, travel, end)
     return least is not None and least > search.margin
 
 
-# Towards the fold handles move as the square root of what is left of the travel, so a stretch whose bound is too
-# low is split where a quarter of it is left: about half of its motion lies on each side. Its bound holds for both.
+# Towards the fold handles move as the square root of the remaining travel. So a part whose bound is too low is divided
+# where a quarter of it remains: each side has about half of the motion. Its bound holds for both.
 def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
-    """No two benches come nearer than this, or than the margin, from a travel to the fold [m]; None: not known.
+    """Bound on the clearance from a travel to the fold [m], as far as it is below the margin; None: not known.
 
-    The way is cut into FOLD_STRETCHES at most, until the bound exceeds the margin.
+    The way is divided into at most FOLD_STRETCHES parts, until the bound exceeds the margin.
     """
     assert end.theta is not None
     if search.dragon.benches < 3:
@@ -150,10 +149,10 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
 # that can be the least.
 def least_left(search: Search, travel: float, theta: float) -> float:
-    """No two benches come nearer than this, or than the margin, from a travel until the head is at theta [m].
+    """Bound on the clearance from a travel until the head is at theta [m]: no gap is below both it and the margin.
 
-    The gap of every pair after that travel, less the distance that both benches can still move, computed from their own
-    sizes; -FREE where a bench that has no place in rows[0] could come near one that leads a pair.
+    It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
+    sizes; -FREE if a bench without a place in rows[0] could come near one that leads a pair.
     """
     search.spend(STRETCH_WORK + FOLD_WORK * search.room)
     gap, _ = search.clearance(travel)
@@ -203,7 +202,7 @@ def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
 
 
 def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float, float]:
-    """delta of a follower whose leader stands at high, and at low [rad]; where there is none, that of the fold."""
+    """delta of a follower whose leader is at high, and at low [rad]; that of the fold if there is none."""
     chord2 = (chord / growth) ** 2
     inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
     if NO_ROOT in (inner, outer):

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-# Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least that
-# rounding of the travel allows at lower ones.
+# Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least half
+# width that rounding of the travel allows at lower speeds.
 BRACKET = 1e-10
 BRACKET_MIN = 2e-11
-# Wider half widths [m of head travel], one after the other, for contacts within about 5e-5 m of a graze, where benches
-# meet so slowly that rounding hides so small a gap. The first makes a bracket of 1e-9 s at 1 m/s, to which
-# core/contact/near_graze.py narrows the wider ones. Below 1 m/s the same numbers in seconds come first.
+# Wider half widths [m of head travel] to try for contacts within about 5e-5 m of a graze, where benches meet so slowly
+# that rounding hides the gap. The first gives a bracket of 1e-9 s at 1 m/s, to which core/contact/near_graze.py narrows
+# the wider ones. Below 1 m/s the same numbers in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Largest error of a travel, relative to the way [1], u = 2^-53: on a spiral its length is good to 5 u, two differences
-# from it and the polar angle there to 10 u (spiral_theta() ends within 7 u of the arc length left), and a travel made a
-# time and a travel again to 2 u.
+# Largest relative error of a travel [1], u = 2^-53: 5 u for the length of a spiral, 10 u for two differences from it
+# and the polar angle there (spiral_theta() ends within 7 u of the remaining arc length), and 2 u for a travel that
+# becomes a time and a travel again.
 TRAVEL_ROUNDING = 2e-15
 
 
 class Ended(StrEnum):
-    """How a march ended, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED.
+    """End of a march, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED.
 
-    No kernel ends with the last two: a bench folds on the way, or no bound holds for a band of pitches.
+    No kernel ends with the last two, a bench that folds on the way, and a band of pitches for which no bound holds.
     """
 
     REACHED = "reached"

@@ -1,13 +1,14 @@
-"""Two benches to 30 digits, for contacts so near a graze that the rounding of doubles hides when they begin.
+"""Two benches to 30 digits, for contacts so near a graze that the rounding of doubles hides their beginning.
 
-The same model as the kernels': their doubles (growth, chords, the table of a route) are taken as exact, and the chain
-is solved again in decimal arithmetic, starting from the kernels' own. Not for curves through waypoints, whose arc
-length is itself a quadrature.
+The model is that of the kernels: their doubles (growth, chords, the table of a route) are taken as exact, and the chain
+is solved again in decimal arithmetic, starting from the kernels' result. Curves through waypoints are not covered,
+because their arc length is itself a quadrature.
 
-Sine, cosine and the separation are written out here, because decimal has none. mpmath would be one more requirement and
-save 20 lines, but the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms, measured 2026-11-21).
-python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an arc length, where decimal needs 21 and 26
-(measured 2026-11-22), but it takes 27 MB and is not part of every installation, and one answer should have one method.
+Sine, cosine and the separation are written out here, because the module decimal has none. mpmath would save 20 lines,
+but it is one more requirement, and the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms,
+measured 2026-11-21). python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an arc length, while
+decimal needs 21 and 26 (measured 2026-11-22); but it takes 27 MB, it is not part of every installation, and one answer
+should have one method.
 """
 
 from __future__ import annotations
@@ -52,39 +53,39 @@ from core.paths.spiral import Spiral
 from core.sampling import falls_to_zero
 
 DIGITS = 40
-# Error allowed in a chord [m].
+# Allowed error of a chord [m].
 NEGLIGIBLE = Decimal("1e-34")
-# Series end at terms below this [1]: the five doublings that follow enlarge an error at most a thousandfold.
+# Smallest term of a series [1]: the five doublings after it enlarge an error at most a thousandfold.
 LAST_TERM = Decimal("1e-51")
-# Largest error of a gap [m]: each of up to LAST_BENCH links is met within NEGLIGIBLE, which a fold may enlarge a
-# hundred million times and overhangs ten thousand times, and coordinates of up to 1e5 m have DIGITS digits.
+# Largest error of a gap [m]: each of up to LAST_BENCH links has an error of at most NEGLIGIBLE, which a fold may
+# enlarge a hundred million times and overhangs ten thousand times; coordinates of up to 1e5 m have DIGITS digits.
 GAP_ROUNDING = Decimal("1e-20")
-# Length below which an interval proves nothing [m].
+# Shortest interval of a proof [m].
 SHORTEST = 1e-13
-# A travel divided by the head speed, in doubles, and multiplied again, is within this part of it [1].
+# Largest relative error of a travel that is divided by the head speed, in doubles, and multiplied again [1].
 TIME_ROUNDING = 4.0 * kernels.ULP
 TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
-# Last bench of the pairs that are followed, which takes a third of a millisecond for each handle and instant [1], and
-# most intervals that are tried before a proof is given up: about a second in all.
+# Last bench of a pair in decimals, because each handle takes a third of a millisecond for each instant [1]; and most
+# intervals before a proof is given up: about a second in all.
 LAST_BENCH = 60
-# A bound on a second derivative, computed once, and its product with h^2, are good to this part of them [1].
+# Largest relative error of a bound on a second derivative, and of its product with h^2 [1].
 BOUND_ROUNDING = 1e-12
 INTERVALS_MAX = 60
-# Columns of a chain row of the kernels that belong together.
+# Groups of columns in a chain row of the kernels.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 
 Vector = tuple[Decimal, Decimal]
 
 
-# Decimals hold Python's lock: several threads would be no quicker together, and would keep all others waiting.
+# Decimals hold Python's lock: several threads would not be faster together, and would make all others wait.
 _TURN = Lock()
-# Between two looks at the budget while another thread has the turn [s].
+# Time between two checks of the budget while another thread has its turn [s].
 TURN_SECONDS = 0.01
 
 
 @contextmanager
 def _in_turn(budget: Budget) -> Iterator[None]:
-    """A context that one thread at a time may have. raises: Halted"""
+    """A context for one thread at a time. raises: Halted"""
     while not _TURN.acquire(timeout=TURN_SECONDS):
         budget.look()
     try:
@@ -105,8 +106,8 @@ class Bench(NamedTuple):
 class Axis(NamedTuple):
     """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left.
 
-    It points to where the other bench stood when the axis was chosen. A gap along it proves an interval clear only if
-    it keeps that sign: a bench on one side at the start and on the other at the end has passed through.
+    It points to the place of the other bench when the axis was chosen. A gap along it proves an interval clear only if
+    it keeps its sign: a bench on one side at the start and on the other at the end has passed through.
     """
 
     owner: int
@@ -115,9 +116,9 @@ class Axis(NamedTuple):
 
 
 class ExactPair:
-    """Two benches of a search: where they are, and how far apart.
+    """Two benches of a search: their places and their separation.
 
-    can_follow: the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
+    can_follow: True if the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
     """
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
@@ -127,7 +128,7 @@ class ExactPair:
             coil[0, PIECE_KIND], coil[0, COIL_GROWTH], coil[0, SIGN] = SPIRAL, search.growth, -1.0
         table = coil if isinstance(search.path, Spiral) else search.path.table
         self.pieces = [[Decimal(number) for number in row] for row in table.tolist()]
-        if isinstance(search.path, Spiral):  # its doubles are growth and start_theta; their arc length is not one
+        if isinstance(search.path, Spiral):  # growth and start_theta are doubles, but their arc length is not
             with localcontext() as context:
                 context.prec = DIGITS
                 self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(search.path.start_theta))
@@ -161,7 +162,7 @@ class ExactPair:
         return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
     def stays_apart(self, start: float, stop: float) -> bool:
-        """Are the two proven to be further apart than the margin from one travel to another [m]?"""
+        """True if the two are proven to be further apart than the margin from one travel to another [m]."""
         search, margin = self.search, Decimal(self.search.margin)
         a, b = self.pair
         tried = 0
@@ -210,18 +211,18 @@ class ExactPair:
 
 
 def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
-    """Signed distance of two rectangles [m], as core.separation(), and the axis along which they are that far apart."""
+    """Signed separation of two rectangles [m], as in core.separation(), and the axis along which they have it."""
     faces = [(gap_along(first, second, axis), axis) for axis in _FACES]
     gap, axis = max(faces)
     if gap <= 0:
         return gap, axis
     nearest = min(_nearest_corner(0, first, second), _nearest_corner(1, second, first))
-    # Where a corner faces an edge both are the same, and the direction between points that touch is rounding alone.
+    # If a corner faces an edge, both are equal; and the direction between touching points is only rounding.
     return nearest if nearest[0] - gap > GAP_ROUNDING else (gap, axis)
 
 
 def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:
-    """Gap of two rectangles along an axis, which leads from its owner to the other one [m]; at most their distance."""
+    """Gap of two rectangles along an axis from its owner to the other one [m]; at most their separation."""
     own, other = (first, second) if axis.owner == 0 else (second, first)
     (x, y), (ux, uy) = _local(own, other.centre), other.along
     along, left = _dot(own.along, (ux, uy)), own.along[0] * uy - own.along[1] * ux
@@ -267,9 +268,9 @@ def _distance(a: Vector, b: Vector) -> Decimal:
 def _theta(arc: Decimal) -> Decimal:
     """Polar angle of a spiral at an arc length from its centre, in units of growth.
 
-    One step of Chebyshev's method from kernels.spiral_theta(), which is off by a few parts of 1e-16. With f the excess
-    of the arc length, f' = sqrt(1 + theta^2) and f'' = theta / f', the step is -f / f' (1 + f f'' / (2 f'^2)). It
-    leaves an error below the third power of the one before, over 2 theta^2 where theta is large: 1e-39 at 1e5 turns.
+    One step of Chebyshev's method from kernels.spiral_theta(), whose relative error is a few 1e-16. With f the excess
+    of the arc length, f' = sqrt(1 + theta^2) and f'' = theta / f', the step is -f / f' (1 + f f'' / (2 f'^2)). The
+    error after it is below the third power of the one before, divided by 2 theta^2 for large theta: 1e-39 at 1e5 turns.
     """
     theta = Decimal(kernels.spiral_theta(float(arc)))
     square = 1 + theta * theta
@@ -300,18 +301,19 @@ def _cos_sin(angle: Decimal) -> Vector:
     return cos, sin
 
 
-# From `proven` on the gap of the pair falls until it touches: its first instant t within the margin is bisected between
-# an instant apart and one within, and what lies before t is proven as in the kernels: along an axis fixed in one of the
-# benches, its sign too, the gap falls below its chord by no more than K x (h - x) / 2, with the kernels' K, in as many
-# intervals as that takes. All other pairs are marched over the same stretch in doubles.
+# From `proven` on the gap of the pair falls until it touches. The first instant t within the margin is bisected between
+# an instant apart and one within. The interval before t is proven as in the kernels: along an axis fixed in one of the
+# benches, with its sign, the gap is below its chord by at most K x (h - x) / 2, with the kernels' K, in as many
+# intervals as necessary. All other pairs are marched over the same interval in doubles.
 #
-# The claims are about times, which are travels over the head speed in doubles: the pair is within the margin at the
-# true travel of the later time, and apart until a little beyond that of the earlier one.
+# The claims are about times, which are travels divided by the head speed in doubles: the pair is within the margin at
+# the true travel of the later time, and apart until a little beyond that of the earlier one.
 def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.0) -> Marched | None:
-    """A contact that was found in a wide bracket, bracketed to half width `half` [m]; None where that is not proven.
+    """The wide bracket of a contact, narrowed to half width `half` [m]; None if that is not proven.
 
-    found: of Search.march(): `proven`, `touching` and the pair; so is the result, with `touching` - `half` the contact
-    head_speed: by which travels are divided for times [m/s]
+    found: result of Search.march() with `proven`, `touching` and the pair; so is the returned value, and its contact is
+        at `touching` - `half`
+    head_speed: speed that turns travels into times [m/s]
     """
     pair = ExactPair(search, found.benches)
     if (
@@ -337,7 +339,7 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
 
 
 def others_clear(search: Search, pair: tuple[int, int], start: float, stop: float) -> bool:
-    """Are all pairs but one proven to be clear between two travels [m]?"""
+    """True if all pairs except one are proven clear between two travels [m]."""
     search.scene.left_out, search.scene.left_out_too = pair
     state, _ = search.march(stop, 0.0, start=start)
     search.scene.left_out = search.scene.left_out_too = kernels.NO_BENCH

@@ -1,7 +1,6 @@
-"""Search: one dragon on one path, as the certified march of the kernels needs them.
+"""Search: one dragon on one path, in the form that the certified march of the kernels needs.
 
-The proof of a march is written above the loops that carry it out: `core/kernels/bounds.py`, `bends.py`,
-`pairs.py` and `rings.py`.
+The proof of a march is written above its loops: `core/kernels/bounds.py`, `bends.py`, `pairs.py` and `rings.py`.
 """
 
 from __future__ import annotations
@@ -44,40 +43,41 @@ from core.tolerance.reach import Reach, directions, reach
 from core.values import Floats
 
 MARGIN_MAX = 1e4  # [m]
-# Work after which a search gives up as undecided, see core/kernels/constants.py [1]: 2 to 8 s for a first contact, and
+# Work after which a search gives up as undecided [1], see core/kernels/constants.py: 2 to 8 s for a first contact, and
 # about the same for a least distance, whose steps end near a bench or an edge and cost more. The default case takes
 # about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# Largest number of samples of a dance [1], and the share of the work that they may take [1].
+# Largest number of samples of a dance [1], and largest share of the work for them [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
-# Width to which the clear radius is bisected, relative [1].
+# Relative width to which the clear radius is bisected [1].
 CLEAR_WIDTH = 1e-3
-# Largest error of the ring bound, relative to the lengths in it [1]: at most 64 sums, products and roots, with d^2 =
-# radius^2 - foot^2 at least a thousandth of radius^2 (core/kernels/rings.py), so that d is good to 2,000 u.
+# Largest error of the ring bound, relative to the lengths in it [1]: at most 64 sums, products and roots. d^2 =
+# radius^2 - foot^2 is at least a thousandth of radius^2 (core/kernels/rings.py), so the relative error of d is at most
+# 2,000 u.
 RING_ROUNDING = 1e-11
 
 
 class Search:
     """The kernels' arrays for one dragon, with the current path and margin.
 
-    dragon: as searched: with a stray each bench is as large as the ground that it may cover; nominal: as given
-    stray: [m]; kinds: the hulls of that ground, none without a stray; `covered` tells them
+    dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
+    stray: [m]; kinds: the hulls of that ground, none without a stray, with the indices in `covered`
     extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
-        that can be the outer of a pair [m]; rings: the same and more for the kernels, with the bounds that hold of the
-        path and the margin used
+        that can be the outer bench of a pair [m]; rings: the same and more for the kernels, with bounds for the current
+        path and margin
     sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
-        of edges at rest [m], on routes only; with edges, the pairs are bench and edge alone: edge e is bench number
-        room + 1 + e of a pair
-    scene: the same benches on the path used; probe: an interval of it to look at single pairs
-    clear_radius: on a spiral, no pair whose inner bench leads at this radius or further out comes within the margin [m]
-    rings.clear_place, rings.end_place: see clear_places(); where they are known there is room for the leading benches
-        only, as on a spiral
-    work: work that its marches may still do, see WORK_BUDGET, within the budget of the whole question. Once that is
-        stopped, whatever examines benches raises Halted
-    timing: largest distance of the head from its place at a rounded time, besides the rounding of its travel [m]
-    between: pairs with fewer benches between them are not asked for, at least 1 [1]
+        of edges at rest [m], on routes only. With edges, every pair is a bench and an edge: edge e has the bench number
+        room + 1 + e
+    scene: the same benches on the current path; probe: an interval of it to examine single pairs
+    clear_radius: no pair whose inner bench leads at this radius of a spiral, or further out, comes within the margin
+    [m] rings.clear_place, rings.end_place: see clear_places(); if they are known, there is room only for the leading
+        benches, as on a spiral
+    work: remaining work of its marches, see WORK_BUDGET, within the budget of the whole question. After a stop of that
+        budget, every function that examines benches raises Halted
+    timing: largest distance of the head from its place at a rounded time, in addition to the rounding of its travel [m]
+    between: least number of benches between the two of a pair, at least 1 [1]
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 
@@ -105,7 +105,7 @@ class Search:
         self.dragon = dragon
         self.edges = np.empty((0, 4)) if edges is None else edges
         alike = dragon.uniform_from
-        # The constructor's share of a first contact: a few reductions of all columns, not many of one each.
+        # A few reductions of all columns together, because this takes a good part of the time of a first contact.
         sizes = (dragon.chords, dragon.overhangs, 0.5 * dragon.widths, dragon.lengths)
         columns = np.array([column[: alike + 1] for column in sizes])
         outer = columns[:, min(2, alike) :]
@@ -127,7 +127,7 @@ class Search:
         self.resize(dragon.benches if everyone else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
-        """Search another path, or with another margin."""
+        """Change the path and the margin of the search."""
         self.path, self.margin = path, margin
         self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if isinstance(path, Route):
@@ -160,7 +160,7 @@ class Search:
         edges = self.edges
         self.sizes = self._sizes(self.dragon, benches)
         self.own_sizes = self._sizes(self.nominal, benches) if self.kinds.some else self.sizes
-        # A chain writes every entry before it is read, except the speed of handle 1, which march() reads first.
+        # A chain writes every entry before its first use, except the speed of handle 1, which march() reads first.
         self.rows = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         self.rows[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
@@ -180,7 +180,7 @@ class Search:
         self._march = kernels.March(self.interval, self.probe, opening)
 
     def _sizes(self, dragon: Dragon, benches: int) -> Floats:
-        """Rows of so many leading benches of a dragon, and empty ones for the edges at rest."""
+        """Rows for a number of leading benches of a dragon, and empty ones for the edges at rest."""
         lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
         columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         sizes = np.zeros((benches + 1 + len(self.edges), kernels.SIZE_COLUMNS))
@@ -193,7 +193,7 @@ class Search:
         self.budget.spend(work)
 
     def samples(self, span: float, step: float) -> int:
-        """Number of samples over a span [m] at a step [m], or fewer if the work left allows only fewer."""
+        """Number of samples over a span [m] at a step [m], or fewer if the remaining work requires it."""
         step_work = self.room * (1.0 + len(self.edges) / EDGES_PER_WORK)
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
@@ -233,13 +233,13 @@ class Search:
     def march(
         self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
     ) -> tuple[Ended, Marched]:
-        """March from start, or from where the ring bound ends, to stop [m of travel]: how it ended, what it found.
+        """March from start, or from the end of the ring bound, to stop [m of travel]; returns its end and its result.
 
-        tolerance: half width of the bracket around a contact, 0 if any instant of it will do [m]; dips: look for grazes
-            also where it is 0
-        opening: nothing before the start was cleared, so all pairs are followed until the body repeats itself
-        The march begins earlier and ends later by the rounding of travels, so that what it claims of computed travels
-        and times holds for the true ones.
+        tolerance: half width of the bracket around a contact [m], 0: any instant of it is enough; dips: True finds
+            grazes also with tolerance 0
+        opening: True if nothing before the start is proven clear, so all pairs are followed until the body repeats
+        itself The march begins earlier and ends later by the rounding of travels, so that its claims on computed
+        travels and times hold for the true ones.
         """
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
@@ -273,7 +273,7 @@ class Search:
     def approach(
         self, begin: float, until: float, head_speed: float, *, opening: bool = True
     ) -> tuple[Ended, Marched, float]:
-        """march() between two travels [m], with a contact bracketed; the half width of that bracket comes third [m]."""
+        """march() between two travels [m] with a bracketed contact; the third value is the half width of it [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin, opening=opening)
         for wider in sorted({*BRACKETS_GRAZING, *(wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING)}):
@@ -291,17 +291,17 @@ class Search:
         return state, found, tolerance
 
     def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
-        """Are two benches certainly within the margin after a travel [m], in spite of rounding?"""
+        """True if two benches are certainly within the margin after a travel [m], in spite of rounding."""
         slack = self.travel_rounding(travel)
         place = self.place - travel + slack
         return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
-        """Put a number of leading benches, without pairs, into rows[0] as they are after a travel [m]."""
+        """Fill rows[0] with a number of leading benches after a travel [m], without pairs."""
         self._clearance(travel, leaders, 0)
 
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
-        """Clearance after a travel [m], and its pair; among pairs led by the first `leaders` benches only."""
+        """Clearance after a travel [m], and its pair; only among pairs led by the first `leaders` benches."""
         benches = self.room
         if leaders is None:
             leaders = benches
@@ -324,24 +324,24 @@ class Search:
         return 2 + int(arc / self.extremes[1])
 
     def rates(self, travel: float) -> Floats:
-        """Speed of every handle along the path over the head's after a travel, negative where one turns back [1]."""
+        """Speed of every handle along the path over the head's after a travel [1]; negative for one that moves back."""
         self.clearance(travel)
         return self.rows[0, : self.room + 1, RATE].copy()
 
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
-        """How fast a pair parts after a travel, per metre of head travel [1]."""
+        """Rate at which a pair parts after a travel, per metre of head travel [1]."""
         self.budget.look()
         return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.rows[1]))
 
     def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
-        """Travel in [low, high] where a pair stops approaching [m]."""
+        """Travel in [low, high] at which a pair stops approaching [m]."""
         travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
         self.budget.look()
         return travel
 
 
 def joined(passed: Marched, further: Marched) -> Marched:
-    """The result of a march and of one that went on from where it was proven."""
+    """The joint result of a march and of its continuation."""
     return further._replace(
         proven=max(passed.proven, further.proven),
         steps=passed.steps + further.steps,

@@ -1,4 +1,4 @@
-"""How near the benches come to the edges of a venue, and when."""
+"""Clearance between benches and the edges of a venue, and the time of the first contact."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from core.shown import Shown, worded
 from core.values import Floats, Point, asked_of, checked_number, checked_type
 from core.venue import Area, Venue
 
-# A spiral is laid out this far beyond the last instant, so that rounding cannot put that instant outside it [m].
+# Length of a spiral beyond the last instant, so that rounding cannot put that instant outside it [m].
 SPARE = 1e-3
-# Places of handles are good to 1e-12 m (trajectory()), so a computed place this far beyond a radius is beyond it [m].
+# Distance by which a computed place must be beyond a radius [m]: places of handles are good to 1e-12 m (trajectory()).
 SURELY = 1e-9
 
 
@@ -37,9 +37,9 @@ SURELY = 1e-9
 class Nearest(Shown):
     """Smallest distance between the benches and an area's edges, holes included.
 
-    distance: the least found [m], reached at `time` [s] by `bench`; 0 at the first touch
-    at_least: proven [m]: no bench comes nearer than this, see LeastClearance; None where the search gave up first
-    point: of the bench; wall: of the area (x, y) [m]
+    distance: the least one found [m], reached at `time` [s] by `bench`; 0 at the first touch
+    at_least: proven lower bound [m], see LeastClearance; None if the search gave up first
+    point: nearest point of the bench; wall: nearest point of the area (x, y) [m]
     """
 
     distance: float
@@ -54,12 +54,12 @@ class Nearest(Shown):
 class AreaClearance(Shown):
     """The benches and the edges of one area, by the name of the area.
 
-    outcome: does a bench come within the margin; time: when the first one does [s], None when clear or undecided
-    time_bracket: (proven clear up to, within the margin at) [s]; for undecided up to the end; None when clear or at the
+    outcome: of the search for a bench within the margin; time: of the first one [s], None if clear or undecided
+    time_bracket: (proven clear up to, within the margin at) [s]; if undecided up to the end; None if clear or at the
         start
-    bench, point (x, y) [m]: the first one within the margin, and where it is nearest
-    gap: between that bench and the edge at that time [m]: the margin to rounding, but for contact_at_start
-    nearest: None if it was not asked for
+    bench, point (x, y) [m]: the first bench within the margin, and its nearest point
+    gap: between that bench and the edge at that time [m]: the margin to rounding, except for contact_at_start
+    nearest: None if it was not requested
     """
 
     name: str
@@ -110,7 +110,7 @@ class VenueClearance(Shown):
 
 
 @asked_of("dance", Dance)
-@bounded("how near the benches come to the venue was not found")
+@bounded("the clearance between benches and venue was not found")
 def venue_clearance(
     dance: Dance,
     venue: Venue,
@@ -124,12 +124,12 @@ def venue_clearance(
 ) -> VenueClearance:
     """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
 
-    An edge counts as a rectangle of no width at rest: benches and edges are marched like pairs of benches, with the
-    same proof. The centre of a bench that touches no edge stays inside an area, or outside, as it started.
-    margin: [m]; stray: how far every hole may be from its place [m], so that the ground that benches may cover counts
+    An edge counts as a rectangle at rest without width: benches and edges are marched like pairs of benches, with the
+    same proof. If a bench touches no edge, its centre stays inside or outside an area, as at the start.
+    margin: [m]; stray: largest distance of every hole from its place [m]: then the ground that benches may cover counts
     start, stop: [s], None for the end of the run
-    nearest: also find how near the benches come, which takes most of the time
-    raises: InvalidValue, also for a path that bends too tightly for a chord by the stop; OutsideRun;
+    nearest: True also finds the least distance, which takes most of the time
+    raises: InvalidValue, also for a path with a bend before the stop that is too tight for a chord; OutsideRun;
         TooMuchWork
     """
     checked_type("venue", venue, Venue)
@@ -154,7 +154,7 @@ def venue_clearance(
 
 
 def own_edges(area: Area, frame: Frame) -> Floats:
-    """The edges of an area (E, 4) in the frame in which a path is computed [m]."""
+    """The edges of an area (E, 4) in the own frame of a path [m]."""
     return frame.back(area.edges.reshape(-1, 2, 2)).reshape(-1, 4)
 
 
@@ -167,7 +167,7 @@ def venue_route(path: Spiral | Route, stop: float) -> Route:
 
 
 def venue_end(dance: Dance) -> float:
-    """Last time to which venue_clearance() can follow the dance [s]: a spiral may bend too tightly for a chord."""
+    """Last time to which venue_clearance() can follow the dance [s]: a spiral may become too tight for a chord."""
     end, path = dance.end.time, dance.path
     if isinstance(path, Route):
         return end
@@ -179,12 +179,12 @@ def venue_end(dance: Dance) -> float:
 def is_clear_beyond(
     dance: Dance, venue: Venue, *, margin: float, stray: float = 0.0, start: float, seen: float
 ) -> bool:
-    """Is a spiral dance proven to stay clear of the venue to its end, if it was clear from start to `seen` [s]?
+    """True if a spiral dance is proven to stay clear of the venue to its end, if it was clear from start to `seen` [s].
 
-    The head goes inwards, so neither it nor a bench before the first of the equal ones leaves the disc around the
-    centre that the chords from the head to that bench span. Every other bench, once it has passed where the bench
-    before it began, stands where that one stood since the start, unless it slides back behind its own start (family
-    lemma, core/kernels/repeats.py). So nothing new is met if all edges lie outside the disc by more than the margin.
+    The head goes inwards, so the benches up to the first of the equal ones stay in the disc around the centre that the
+    chords from the head to that bench span. Every other bench, once it has passed the start of the bench before it, is
+    at a place where that one has been since the start, unless it moves back behind its own start (family lemma,
+    core/kernels/repeats.py). So there is no new contact if all edges are outside the disc by more than the margin.
     """
     search = Search(dance.dragon, dance.path, margin, stray=stray)
     dragon = search.dragon

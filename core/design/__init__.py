@@ -1,1 +1,1 @@
-"""How tight a path may be for a dragon."""
+"""The tightest path for a dragon: smallest pitch and shortest turn."""

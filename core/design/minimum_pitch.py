@@ -1,4 +1,4 @@
-"""How tight may the curve be: minimum_pitch()."""
+"""Minimum pitch: the tightest spiral that leads to the turning circle."""
 
 from __future__ import annotations
 
@@ -22,33 +22,35 @@ from core.sampling import bisected
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, asked_of, checked_number, checked_size
 
-# An infeasible pitch is sought this far below the proven bands, so the answer may be off by as much [m of pitch].
+# Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].
 PASSED_OVER = 1e-9
-# The same relative to the pitch, on spirals so wide that a clearance hardly changes with the pitch; it is also the
-# width of the bracket there [1].
+# The same, relative to the pitch [1], on spirals so wide that a clearance hardly changes with the pitch; it is also the
+# width of the bracket there.
 PASSED_OVER_WIDE = 1e-6
-# The pitch is bisected to this width [m]; closer to a graze or a contact on the circle rounding hides which it is.
+# Final width of the bisection [m]: closer to a graze or a contact on the circle, rounding hides which one it is.
 PITCH_WIDTH = 2.0 * BORDER_WIDTH
 # Number of undecided pitches that end a bisection.
 UNDECIDED_MAX = 4
-# Number of pitches in a scan, which serves where no bound on the change of a clearance with the pitch is known.
+# Number of pitches in a scan, which is used if no bound on the change of a clearance with the pitch is known.
 SCAN_SAMPLES = 1000
-# Number of evenly spaced pitches at which islands below the minimum pitch are sought.
+# Number of evenly spaced pitches in the search for islands below the minimum pitch.
 ISLAND_SAMPLES = 400
-# Relative width to which the least growth is found at which a bound clears that spiral and every wider one [1].
+# Relative precision of the least growth for which a bound clears that spiral and every wider one [1].
 TOP_WIDTH = 0.02
-# Below that growth the bounds are asked about ranges of growths; this is their lower end over their upper end [1].
+# Lower end over upper end of the ranges of growths, below that growth, to which the bounds are applied [1].
 RANGES = (0.95, 0.99, 0.998)
-# What limits the pitch is examined this far below it, where a graze has become a contact of some length [m of pitch].
+# Distance below the minimum pitch at which its limit is examined, where a graze has become a longer contact [m of
+# pitch].
 BELOW = 1e-11
-# A contact this close to the circle or the start, with the pair still approaching, is on it [m of head travel].
+# A contact this close to the circle or the start, with the pair still approaching, counts as on it [m of head travel].
 ON_CIRCLE = 1e-4
-# From the instant found just below the minimum pitch, the bottom of the graze is within this [m of head travel].
+# Largest distance between the contact found just below the minimum pitch and the bottom of the graze [m of head
+# travel].
 BOTTOM_WITHIN = 0.01
 
 
 class LimitedBy(StrEnum):
-    """What prevents a smaller pitch."""
+    """Reason against a smaller pitch."""
 
     GRAZE = "graze"
     CIRCLE = "circle"
@@ -60,20 +62,20 @@ class LimitedBy(StrEnum):
 class MinimumPitch(Shown):
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
-    pitch: [m]; pitch_bracket: (infeasible, feasible) [m], twice the same where the start limits it without benches;
-        what lies in between is undecided: more than 1e-9 m on wide spirals and where a fold vanishes within the way
-    limited_by: a graze on the way, contact exactly on the circle, the start: the dance would touch there, or, without
-        benches, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
-    benches: the pair that touches just below; bench: the one that folds then; head_radius: of the head then [m], at a
+    pitch: [m]; pitch_bracket: (infeasible, feasible) [m], with equal ends if the start is the limit without a contact;
+        pitches in between are undecided: more than 1e-9 m on wide spirals, or where a fold disappears on the way
+    limited_by: a graze on the way; contact exactly on the circle; the start, where the dance would touch or, without a
+        contact, begin inside the circle; or the fold: a bench could not follow the head as far as the circle
+    benches: the pair that touches just below; bench: the one that folds there; head_radius: of the head then [m], at a
         fold that of the circle
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
-    justified_by: how every larger pitch is known to be feasible: 'bound': proven for all; 'scan': below proven_from
-        single ones are proven, scan_step [m] apart at most: a narrower range of infeasible ones is not excluded there
-    proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is pitch itself without a scan,
-        the second None for every larger pitch
+    justified_by: evidence for every larger pitch. 'bound': all are proven; 'scan': below proven_from only single ones
+        are proven, at most scan_step [m] apart, and a narrower range of infeasible ones is not excluded there
+    proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is `pitch` without a scan, the
+        second is None for every larger pitch
     scan_step: None without a scan
-    evaluations: number of ways from the start to the circle that were marched, and of bands of pitches, see
-    `core/design/pitch_bands.py`
+    evaluations: number of marched ways from the start to the circle, plus the bands of pitches, see
+        `core/design/pitch_bands.py`
     """
 
     pitch: float
@@ -99,20 +101,20 @@ class MinimumPitch(Shown):
         return f"{limit}; {scan if self.scan_step else ''}proven {most}"
 
 
-# One bench alone: what is feasible at one growth is so at every larger one, so a bisection finds the minimum. With the
-# head at a radius rho, f = b^2 delta^2 + 2 rho (rho + b delta) (1 - cos delta) has a root f = c^2 before its first
-# crest (spiral.py) or none. At a fixed rho and delta f grows with b. Its first crest does not come nearer: in units of
-# b, with theta = rho / b, it is the first zero of h = delta + theta (1 - cos delta) + theta (theta + delta) sin delta,
-# and where h = 0
+# A single bench: if one growth is feasible, every larger one is too, so a bisection finds the minimum. With the head at
+# a radius rho, f = b^2 delta^2 + 2 rho (rho + b delta) (1 - cos delta) has a root f = c^2 before its first maximum
+# (spiral.py) or none. At a fixed rho and delta f grows with b. Its first maximum does not come nearer: in units of b,
+# with theta = rho / b, it is the first zero of h = delta + theta (1 - cos delta) + theta (theta + delta) sin delta, and
+# where h = 0
 #     theta (theta + delta) dh / d theta = -theta^2 (1 - cos delta) - delta (2 theta + delta) < 0,
-# so h, once 0, is negative for all larger theta: where h > 0 on (0, delta) it is so for all smaller theta, all larger
-# b. So the root stays as b grows, at every radius from the circle outwards.
+# so once h is 0, it is negative for all larger theta. If h > 0 on (0, delta), this also holds for all smaller theta,
+# that is all larger b. So the root stays as b grows, at every radius from the circle outwards.
 
 
 class _PitchSearch:
-    """The pitches at which ways are free of contact, from the widest spiral down.
+    """Search for the pitches with ways free of contact, from the widest spiral down.
 
-    scanned_from, scan_step: from where on single pitches were tried, and how far apart [m]; None without a scan
+    scanned_from, scan_step: pitch below which single pitches were tried, and their distance [m]; None without a scan
     """
 
     def __init__(self, ways: Ways) -> None:
@@ -124,11 +126,11 @@ class _PitchSearch:
         self.scan_step: float | None = None
 
     def top(self) -> tuple[float, float | None]:
-        """A feasible pitch to descend from, and the upper end of the feasible pitches above it [m]; None: no upper end.
+        """A feasible pitch for the descent, and the upper end of the feasible pitches above it [m]; None: no upper end.
 
-        From the least growth at which the bound of `core/design/straight.py` clears that growth and every larger one,
-        it and the ring bound are asked about ranges of growths further down.
-        raises: InvalidValue if that growth is beyond the largest pitch allowed, and that pitch is infeasible
+        The bound of `core/design/straight.py` gives the least growth for which it clears that growth and every larger
+        one. Below it, this bound and the ring bound are applied to ranges of growths.
+        raises: InvalidValue if that growth is beyond the largest allowed pitch, and that pitch is infeasible
         """
         lowest, growth = self.lowest / math.tau, SIZE_MAX / math.tau
         clears = self.bands.straight.clears
@@ -153,7 +155,7 @@ class _PitchSearch:
         return math.tau * max(growth, lowest), None
 
     def descend(self, top: float) -> tuple[float, float, str]:
-        """From a feasible pitch down to (infeasible, feasible) [m], close together, and what justifies the way down."""
+        """A narrow bracket (infeasible, feasible) below a feasible pitch [m], and the evidence for those above."""
         if self.alone:
             pitch = self.lowest if self.is_clear(self.lowest) else top
             return *((pitch, pitch) if pitch < top else self.bisect(self.lowest, top)), "bound"
@@ -164,16 +166,16 @@ class _PitchSearch:
             step = max(PITCH_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.ways.grazes(pitch - step) or self.is_clear(pitch - step) is False:
-                    # single pitches below the bands may be clear too, but not all pitches in between are proven
+                    # single pitches below the bands may be clear too, but the pitches in between are not all proven
                     return self.bisect(pitch - step, pitch)[0] if step <= PASSED_OVER else pitch - step, pitch, "bound"
                 step *= 2.0
-        # bands are proven for ways from any distance; this way may begin inside the contact that stops them
+        # bands are proven for ways from any distance; the actual way may begin inside the contact that ends them
         return *self.scan(pitch), "scan"
 
     def scan(self, pitch: float) -> tuple[float, float]:
-        """(infeasible, feasible) by trying SCAN_SAMPLES pitches down to the lowest, then by bisection [m].
+        """(infeasible, feasible) from SCAN_SAMPLES pitches down to the lowest, then by bisection [m].
 
-        They lie closer together further down: each is smaller than the one before by the same factor.
+        Each pitch is smaller than the one before by the same factor, so they are denser at the lower end.
         """
         factor = (self.lowest / pitch) ** (1.0 / SCAN_SAMPLES)
         self.scanned_from, self.scan_step = pitch, (1.0 - factor) * pitch
@@ -191,11 +193,11 @@ class _PitchSearch:
         return self.lowest, pitch
 
     def bisect(self, infeasible: float, feasible: float) -> tuple[float, float]:
-        """The same with a bracket of PITCH_WIDTH [m], wider by what can be neither proven nor refuted in between."""
+        """The bracket narrowed to PITCH_WIDTH [m]; it stays wider by pitches that can be neither proven nor refuted."""
         refuted, left = infeasible, UNDECIDED_MAX
 
         def asked(pitch: float, undecided: bool) -> bool | None:
-            """Is a pitch feasible? `undecided` where neither is known, None once too many were so."""
+            """True if a pitch is feasible, `undecided` if that is not known, None after too many of those."""
             nonlocal refuted, left
             if not left:
                 return None
@@ -209,7 +211,7 @@ class _PitchSearch:
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
-        """Feasible intervals between the lowest pitch and an infeasible one, as far as the grid shows them [m]."""
+        """Feasible intervals between the lowest pitch and an infeasible one, to the resolution of the grid [m]."""
         grid = np.linspace(pitch, self.lowest, ISLAND_SAMPLES).tolist()
         found: list[tuple[float, float]] = []
         touching: tuple[float, int, int] | None = None
@@ -231,7 +233,7 @@ class _PitchSearch:
         return ((self.lowest, end), *found) if end else tuple(found)
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
-        """What limits the minimum pitch, the pair that meets just below it, and the radius of the head there [m]."""
+        """Limit of the minimum pitch, the pair that meets just below it, and the radius of the head there [m]."""
         graze = self.bands.graze
         if self.scan_step is None and graze and graze[1] < infeasible * self.start_turns:
             self.search.use(Spiral(infeasible, self.start_turns), self.margin)
@@ -239,7 +241,7 @@ class _PitchSearch:
             return self._met(travel, travel, graze[0])
         below = BELOW
         state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
-        # on a wide spiral rounding hides a contact so little below
+        # on a wide spiral rounding hides a contact at so small a distance below
         while state is Ended.STUCK and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
             state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
@@ -255,7 +257,7 @@ class _PitchSearch:
         return self._met(travel, travel + BOTTOM_WITHIN, pair)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
-        """Does a pair that meets after a travel meet on the circle? If not: the travel of its dip before `end` [m]."""
+        """Limit of a pair that meets after a travel: contact on the circle, or a graze at its dip before `end` [m]."""
         search, growth = self.search, self.search.growth
         stop = search.travel_at(self.radius / growth)
         end = min(end, stop)
@@ -277,14 +279,14 @@ def minimum_pitch(
     """The smallest pitch such that every larger one lets the head reach the turning circle without contact.
 
     turning_radius: [m]; start_turns: turns from the centre to the start; margin: [m], clearance required
-    stray: how far every hole may be from its place [m]: at the answer no benches can touch with such strays
-    budget: of PITCH_WORK where none is given
-    Every pitch above a certain one is feasible: the spiral is so wide there that the dragon stands nearly straight
+    stray: largest distance of every hole from its place [m]; at the answer no benches can touch with such strays
+    budget: default: PITCH_WORK
+    Every pitch above a certain one is feasible, because the dragon is nearly straight on such a wide spiral
     (`core/design/straight.py`). Below it bands of pitches are proven clear, each for all its pitches at once
-    (`core/design/pitch_bands.py`), down to where a pair of benches grazes: no infeasible pitch is stepped over. A
-    stated scan takes their place where bands have no bound: if benches are so long that handles turn back on the way,
+    (`core/design/pitch_bands.py`), down to a graze of two benches, so no infeasible pitch is missed. A scan, stated in
+    the answer, replaces the bands if they have no bound: if benches are so long that handles move backwards on the way,
     or if the start lies inside the region where benches can touch while ways from further out do touch.
-    raises: InvalidValue; also where benches touch on a straight line, so that no pitch is large enough. TooMuchWork
+    raises: InvalidValue, also if benches touch on a straight line, so that no pitch is large enough; TooMuchWork
     source: the model of Yang et al., section 2.5; their bisection of the contact radius cannot converge, because that
         radius jumps over the circle
 
@@ -308,7 +310,7 @@ def minimum_pitch(
 
 
 def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
-    """The error for benches a and a + 2 that no pitch keeps apart, about the stray where it alone brings them near."""
+    """The error for benches a and a + 2 that no pitch keeps apart; it names the stray if that is the only cause."""
     straight = Straight(search.nominal)
     if straight.gap <= margin:
         return too_near(search.nominal, straight.at, margin)
@@ -320,7 +322,7 @@ def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
 
 
 def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
-    """The minimum pitch that a search finds."""
+    """The result of a search."""
     top, proven_up_to = search.top()
     infeasible = feasible = search.lowest
     justified_by = "bound"

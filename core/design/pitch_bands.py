@@ -1,6 +1,6 @@
-"""Bands of pitches: proofs that all pitches between two are free of contact, for all of them at once.
+"""Bands of pitches: each is an interval of pitches that are proven free of contact all at once.
 
-The proof of one band is written above the loop that carries it out: `core/kernels/strips.py`.
+The proof for one band is written above its loop in `core/kernels/strips.py`.
 """
 
 from __future__ import annotations
@@ -16,43 +16,42 @@ from core.design.straight import Straight
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 
-# A descent first asks for a band down to this part of the top, which is seldom far above the border, and then for the
-# rest [1]. It takes 14.7 ms for the default and 5.9 ms for a circle of 4 m; without this 17.7 and 9.0 ms (2026-11-21).
+# Lower end of the first band of a descent, as a part of its top [1]: the top is seldom far above the border. With it
+# the default takes 14.7 ms and a circle of 4 m 5.9 ms, without it 17.7 and 9.0 ms (measured 2026-11-21).
 FIRST_BAND = 0.9
-# Half width of the bracket around the border of what is feasible [m of pitch]: a graze this far above its border must
-# exceed what gaps are proven good to, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
+# Half width of the bracket around the border of feasible pitches [m of pitch]. A graze this far above its border must
+# exceed the proven error of gaps, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
 BORDER_WIDTH = 5e-13
-# A band narrower than this that is neither proven nor touched ends the descent [m of pitch].
+# A narrower band that is neither proven nor touching ends the descent [m of pitch].
 BAND_MIN = 1e-11
-# Shortest step in a band: this part of the width of the band, because then the band is too wide rather than its steps
-# too long [m of travel per m of pitch], and STEP_MIN, as in a march without a bracket to reach [m of travel].
+# Shortest step in a band, as a part of its width [m of travel per m of pitch]: if a shorter one is needed, the band is
+# too wide; and at least STEP_MIN [m of travel], as in a march without a bracket.
 STEP_PER_WIDTH = 0.2
 STEP_MIN = 1e-7
-# Only in bands narrower than this part of their pitch is the border looked for along one graze; wider ones are halved
-# [1].
+# Largest width, as a part of the pitch, of a band in which the border is searched along one graze; wider bands are
+# halved [1].
 WIDTH_FOLLOWED = 0.1
 # Smallest width of a band that is still halved if no bound holds, as a part of its pitch [1].
 UNBOUNDED_WITHIN = 1e-3
-# Largest work of all bands of a descent together, see core/kernels/constants.py [1]: about a second;
-# the default case does about 130,000.
+# Largest work of all bands of a descent together [1], see core/kernels/constants.py: about a second. The default case
+# takes about 130,000.
 BAND_WORK = 1e7
-# Nothing is marched if no bound of `clears` holds within this multiple of the turning radius, the start or the pitch
+# There is no march if no bound of `clears` holds within this multiple of the turning radius, the start or the pitch
 # [1].
 FAR = 2.0
-# First stride along the way in search of the bottom of a dip [m of travel], and largest number of its doublings.
+# First step along the way to the bottom of a dip [m of travel], and largest number of its doublings.
 STRIDE, STRIDES = 2e-3, 10
-# Width to which the bottom of a dip is found [m of travel].
+# Precision of the bottom of a dip [m of travel].
 BOTTOM_WIDTH = 1e-12
-# Largest number of tries in search of the pitch at which a dip reaches the margin.
+# Most attempts to find the pitch at which a dip reaches the margin.
 LOOKS = 40
 
 
 class Bands:
     """Proofs for one dragon and turning circle, each for an interval of pitches.
 
-    A proven band holds for all ways to the circle, however far outside they start: by a bound that needs no chain from
-    where it holds outwards, and from there inwards by the march for the leading benches, whose every pose the body
-    repeats.
+    A proven band holds for all ways to the circle from any start outside. Far out a bound holds that needs no chain of
+    handles. Further in the march proves it for the leading benches, and the body repeats all their poses.
     work: of all bands together; marches: bands tried; graze: the pair that ends the last descent, and the radius of
         the head then [m], if it was found
     """
@@ -62,18 +61,18 @@ class Bands:
         self.work, self.marches = 0.0, 0
         self.graze: tuple[tuple[int, int], float] | None = None
         self.straight = Straight(search.dragon)
-        # outside the circle the path bends so little everywhere that no handle turns back and no bench folds
+        # outside the circle the path curves so little that no handle moves backwards and no bench folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.extremes[0]) / radius
         self.bent_little = most <= kernels.BEND_LIMIT
         self.total = self.straight.total
         self._make_room(search.room)
 
     def clears(self, low: float, high: float, radius: float) -> bool:
-        """Does a bound clear all from a head radius outwards for all growths in [low, high]?"""
+        """True if a bound excludes contacts from a head radius outwards for all growths in [low, high]."""
         return self.ring_clears(low, high, radius) or self.straight.clears(low, radius, self.margin)
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
-        """Does the ring bound clear all from a head radius outwards for all growths in [low, high]?"""
+        """True if the ring bound excludes contacts from a head radius outwards for all growths in [low, high]."""
         least = float(kernels.ring_least(low, high, radius, self.search.rings, self.total))
         return least > self.margin + self.search.ring_rounding(radius, high)
 
@@ -93,11 +92,11 @@ class Bands:
         return kernels.Strip(low_interval, high_interval, self.shifts)
 
     def prove(self, low: float, high: float, outer: float) -> tuple[Ended, Marched]:
-        """Are all pitches in [low, high] clear while the head's radius falls from outer to the circle [m]?
+        """Outcome of a march for all pitches in [low, high] while the head's radius falls from outer to the circle [m].
 
-        'reached': yes; 'touched': the lowest one is not clear; 'stuck': not provable in one band; 'turned' and
-        'unbounded': perhaps not in narrower bands either, because a handle may turn back or no bound holds far out. The
-        march found is `proven` down to a radius, and `touching` at one.
+        'reached': all are clear; 'touched': the lowest one is not; 'stuck': not provable in one band; 'turned' and
+        'unbounded': perhaps not provable in narrower bands either, because a handle may move backwards, or because no
+        bound holds far out. The march is `proven` down to a radius, and `touching` at one.
         """
         search = self.search
         search.use(Spiral(low, self.start_turns), self.margin)
@@ -131,13 +130,13 @@ class Bands:
         return clear
 
     def descend(self, top: float, lowest: float) -> tuple[float, str]:
-        """The pitch down to which, from `top`, all are proven clear [m], and what stopped there.
+        """The pitch down to which all pitches from `top` are proven clear [m], and the reason why it ends there.
 
-        'lowest': nothing, all is clear; 'border': a contact which, as computed, is a graze less than 2 BORDER_WIDTH
-        below; 'stuck': the next BAND_MIN could not be proven; 'unbounded': no bound holds, a handle turns back, or
+        'lowest': all are clear; 'border': a contact that becomes a graze, as computed, less than 2 BORDER_WIDTH below;
+        'stuck': the next BAND_MIN could not be proven; 'unbounded': no bound holds, a handle moves backwards, or
         BAND_WORK is spent.
-        A band that is not proven is halved, the upper half first. Where its lowest pitch touches, the pitch at
-        which that contact becomes a graze is looked for, and the band ends there instead.
+        A band that is not proven is halved, the upper half first. If its lowest pitch touches, the pitch at which that
+        contact becomes a graze is searched for, and the band ends there instead.
         """
         proven, stopped = top, "lowest"
         bands = [(lowest, top, math.inf)]
@@ -172,7 +171,7 @@ class Bands:
     def border(self, low: float, high: float, found: Marched) -> float | None:
         """A pitch in (low, high) just above that at which a contact found at `low` becomes a graze [m]; None if lost.
 
-        The dip is followed from pitch to pitch; the Illinois form of the false position finds where it reaches the
+        The dip is followed from pitch to pitch; false position (Illinois) finds the pitch at which it reaches the
         margin.
         """
         assert found.touching is not None
@@ -205,7 +204,7 @@ class Bands:
         return end + BORDER_WIDTH
 
     def dip(self, pitch: float, radius: float, pair: tuple[int, int]) -> tuple[float, float]:
-        """Least separation of a pair in its dip around a head radius, no further in than the circle, and where [m]."""
+        """Least separation of a pair in its dip around a head radius, outside the circle, and the radius there [m]."""
         search = self.search
         search.use(Spiral(pitch, self.start_turns), self.margin)
         growth = search.growth

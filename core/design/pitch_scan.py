@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
 JUMP = 0.02
 JUMP_WIDTH = 1e-6
-# Half width of the bracket around a contact [m of head travel], and so of its radius: a picture shows 1e-3 m.
+# Half width of the bracket around a contact, and so of its radius [m of head travel]; a picture shows 1e-3 m.
 RADIUS_WIDTH = 1e-8
 # Largest work of all pitches together, see core/kernels/constants.py: about 5 s. The default scan takes about
 # 2,000,000 [1].
@@ -44,7 +44,7 @@ class PitchScan(Shown):
     """Head radius at first contact against pitch.
 
     pitch, radius: (N,) [m], ascending; a run without contact has no entry
-    pieces: (start, end) indices of the continuous stretches: the radius jumps between two, or there is no contact
+    pieces: (start, end) indices of the continuous parts; between two of them the radius jumps, or there is no contact
     """
 
     pitch: Floats
@@ -76,7 +76,7 @@ class PitchScan(Shown):
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the radius against the pitch: a staircase with dotted jumps.
 
-        returns: the axes given, or those of a new figure, in metres
+        returns: the given axes, or those of a new figure, in metres
         raises: ImportError without matplotlib, naming the extra
         """
         axes = plots.wanted_axes(ax, "PitchScan.plot()")
@@ -89,10 +89,10 @@ class PitchScan(Shown):
 
 
 class Stops:
-    """Radius of the head at first contact, for one dragon on one spiral after another.
+    """Radius of the head at first contact, for one dragon on many spirals.
 
-    The search is that of first_contact() and is proven to miss no contact in the same way. Its bracket is RADIUS_WIDTH
-    in place of 1e-10 m; a radius changes by less than the travel, so it is at least as good.
+    The search is that of first_contact(), with the same proof that it misses no contact. Its bracket is RADIUS_WIDTH
+    instead of 1e-10 m; a radius changes by less than the travel, so its error is smaller still.
     """
 
     def __init__(self, dragon: Dragon, margin: float, budget: Budget | None = None) -> None:
@@ -101,12 +101,12 @@ class Stops:
         self.search: Search | None = None
 
     def radius(self, path: Spiral) -> float | None:
-        """The radius [m], None when nothing touches.
+        """The radius [m], None if nothing touches.
 
-        It is good to RADIUS_WIDTH. Near a graze, where rounding hides when the contact begins, the bracket is wider
-        (BRACKETS_GRAZING in core/contact/march.py).
+        Its error is at most RADIUS_WIDTH. Near a graze, where rounding hides the beginning of the contact, the bracket
+        is wider (BRACKETS_GRAZING in core/contact/march.py).
 
-        An undecided search has met a graze too close to the margin to decide; then the radius is the one of that graze.
+        A search is undecided if a graze is too close to the margin; then the radius is that of the graze.
         raises: InvalidValue as Dance
         """
         end = Dance(self.dragon, path).end
@@ -134,7 +134,7 @@ class Stops:
 
 
 def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
-    """Radius of the head at first contact [m]; None when nothing touches. See Stops."""
+    """Radius of the head at first contact [m]; None if nothing touches. See Stops."""
     return Stops(dragon, margin).radius(path)
 
 
@@ -149,15 +149,15 @@ def pitch_scan(
     progress: Callable[[float], None] = lambda share: None,
     budget: Budget | None = None,
 ) -> PitchScan:
-    """First-contact radius at every pitch, and between samples wherever it falls by more than JUMP.
+    """First-contact radius at every pitch, and at more pitches where it falls by more than JUMP between two samples.
 
-    Such an interval is halved until the fall is gone, and then the curve is continuous there, or until it is narrower
-    than JUMP_WIDTH, and then it is a jump. A jump smaller than JUMP between two samples is not found.
+    Such an interval is halved until the fall is gone, which shows a continuous curve, or until it is narrower than
+    JUMP_WIDTH, which shows a jump. A jump smaller than JUMP between two samples is not found.
 
-    pitches: (N,) [m], ascending; progress: called with the share of the samples that is done
-    locate: False computes the samples alone, many times faster; a fall of more than JUMP between two then separates
-        two pieces
-    budget: SCAN_WORK by default
+    pitches: (N,) [m], ascending; progress: called with the finished share of the samples
+    locate: False computes only the samples, many times faster; then a fall of more than JUMP between two of them
+        separates two pieces
+    budget: default: SCAN_WORK
     raises: TooMuchWork if the budget ends before the scan does; InvalidValue
     """
     pitches = _checked_pitches(pitches)
@@ -193,7 +193,7 @@ def pitch_scan(
 def _too_much(dragon: Dragon, pitch: float) -> str:
     """Advice when the budget ends before the scan does; pitch: the next one [m]."""
     return (
-        f"must be fewer, or benches: the first contact at a pitch of {pitch:g} m and what follows were not found "
+        f"must be fewer, or benches: the first contacts from a pitch of {pitch:g} m on were not found "
         f"{{then}}; the {dragon.benches} chords are "
         f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
     )
@@ -218,7 +218,7 @@ def _checked_pitches(pitches: object) -> Floats:
 def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
     pitches = sorted(known)
     found = [pitch for pitch in pitches if known[pitch] is not None]
-    # A stretch ends at a jump and at a pitch without contact.
+    # A piece ends at a jump, and at a pitch without contact.
     breaks = jumps + [pitch for pitch in pitches if known[pitch] is None]
     cuts = np.unique([0, *np.searchsorted(found, breaks), len(found)]).tolist()
     return PitchScan(np.array(found), np.array([known[pitch] for pitch in found]), tuple(pairwise(cuts)))
@@ -242,7 +242,7 @@ def scan_near_minimum(
 ) -> tuple[PitchScan, MinimumPitch]:
     """The scan at pitches_near() the minimum pitch and at its bracket, and that minimum.
 
-    locate: as pitch_scan(); budget: of both together; without one, each has its own
+    locate: as in pitch_scan(); budget: of both together; without one, each uses its default
     raises: InvalidValue and TooMuchWork as minimum_pitch() and pitch_scan()
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, budget=budget)

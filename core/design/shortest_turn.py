@@ -1,13 +1,13 @@
 """The shortest turn: the deepest entry inside its circle.
 
-Whether handles can follow is known in closed form: a bend's radius must be at least half a chord over ROUTE_BEND_LIMIT
-(core/kernels/constants.py). The arcs' radii add up to S = sqrt(E^2 + growth^2) for the entry radius E (see Turn), so
-both shrink with E, and so does the coil's at the entry: the bend sets one least entry.
+A closed form says whether handles can follow: the radius of a bend must be at least half a chord over ROUTE_BEND_LIMIT
+(core/kernels/constants.py). The sum of the arcs' radii is S = sqrt(E^2 + growth^2) for the entry radius E (see Turn).
+Both radii shrink with E, and so does that of the coil at the entry: so there is one least entry.
 
-Whether benches touch is tried entry by entry, from the circle down. On the coil before the entry first_contact() on the
-spiral answers. From the entry on it answers on the route, but only until the leading benches are out of reach, below;
-whatever follows them then repeats, in place, what they met (core/contact/first_contact.py), so nothing touches later
-either, however long the coils.
+Contacts are tested entry by entry, from the circle down. On the coil before the entry, first_contact() tests the
+spiral. From the entry on it tests the route, but only until the leading benches are out of reach, see below. The
+benches behind them repeat their meetings in the same places (core/contact/first_contact.py), so nothing touches later
+either, for coils of any length.
 """
 
 from __future__ import annotations
@@ -34,26 +34,26 @@ from core.shown import Shown, worded
 from core.tolerance.reach import reach
 from core.values import asked_of, checked_number, checked_size
 
-# Entry radii are tried in steps of this part of the turning radius [1], down to one step from the centre,
+# Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
 ENTRY_STEP = 0.01
 # and the border is bisected to this width [m].
 ENTRY_WIDTH = 1e-9
-# Largest work of all entries together, see core/kernels/constants.py: about 8 s, because a step on a route takes
-# longer than one on a spiral. The default turn takes about 90,000 [1].
+# Largest work of all entries together [1], see core/kernels/constants.py: about 8 s, because a step on a route takes
+# longer than one on a spiral. The default turn takes about 90,000.
 TURN_WORK = 2.5e7
 # The deepest entry that Turn accepts [m].
 ENTRY_MIN = 1e-3
-# Coils are longer than needed by this part of themselves, so that rounding cannot end them too early [1].
+# Additional length of the coils, as a part of the necessary one, so that rounding cannot end them too early [1].
 SPARE_TURNS = 1e-9
 
-# The pair and the time [s] of a first contact; None where the search is undecided.
+# The pair and the time [s] of a first contact; None if the search is undecided.
 Touch = tuple[tuple[int, int] | None, float | None]
 UNDECIDED: Touch = (None, None)
 
 
 class TurnLimit(StrEnum):
-    """What prevents a deeper entry: a chord cannot follow, two benches come within the margin, or nothing
-    down to the deepest entry that is tried."""
+    """Reason against a deeper entry: a chord cannot follow, two benches come within the margin, or none down to the
+    deepest entry that is tried."""
 
     BEND = "bend"
     CONTACT = "contact"
@@ -65,9 +65,9 @@ class ShortestTurn(Shown):
     """The turn with the smallest entry radius such that all larger ones up to the circle can be danced.
 
     turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit
-    benches, time: the pair that comes within the margin just below, and when [s at 1 m/s, 0 at the entry]; None if none
-    scan_step: distance between the entries tried [m]: a narrower range of infeasible ones above is not excluded
-    evaluations: entries tried, each proven
+    benches, time: the pair that comes within the margin just below, and its time [s at 1 m/s, 0 at the entry], or None
+    scan_step: distance between the tried entries [m]; a narrower range of infeasible ones above is not excluded
+    evaluations: number of tried entries, each with a proof
     """
 
     turn: Turn
@@ -96,15 +96,15 @@ def shortest_turn(
     stray: float | Stray = 0.0,
     budget: Budget | None = None,
 ) -> ShortestTurn:
-    """The smallest entry radius, coming from the turning circle, at which nothing touches and every handle can follow.
+    """The smallest entry radius at which nothing touches and every handle can follow, searched from the circle inwards.
 
-    pitch, turning_radius, margin [m]; stray: how far every hole may be from its place [m]; ratio: radius of the first
-    arc over that of the second; start_turns: of the coils
-    Each entry tried is proven; between them, ENTRY_STEP of the turning radius apart, this is a scan and may miss a
-    narrower infeasible range.
-    entry_bracket is ENTRY_WIDTH wide at most, or what it is when the budget is spent; budget: TURN_WORK by default
-    raises: TooMuchWork if it is spent before an infeasible entry was found, or stopped; InvalidValue
-        (turning_radius) when even the turn at the circle cannot be danced
+    pitch, turning_radius, margin [m]; stray: largest distance of every hole from its place [m]; ratio: radius of the
+    first arc over that of the second; start_turns: of the coils
+    Each tried entry is proven. The entries are ENTRY_STEP of the turning radius apart, so this is a scan that may miss
+    a narrower infeasible range.
+    entry_bracket is at most ENTRY_WIDTH wide, or wider if the budget is spent; budget: default: TURN_WORK
+    raises: TooMuchWork if it is stopped, or spent before an infeasible entry was found; InvalidValue (turning_radius)
+        if even the turn at the circle cannot be danced
 
     >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
     4.285762
@@ -158,9 +158,9 @@ def shortest_turn(
 
 
 def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
-    """Entry radii between which chords begin to fit the bends [m]; the first is None if they fit at the deepest entry.
+    """Bracket of the entry radius from which chords fit the bends [m]; its lower end is None if the deepest entry fits.
 
-    raises: InvalidValue (turning_radius) when one cannot follow even at the circle
+    raises: InvalidValue (turning_radius) if a chord cannot follow even at the circle
     """
     if not follows(dragon, turn_at(radius)):
         tightest = 1.0 / turn_at(radius).sharpest[0]
@@ -178,9 +178,9 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
 def _contact(
     budget: Budget, dragon: Dragon, danced: Turn, start_turns: float, kept: tuple[float, float], clear: float | None
 ) -> Touch | None:
-    """The first contact of a dance through the turn, time 0 at its entry; None when proven clear.
+    """The first contact of a dance through the turn, with time 0 at its entry; None if proven clear.
 
-    kept: margin and stray [m]; clear: a larger radius [m] down to which the coil is known to be
+    kept: margin and stray [m]; clear: a larger radius down to which the coil is known to be clear [m]
     """
     margin, stray = kept
     coil = Spiral(danced.pitch, start_turns)
@@ -206,7 +206,7 @@ def _touch(found: FirstContact, zero: float) -> Touch:
 
 
 def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
-    """Travel of the head that must be followed from the entry [m], and the benches that matter until then:
+    """Travel of the head from the entry that needs a search [m], and the benches that matter until then, see
     core/contact/coils.py."""
     coils, chords = coils_of(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
@@ -226,7 +226,7 @@ def coils_of(danced: Turn) -> TwoCoils:
 
 
 def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
-    """The error when the budget ends before the shortest turn is found; entry: the radius tried last [m]."""
+    """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
     longest, shortest = float(dragon.chords.max()), float(dragon.chords.min())
     return budget.too_much(
         "turning_radius",
@@ -238,7 +238,7 @@ def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> To
 
 
 def _refusal(touch: Touch, margin: float, stray: float) -> str:
-    """Why no turn can begin on the circle, in words."""
+    """Reason in words why no turn can begin on the circle."""
     benches, time = touch
     if benches is None or time is None:
         what = f"benches come so near to the margin of {said(margin)} m that it is not decided whether they keep it"

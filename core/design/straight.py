@@ -12,14 +12,14 @@ from core.errors import InvalidValue, said
 from core.kernels.constants import FREE
 from core.values import SIZE_MAX, Floats
 
-# Rounding of the bound, in units of the lengths that it adds up, u = 2^-53 [1]. k is good to 8 u of itself, angles to
-# 14 u, 1 - cos phi to 12 u + 14 u phi sin phi; so what is multiplied by a length is good to fewer than 60 u, and the
-# lengths of one sum are, all together, at most 4 times those named in least(). Where `across` is longer than these it
-# exceeds every margin that the gap does. Angles at their limits need no more, because the bound is smooth there.
-# Whether a dragon is too short to go half around is asked with the same allowance.
+# Rounding of the bound, in units of the lengths in its sums, u = 2^-53 [1]. The relative error of k is at most 8 u,
+# that of angles 14 u, that of 1 - cos phi 12 u + 14 u phi sin phi; so every factor of a length is good to fewer than 60
+# u. The lengths of one sum are together at most 4 times those named in least(). If `across` is longer than these, it
+# exceeds every margin that the gap exceeds. Angles at their limits need no more, because the bound is smooth there.
+# The test whether a dragon is too short to reach half around has the same allowance.
 STRAIGHT_ROUNDING = 3e-14
-# S is chosen so that benches further apart along the path are apart by the gap on a straight line, and at least by this
-# part of the distance that two benches can bridge [1].
+# S is chosen so that benches further apart along the path have at least the gap of a straight line between them, and at
+# least this part of the distance that two benches can bridge [1].
 SPARE = 0.05
 
 # The curvature of the spiral r = b theta at a radius r is (r^2 + 2 b^2) / (r^2 + b^2)^(3/2). It falls with r, and, at a
@@ -36,10 +36,10 @@ SPARE = 0.05
 # o_i cos x + w_i sin x, x <= phi <= pi / 2 the angle between the two, which grows up to x = atan(w_i / o_i). So with
 # d(phi) its value at phi or, if phi is more, at that angle, the benches are apart by at least
 #     c_(i+1) - d_i(beta_i + beta_(i+1)) - d_(i+2)(beta_(i+1) + beta_(i+2)).
-# On a straight line they are apart by c_(i+1) - o_i - o_(i+2), g at the least of all i. On a wide spiral it is less: as
-# their inner corners lean towards each other by angles x and y it loses w_i x + w_(i+2) y, and gains only as much as
-# the squares. So where it is the margin or less on a straight line, they come within the margin at every growth from
-# some on.
+# On a straight line they are apart by c_(i+1) - o_i - o_(i+2); the least of these is g. On a wide spiral it is less:
+# the inner corners lean towards each other by angles x and y, which costs w_i x + w_(i+2) y and gains only terms of
+# second order. So if it is at most the margin on a straight line, they come within the margin on every wide enough
+# spiral.
 #
 # Benches further apart. Let the arc between two points, at theta and theta + delta, be S or longer, S <= pi / k. Where
 # delta <= pi they are apart by at least (2 / k) sin(k S / 2): that holds where the arc is S (Schur, bounds.py), and the
@@ -70,8 +70,8 @@ class Straight:
     """Lengths of a dragon that the bound needs.
 
     gap: least separation of benches `at` and `at` + 2 on a straight line [m]; between: least sum of two consecutive
-        chords between others [m]; both FREE where there are none; chord, overhang, half_width: the largest [m]; total:
-        of all chords [m]
+        chords between others [m]; both FREE without such benches; chord, overhang, half_width: the largest ones [m];
+        total: sum of all chords [m]
     """
 
     def __init__(self, dragon: Dragon) -> None:
@@ -91,13 +91,13 @@ class Straight:
         self._diagonals = np.hypot(overhangs, half_widths)
 
     def clears(self, growth: float, radius: float, margin: float) -> bool:
-        """Does the bound exceed a margin [m]? See least()."""
+        """True if the bound exceeds a margin [m]. See least()."""
         return self._further(growth, radius) > margin and self.least(growth, radius) > margin
 
     def least(self, growth: float, radius: float) -> float:
-        """Lower bound of the separation of any two benches that share no handle [m], the inner one leading at the
-        radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -FREE where it says
-        nothing.
+        """Lower bound of the separation of any two benches that share no handle [m], with the front handle of the inner
+        one at the radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -FREE if
+        there is no bound.
         """
         further = self._further(growth, radius)
         if further == -FREE or self.gap >= FREE:
@@ -106,10 +106,12 @@ class Straight:
         return min(further, self._next_but_one(curvature_most(growth, radius))) - rounding
 
     def _further(self, growth: float, radius: float) -> float:
-        """The same for benches with two others or more between them, without rounding [m]; FREE if there are none."""
+        """The bound for benches with at least two others between them, without rounding [m]; FREE if there are none."""
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
         half_around = (1.0 - STRAIGHT_ROUNDING) * math.pi * radius
-        if 2.0 * math.pi * growth <= diagonals and self.total >= half_around:  # a turn may lie on the next one
+        if (
+            2.0 * math.pi * growth <= diagonals and self.total >= half_around
+        ):  # neighbouring turns of the spiral may meet
             return -FREE
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord
@@ -120,13 +122,13 @@ class Straight:
         beta = math.asin(sine)
         bridged = max(diagonals, width + self.chord * math.tan(beta))
         least = self._along(curvature, beta, bridged)
-        if 2.0 * beta * self.total >= half_around * curvature * self.chord:  # it may go half around
+        if 2.0 * beta * self.total >= half_around * curvature * self.chord:  # the dragon may reach half around
             across = 2.0 * math.pi * growth / math.hypot(1.0, 0.5 * math.pi * growth / radius)
             least = min(least, max(across, math.pi * growth) - bridged)
         return least
 
     def _next_but_one(self, curvature: float) -> float:
-        """The same for benches i and i + 2 [m]."""
+        """The bound for benches i and i + 2 [m]."""
         betas = np.arcsin(0.5 * curvature * self._chords)
         phi = betas[:-1] + betas[1:]
         sine, cosine = np.sin(phi), np.cos(phi)
@@ -142,7 +144,7 @@ class Straight:
         return float(gaps.min())
 
     def _along(self, curvature: float, beta: float, bridged: float) -> float:
-        """The same for benches less than half a turn apart, with two others or more between them [m].
+        """The bound for benches less than half a turn apart, with at least two others between them [m].
 
         bridged: 2 h [m]
         """

@@ -1,4 +1,4 @@
-"""Ways from the start of a spiral to the turning circle: at which pitches are they free of contact?"""
+"""Ways from the start of a spiral to the turning circle, and the pitches at which they are free of contact."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from core.values import SIZE_MIN
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
-# Largest work of all ways and bands together, see core/kernels/constants.py: about 5 s. The default case takes
-# about 150,000 [1].
+# Largest work of all ways and bands together [1], see core/kernels/constants.py: about 5 s. The default case takes
+# about 150,000.
 PITCH_WORK = 4e7
 # Largest work of one way, and of its second march in finer steps if the first one leaves it undecided [1].
 WAY_WORK = 5e6
 FINER_WORK = 1e6
-# A way that ends this close to a fold, where handles are fast, is marched in finer steps [m of head travel].
+# A way that ends nearer to a fold than this, where handles are fast, is marched in finer steps [m of head travel].
 FINE_NEAR_FOLD = 0.1
-# The bound for wide spirals is used if it lets a march begin at most at this part of the radius that the ring bound
-# gives; radii are tried in steps of this factor [1].
+# The bound for wide spirals is used if the march can then begin at this part, or less, of the radius of the ring bound;
+# radii are tried in steps of this factor [1].
 NEARER = 0.8
 # Number of leading benches whose pairs are examined at both ends of a way before it is marched.
 LOOKED_AT = 2
@@ -37,8 +37,8 @@ LOOKED_AT = 2
 class Ways:
     """The ways of one dragon from the start to the circle, one for each pitch.
 
-    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: number of ways marched; tried: the last
-        pitch whose way was asked for [m]; bands: proofs for whole intervals of pitches
+    lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: number of marched ways; tried: the pitch
+        of the last way [m]; bands: proofs for whole intervals of pitches
     """
 
     def __init__(
@@ -58,11 +58,11 @@ class Ways:
         self.marched, self.tried = 0, self.lowest
 
     def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[Ended, Marched]:
-        """March from the start to the circle: REACHED proves every clearance on the way larger than the margin.
+        """March from the start to the circle; REACHED proves that every clearance on the way exceeds the margin.
 
-        width: half width of the bracket around a contact, 0 if any instant of it will do [m of travel]
-        work: the most that it may do
-        raises: Halted when the budget of all ways and bands together is spent or stopped
+        width: half width of the bracket around a contact [m of travel]; 0: any instant of the contact is enough
+        work: largest work of this march
+        raises: Halted if the budget of all ways and bands together is spent or stopped
         """
         search, self.tried = self.search, pitch
         search.budget.afford()
@@ -78,7 +78,7 @@ class Ways:
         if fold > circle * (1.0 - THETA_ROUNDING):
             return Ended.FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
         for state, travel in () if width else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
-            # Most ways that are not clear show it at one of their ends, and no long dragon need be laid out.
+            # Most ways with a contact show it at one of their ends, which needs no long dragon.
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
                 return state, Marched(0.0, travel, pair)
@@ -92,7 +92,7 @@ class Ways:
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:
-        """Is the whole way free of contact? None if neither is known, within rounding of a graze."""
+        """True if the whole way is free of contact; None if rounding of a graze hides it."""
         for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
             state, found = self.march(pitch, width, work)
             if state is not Ended.STUCK or found.touching is not None:
@@ -100,7 +100,7 @@ class Ways:
         return None
 
     def grazes(self, pitch: float) -> bool:
-        """Is the pair whose graze ended the bands within the margin on the way, as far as its dip is followed?"""
+        """True if the pair whose graze ended the bands is within the margin in the followed part of its dip."""
         if not self.bands.graze:
             return False
         pair, radius = self.bands.graze
@@ -110,9 +110,9 @@ class Ways:
         return self.search.surely_within(self.search.travel_at(radius / self.search.growth), pair)
 
     def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
-        """Are benches a and b within the margin with this pitch too, the head at this radius?
+        """True if benches a and b are within the margin at this pitch too, with the head at this radius.
 
-        False where that radius is not on the way.
+        False if that radius is not on the way.
         """
         growth, search = pitch / (2.0 * math.pi), self.search
         search.budget.look()
@@ -125,9 +125,9 @@ class Ways:
         return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:
-        """Let the march begin at the radius beyond which the bound for wide spirals excludes a contact.
+        """Begin the march at the radius beyond which the bound for wide spirals excludes a contact.
 
-        It is used only if that is at most NEARER of the radius from the ring bound: for short benches on wide spirals.
+        It is used only if that is at most NEARER of the radius of the ring bound: for short benches on wide spirals.
         """
         search, clears = self.search, self.bands.straight.clears
         radius = min(search.clear_radius, path.growth * path.start_theta)
@@ -138,7 +138,7 @@ class Ways:
         search.clear_beyond(max(radius, self.radius))
 
     def too_much(self) -> TooMuchWork:
-        """The error when the budget ends before the pitch is found."""
+        """The error if the budget ends before the pitch is found."""
         dragon = self.search.dragon
         k = int(dragon.chords[: dragon.uniform_from + 1].argmin())
         alike = all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs))

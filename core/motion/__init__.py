@@ -1,1 +1,1 @@
-"""Where handles and benches are, and how fast."""
+"""Places and speeds of handles and benches."""

@@ -1,4 +1,4 @@
-"""The sharpest bend between two consecutive benches over a stretch of the dance."""
+"""The sharpest bend between two consecutive benches over an interval of the dance."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from core.sampling import dips
 from core.shown import Shown
 from core.values import Floats, asked_of
 
-# A peak is refined to 1e-9 of a step: the instants of a round, in steps around it; the number of rounds; and how many
-# of the highest peaks are refined.
+# Refinement of a peak to 1e-9 of a step: instants of one round around it, in steps; number of rounds; and number of
+# highest peaks to refine.
 ZOOM = np.linspace(-1.0, 1.0, 33)
 ZOOM_ROUNDS = 7
 PEAKS_REFINED = 5
-# Angles that differ by less than this count as equal, and the first one is taken [rad].
+# Angles with a smaller difference count as equal [rad], and the first one is taken.
 SAME_ANGLE = 1e-13
 # Number of instants whose handles are held in memory at once.
 BATCH = 1_000
@@ -36,8 +36,8 @@ class SharpestBend(Shown):
     benches: tuple[int, int]
 
 
-# The benches from m on are equal and follow the same way: benches (i, i + 1) make the angle that (m, m + 1) made when
-# handle m stood where handle i stands. So m + 2 benches are enough once each handle has passed the start of the one
+# The benches from m on are equal and follow the same way: benches (i, i + 1) have the angle that (m, m + 1) had when
+# handle m was where handle i is now. So m + 2 benches are enough once each handle has passed the start of the one
 # before it.
 @asked_of("dance", Dance)
 @bounded("the sharpest bend was not found")
@@ -86,7 +86,7 @@ def _sharpest(dance: Dance, grid: Floats, budget: Budget | None) -> SharpestBend
     angle = np.concatenate([batch.max(axis=1) for batch in batches])
     joint = np.concatenate([batch.argmax(axis=1) for batch in batches])
     highest = (dips(np.pad(-angle, 1, constant_values=math.inf), PEAKS_REFINED) - 1).tolist()  # both ends too
-    first = int(np.argmax(angle >= angle.max() - SAME_ANGLE))  # where it stays as sharp, as on an arc
+    first = int(np.argmax(angle >= angle.max() - SAME_ANGLE))  # the angle may be constant, as on an arc
     refined = [_refined(dance, grid[k], step, int(joint[k]), grid, budget) for k in {first, *highest}]
     largest = max(bend.angle for bend in refined)
     return min((bend for bend in refined if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)

@@ -1,4 +1,4 @@
-"""Where handles are along the path, and when they pass a place on it."""
+"""Places of handles along the path, and times at which they pass a place."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.kernels.constants import CHAIN_COLUMNS, CHORD, FREE, PLACE, SIZE_COLUM
 from core.paths.route import Route
 from core.values import Floats
 
-# Way of the head between two rows of a table of places [m], and their largest number.
+# Travel of the head between two rows of a table of places [m], and largest number of rows.
 STEP, ROWS_MAX = 0.25, 2_000
 
 
@@ -32,7 +32,7 @@ def handle_places(dance: Dance, times: Floats | Sequence[float], *, budget: Budg
 
 
 def _behind(dance: Dance, heads: Iterable[float], budget: Budget) -> Floats:
-    """Arc lengths (T, n + 1) of all handles where the head is at each of T places [m]."""
+    """Arc lengths (T, n + 1) of all handles for T places of the head [m]."""
     path, last = dance.path, dance.dragon.benches
     sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
     sizes[:last, CHORD] = dance.dragon.chords
@@ -51,10 +51,10 @@ def _behind(dance: Dance, heads: Iterable[float], budget: Budget) -> Floats:
 
 
 class Passing:
-    """When handles first pass places on the path, between two instants [s].
+    """Times at which handles first pass places on the path, between two instants [s].
 
-    Where a handle is depends on where the head is alone, almost evenly: between two rows of a table of both, STEP
-    apart, it is taken for even, which is good to a centimetre.
+    The place of a handle depends only on that of the head. It is interpolated linearly between the rows of a table,
+    STEP apart, with an error below a centimetre.
     """
 
     def __init__(self, dance: Dance, start: float, stop: float, *, budget: Budget | None = None) -> None:

@@ -17,42 +17,42 @@ from core.sampling import bisected
 from core.shown import Shown
 from core.values import asked_of, checked_number
 
-# Every handle is proven to stay below this much above the highest rate found [1]; the rate itself is good to 1e-12.
+# Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9
-# Rates are first sampled in steps of this part of the longest chord [1] ...
+# Step of the first samples of rates, as a part of the longest chord [1] ...
 SAMPLE_STEP = 0.5
-# ... or, on ways of many kilometres, in fewer steps, which follow this many links of chains together [1].
+# ... and, on ways of many kilometres with fewer steps, their largest number of links of chains together [1].
 SAMPLED_LINKS = 1_000_000
 SAMPLES_MIN = 16
 # Number of links of chains after which the tolerance grows fourfold [1]; they take 15 to 250 ms. So nearly equal peaks
-# of many handles give a wider bracket instead of a long search; the turn of the contest takes about 30,000 over 200 s.
-# An interval counts as at least twenty links (core/kernels/speed.py), and the tolerance grows at most twelve times, so
-# every search is bounded.
+# of many handles give a wider bracket, not a long search; the contest's turn takes about 30,000 over 200 s. An interval
+# counts as at least twenty links (core/kernels/speed.py), and the tolerance grows at most twelve times, so every search
+# is bounded.
 LINKS_BUDGET = 250_000
-# With a tolerance of more than this the proof is given up [1]: hundreds of benches on kilometres of winding curve.
+# Largest tolerance before the proof is given up [1]: hundreds of benches on kilometres of winding curve exceed it.
 LOOSEST_TOLERANCE = 1e-2
-# Handles whose rates differ by less than this share the highest one [1].
+# Largest difference of rates that count as equal, so that several handles share the highest one [1].
 TIED = 1e-9
-# Rounding of speeds, so that the maximum head speed itself is allowed [1].
+# Allowance for the rounding of speeds, so that the maximum head speed itself is allowed [1].
 SPEED_ROUNDING = 1e-12
-# A limit counts as kept if it is proven to be kept within this [1].
+# A limit counts as kept if it is proven to be exceeded by at most this part of it [1].
 SPEED_PROVEN = 1e-6
-# The first excess over a limit is narrowed down to this [s], or [m] of head travel at more than 1 m/s, as far as a
-# travel is good to: TRAVEL_WIDTH of the longest one [1].
+# Width of the bracket of the first excess over a limit [s], or [m] of head travel at more than 1 m/s; but at least the
+# error of a travel, TRAVEL_WIDTH of the longest one [1].
 EXCESS_WIDTH = 5e-10
 TRAVEL_WIDTH = 1e-14
 # Number of links of chains after which that search is given up: about a second.
 EXCESS_LINKS = 1_000_000
-# Number of instants that are tried after that, ever nearer to the end of the stretch, where the fold may be: each at
-# half the distance of the one before.
+# Number of instants to try after that, towards the end of the interval, where the fold may be: each at half the
+# distance of the one before.
 HALVINGS = 50
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HighestSpeed(Shown):
-    """speed: the highest found [m/s]; time [s]; handles: those that reach it together
-    speed_bracket: (found, proven not to be exceeded: None where the proof was given up) [m/s]
-    passage: index of that in which it is reached; None outside of all"""
+    """speed: the highest one found [m/s]; time [s]; handles: those that reach it together
+    speed_bracket: (found, proven upper bound: None if the proof was given up) [m/s]
+    passage: index of its passage; None outside all passages"""
 
     speed: float
     speed_bracket: tuple[float, float | None]
@@ -63,11 +63,11 @@ class HighestSpeed(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class MaximumHeadSpeed(Shown):
-    """head_speed: the largest [m/s]
-    head_speed_bracket: (proven to keep the limit: None where the proof was given up, found to reach it) [m/s]
+    """head_speed: the largest one [m/s]
+    head_speed_bracket: (proven to keep the limit: None if the proof was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
     time: time at which they reach it, at that head speed [s]; time_at_unit_head_speed [s]
-    passage: index of that in which they do; None outside of all"""
+    passage: index of its passage; None outside all passages"""
 
     head_speed: float
     head_speed_bracket: tuple[float | None, float]
@@ -84,8 +84,8 @@ class FirstExcess(Shown):
 
     time_bracket: (time until which the limit is proven to be kept, to within SPEED_PROVEN of it; time at which a handle
         is faster) [s], no wider than EXCESS_WIDTH unless the proof was given up: near a fold, or after EXCESS_LINKS
-    time: the second of these, the latest that the first excess can be [s]; handle: the fastest then. Both are None
-        where the proof was given up and no excess was found; the bracket then ends with the stretch.
+    time: the second of these, the latest possible first excess [s]; handle: the fastest one then. Both are None if the
+        proof was given up and no excess was found; the bracket then ends with the interval.
     """
 
     time: float | None
@@ -100,12 +100,11 @@ def highest_speed(
 ) -> HighestSpeed:
     """The highest speed of any handle over continuous time, with the handles that reach it.
 
-    start, stop: [s]; the defaults are 0 (on a route: when it begins, or the whole dragon is on it) and the end of
-        the run
-    Sampled, then every interval of time is proven not to exceed the highest rate by more than RATE_TOLERANCE, and
-    every peak met on the way is refined on the exact derivative. At a joint the speed is continuous and its
-    derivative jumps, so a peak may be a kink. See core/kernels/speed.py.
-    raises: InvalidValue (stop) for a spiral danced to its fold, where speeds grow without bound; TooMuchWork
+    start, stop: [s]; defaults: 0 (on a route its beginning, with the whole dragon on it) and the end of the run
+    After sampling, every interval of time is proven to exceed the highest rate by at most RATE_TOLERANCE, and every
+    peak on the way is refined on the exact derivative. At a joint the speed is continuous and its derivative jumps, so
+    a peak may be a kink. See core/kernels/speed.py.
+    raises: InvalidValue (stop) for a spiral up to its fold, where speeds grow without bound; TooMuchWork
     """
     dragon, clock, end = dance.dragon, dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
@@ -126,7 +125,7 @@ def highest_speed(
 
 
 def _peak_of(search: Search, stretch: Stretch) -> HighestSpeed:
-    """The highest speed while the head goes at one speed; all stand in a pause."""
+    """The highest speed in a part of the dance with one head speed; 0 in a pause."""
     speed = stretch.speed
     if speed == 0.0:
         return HighestSpeed(0.0, (0.0, 0.0), stretch.begin, (0,), stretch.passage)
@@ -153,7 +152,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
 
 
 def _calm(search: Search) -> float:
-    """Argument of kernels.Peak with which it leaves out handles that are no faster than those before them."""
+    """Argument of kernels.Peak that excludes handles which are no faster than those before them."""
     return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
 
 
@@ -169,9 +168,10 @@ def maximum_head_speed(
     """The largest constant head speed at which no handle ever exceeds the limit.
 
     speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
-    Speeds are proportional to the head's, whatever that of the dance, so this is the limit over the highest rate. A
-    dance with passages is played faster or slower as a whole: their speeds, and times that end them, keep their ratio
-    to the head speed and its inverse.
+    All speeds are proportional to the head speed, so this is the limit divided by the highest rate. A dance with
+    passages
+    becomes faster or slower as a whole: their speeds keep their ratio to the head speed, and the times that end them
+    the ratio to its inverse.
     raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)
@@ -183,7 +183,7 @@ def maximum_head_speed(
 
 
 @asked_of("dance", Dance)
-@bounded("when a handle is first too fast was not found")
+@bounded("the first time that a handle is too fast was not found")
 def first_excess(
     dance: Dance,
     speed_limit: float,
@@ -192,7 +192,7 @@ def first_excess(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> FirstExcess | None:
-    """When a handle is first faster than the limit; None if that is proven never to happen.
+    """First time at which a handle is faster than the limit; None if that is proven never to happen.
 
     speed_limit: [m/s], exceeded by more than SPEED_ROUNDING of it
     start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
@@ -213,13 +213,13 @@ def first_excess(
             given_up = given_up or found
         elif given_up is None:
             return found
-        else:  # later than where a proof was given up
+        else:  # after the time at which a proof was given up
             return replace(found, time_bracket=(given_up.time_bracket[0], found.time))
     return None if given_up is None else replace(given_up, time_bracket=(given_up.time_bracket[0], until))
 
 
 def _excess_in(search: Search, stretch: Stretch, limit: float) -> FirstExcess | None:
-    """The first excess while the head goes at one speed."""
+    """The first excess in a part of the dance with one head speed."""
     ratio = limit / stretch.speed
     outcome, excess = _excess(search, stretch.first, stretch.last, stretch.speed, ratio)
     if outcome == EXCEEDED:
@@ -241,7 +241,7 @@ def _excess(search: Search, first: float, last: float, head_speed: float, ratio:
 
 
 def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) -> FirstExcess:
-    """An excess after the time at which a proof was given up [s], looked for ever nearer to the end."""
+    """An excess after the time at which a proof was given up [s], tried at instants that approach the end."""
 
     def faster(time: float) -> int | None:
         """A handle that is certainly faster than the limit at an instant."""
@@ -260,7 +260,7 @@ def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) 
 
 
 def checked_limit(speed_limit: object) -> float:
-    """speed_limit [m/s] if it lies in the range allowed."""
+    """The speed limit [m/s], if it is in the allowed range."""
     if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
         raise InvalidValue("speed_limit", f"speed_limit must be positive, got {said(speed_limit)} m/s")
     return checked_number("speed_limit", speed_limit, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)

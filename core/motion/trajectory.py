@@ -1,4 +1,4 @@
-"""Where every handle and bench is, and how fast."""
+"""Position and velocity of every handle, and pose of every bench."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ AXES = ("x", "y")
 class Trajectory(Shown):
     """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
 
-    ... is (T,) for a list of times and empty for one time. dance: the dance in question; None draws no benches
+    ... is (T,) for a list of times and empty for one time. dance: the dance itself; without it plot() has no benches
     """
 
     time: Floats
@@ -62,7 +62,7 @@ class Trajectory(Shown):
 
     def to_xarray(self) -> xarray.Dataset:
         """position [m], velocity [m/s] (time, handle, axis) and speed (time, handle) [m/s]; without the axis `time`
-        where one time was asked.
+        for a single time.
 
         raises: ImportError without xarray, naming the extra
         """
@@ -76,8 +76,8 @@ class Trajectory(Shown):
         """Plot the dance at one instant, every handle coloured by its speed.
 
         instant: index into the times; the last one by default
-        returns: the axes given, or those of a new figure, in metres
-        raises: ImportError without matplotlib, naming the extra; IndexError where there is no such instant
+        returns: the given axes, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra; IndexError if there is no such instant
         """
         axes = plots.wanted_axes(ax, "Trajectory.plot()")
         time = self.time.reshape(-1)[instant]
@@ -96,7 +96,7 @@ class Trajectory(Shown):
         return axes
 
     def _ahead(self, time: float, velocity: Floats) -> Floats:
-        """The head's direction of travel (2,), that of the path while it pauses."""
+        """The head's direction of travel (2,); during a pause that of the path."""
         if self.dance is not None and not velocity.any():
             return self.dance.path.tangent(self.dance.clock.place(time))
         ahead: Floats = velocity / np.hypot(*velocity)
@@ -110,9 +110,9 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
         the part of a route before its s = 0
-    returns: see Trajectory; positions good to 1e-12 m, speeds from the rigid links, never from differences; where the
-        head changes its speed, those from then on
-    raises: OutsideRun (times) after the end of the run, or where the tail would stand before the beginning of a route;
+    returns: see Trajectory; positions are good to 1e-12 m; speeds come from the rigid links, never from differences; if
+        the head changes its speed at a time, they are the new ones
+    raises: OutsideRun (times) after the end of the run, or if the tail would be before the beginning of a route;
         TooMuchWork
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant
 
@@ -127,7 +127,7 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     time, handles = dance.clock.steady(asked.reshape(-1)), dragon.benches + 1
     shape = (time.size, handles)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-    # on a spiral whole blocks of instants, as the kernels solve them together
+    # whole blocks of instants on a spiral, because the kernels solve them together
     block = 1 if isinstance(dance.path, Route) else kernels.LANES_PER_BLOCK
     batch = block * max(1, BATCH_WORK // (block * handles))
     for first in range(0, time.size, batch):

@@ -1,12 +1,12 @@
-"""Cubics, cut until the kernels' quadrature is exact on each piece and tight bounds enclose its curvature.
+"""Cubics, divided until the kernels' quadrature is exact on each piece and tight bounds enclose its curvature.
 
 The curvature of r(t) = (x, y) on [0, e] is k = T / F^(3/2) with T = x' y'' - y' x'' (of degree 2, as its cubes cancel)
 and F = x'^2 + y'^2 (of degree 4), so
     k' = D / F^(5/2),   D = T' F - 3/2 T F'   (of degree 5),   and   dk / ds = k' / F^(1/2).
-A polynomial lies between the least and the largest of its Bernstein coefficients. If those of D do not change sign,
-the curvature is monotonic and lies between its ends, as on a spiral. Else k' lies in [a, b], a < 0 < b, and k below
-both k0 + b t and k1 - a (e - t), which meet at the height (b k1 - a k0 - a b e) / (b - a); from below likewise. Near a
-crest a and b fall as e, so the excess over the ends falls as e^2 and few cuts suffice.
+A polynomial is between the least and the largest of its Bernstein coefficients. If those of D do not change sign, the
+curvature is monotonic and between the values at its ends, as on a spiral. Else k' is in [a, b], a < 0 < b, and k is
+below both k0 + b t and k1 - a (e - t), which meet at the height (b k1 - a k0 - a b e) / (b - a); the lower bound is
+found in the same way. Near a crest a and b fall as e, so the excess over the ends falls as e^2 and few cuts are enough.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from core.budget import Budget
 from core.errors import InvalidValue
 from core.values import Floats
 
-# A cubic is cut until halving it changes its quadrature by less than this [1] ...
+# A cubic is divided until halving it changes its quadrature by less than this [1] ...
 CUBIC_ARC = 1e-13
 # ... and its curvature is monotonic, or its bounds exceed the ends by less than this [1/m] or this fraction [1].
 CREST_EXCESS = 0.01
-# A squared speed on one cubic below this fraction of the largest is within its rounding [1].
+# A squared speed below this part of the largest one on its cubic is only rounding [1].
 SPEED_ROUNDING = 1e-15
-# A cubic this short [m] that is not yet exact comes to rest or turns on the spot. The lengths of its halves differ by
-# a factor of 16 at most, so no cubic is shorter than 6e-7 m: ten times the rounding of an arc length on a curve of
-# 4e8 m.
+# Shortest cubic [m]: a shorter one that is not yet exact comes to rest or turns on the spot. The lengths of its halves
+# differ by a factor of at most 16, so no cubic is shorter than 6e-7 m: ten times the rounding of an arc length on a
+# curve of 4e8 m.
 CUBIC_SHORT = 1e-5
-# Largest number of cubics in one curve: a zigzag of 1,000 points makes 6,000; 34,000 were cut in 0.07 s (measured
+# Largest number of cubics in one curve: a zigzag of 1,000 points has 6,000; 34,000 were made in 0.07 s (measured
 # 2026-11-21).
 CUBICS_MAX = 100_000
 
@@ -38,7 +38,7 @@ CUBIC, CREST = (float(kernels.PIECE_KINDS.index(kind)) for kind in ("cubic", "cr
 
 
 def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats:
-    """Rows of the kernels' table for cubics r(t) = sum c_k t^k on [0, end], in order, each cut into as many as needed.
+    """Rows of the kernels' table for cubics r(t) = sum c_k t^k on [0, end], in order, each divided as often as needed.
 
     coefficients: (N, 4, 2), ends: (N,); returns (rows, PIECE_COLUMNS), each from S_START 0 to S_END, its length
     raises: InvalidValue (name) if a curve comes to rest or needs more than CUBICS_MAX; Halted
@@ -98,9 +98,9 @@ def _shifted(coefficients: Floats, t: Floats) -> Floats:
 
 
 def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Floats]:
-    """Kind of every cubic, -1 if it must be cut; two curvatures (N, 2) [1/m]; bound on |dk / ds| [1/m^2].
+    """Kind of every cubic, -1 if it must be divided; two curvatures (N, 2) [1/m]; bound on |dk / ds| [1/m^2].
 
-    The curvature of a 'cubic' is monotonic, and the two are those of its ends; of a 'crest' they are bounds.
+    The curvature of a 'cubic' is monotonic, and the two are those of its ends; for a 'crest' they are bounds.
     """
     # In u = t / end, which does not change curvatures.
     _, c1, c2, c3 = np.moveaxis(coefficients * ends[:, None, None] ** np.arange(4)[:, None], 1, 0)
@@ -111,7 +111,7 @@ def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Flo
     speeds = _bernstein(fast)
     slowest = speeds.min(axis=1)
     moves = slowest > SPEED_ROUNDING * speeds.max(axis=1)
-    slowest[~moves], fast[~moves] = 1.0, np.eye(1, 5)  # these are cut in any case
+    slowest[~moves], fast[~moves] = 1.0, np.eye(1, 5)  # these are divided in any case
     k0, k1 = cross[:, 0] / fast[:, 0] ** 1.5, cross.sum(axis=1) / fast.sum(axis=1) ** 1.5
     least, most = change.min(axis=1) / slowest**2.5, change.max(axis=1) / slowest**2.5
     monotonic = (least >= 0.0) | (most <= 0.0)
@@ -125,11 +125,11 @@ def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Flo
     return np.where(moves & near, kinds, -1.0), np.stack([low, high], axis=1), slopes
 
 
-# For all cubics at once, which no library does: numpy's polymul takes one pair at a time, 45 times as long for 1,000
-# pairs, and scipy's BPoly.from_power_basis takes 13 to 20 times as long (a curve through five points 1.8 ms instead
-# of 1.1 ms, measured 2026-11-21).
+# Own code for all cubics at once: numpy's polymul takes one pair at a time, 45 times as long for 1,000 pairs, and
+# scipy's BPoly.from_power_basis takes 13 to 20 times as long (a curve through five points 1.8 ms instead of 1.1 ms,
+# measured 2026-11-21).
 def _product(a: Floats, b: Floats) -> Floats:
-    """Of polynomials by their coefficients, (N, n + 1) and (N, m + 1), the constant first; returns (N, n + m + 1)"""
+    """Product of polynomials with coefficients (N, n + 1) and (N, m + 1), the constant first; returns (N, n + m + 1)"""
     product = np.zeros((len(a), a.shape[1] + b.shape[1] - 1))
     for k in range(b.shape[1]):
         product[:, k : k + a.shape[1]] += a * b[:, k, None]

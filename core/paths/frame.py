@@ -1,4 +1,4 @@
-"""Frame: where a spiral lies in the world. All is computed in its own frame; what has a place is then moved once."""
+"""Frame: the place of a spiral in the world. Everything is computed in its own frame; places are then moved once."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import numpy as np
 from core.values import Floats, Point
 
 
-# A point p of the own frame is in the world at centre + R p, R the rotation after a reflection across the x axis if the
-# dance goes counter-clockwise. R keeps distances, so nothing but places depends on it. Differences from the centre are
-# taken before anything is rotated: a place brought back is then good to a few roundings of its distance from the
-# centre, however far away that is.
+# A point p of the own frame is at centre + R p in the world. R is the rotation, after a reflection across the x axis if
+# the dance goes counter-clockwise. R keeps distances, so only places depend on it. Differences from the centre are
+# taken before a rotation, so the error of a place that is moved back is a few roundings of its distance from the
+# centre, at any distance from the origin.
 @dataclass(frozen=True, slots=True)
 class Frame:
     """The own frame of a spiral in the world.
 
-    centre: (x, y) [m]; rotation: about it [rad]; clockwise: False for the mirror image, reflected before it is rotated
+    centre: (x, y) [m]; rotation: about it [rad]; clockwise: False for the mirror image, which is reflected first
     """
 
     centre: Point = (0.0, 0.0)
@@ -27,11 +27,11 @@ class Frame:
 
     @property
     def is_world(self) -> bool:
-        """Are both frames the same? Then no number changes."""
+        """True if both frames are the same, so that no number changes."""
         return self.clockwise and self.rotation == 0.0 and self.centre == (0.0, 0.0)
 
     def vectors(self, own: Floats) -> Floats:
-        """Directions (..., 2) of the own frame as they are in the world."""
+        """Directions (..., 2) in the world from those in the own frame."""
         if self.is_world:
             return own
         cos, sin = math.cos(self.rotation), math.sin(self.rotation)
@@ -39,16 +39,16 @@ class Frame:
         return np.stack([x * cos - y * sin, x * sin + y * cos], axis=-1)
 
     def points(self, own: Floats) -> Floats:
-        """Points (..., 2) of the own frame as they are in the world [m]."""
+        """Points (..., 2) in the world from those in the own frame [m]."""
         return own if self.is_world else self.vectors(own) + np.array(self.centre)
 
     def point(self, x: float, y: float) -> Point:
-        """One of them [m]."""
+        """Point in the world from one in the own frame [m]."""
         x, y = self.points(np.array([x, y])).tolist()
         return x, y
 
     def back(self, world: Floats) -> Floats:
-        """Points (..., 2) of the world as they are in the own frame [m]."""
+        """Points (..., 2) in the own frame from those in the world [m]."""
         if self.is_world:
             return world
         cos, sin = math.cos(self.rotation), math.sin(self.rotation)

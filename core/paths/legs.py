@@ -1,4 +1,4 @@
-"""Legs: a route drawn by points, each leg between two of them a smooth curve or a straight line."""
+"""Legs: a route through points; each leg between two of them is a smooth curve or a straight line."""
 
 from __future__ import annotations
 
@@ -18,15 +18,16 @@ from core.paths.route import Route
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point, checked_number, checked_point, checked_size, listed
 
-# Radius of an arc at a corner where none is given [m].
+# Default radius of an arc at a corner [m].
 RADIUS = 5.0
-# A smaller turn of two straight legs is none: joints may kink by ten times as much (JOINT_KINK) [rad].
+# Smallest angle between two straight legs that counts as a corner [rad]: joints may kink by ten times as much
+# (JOINT_KINK).
 CORNER_MIN = 1e-10
-# Least half of an angle between two straight legs [rad]: a dragon cannot turn back on the spot.
+# Smallest half angle between two straight legs [rad]: a dragon cannot turn back on the spot.
 BACK_MIN = 1e-3
-# Largest share of a straight leg that a corner takes [1]: the direction of what remains must survive rounding.
+# Largest share of a straight leg that a corner may take [1]: the direction of the rest must survive rounding.
 CUT_MOST = 0.49
-# Largest distance at which the end of a cubic is a waypoint [m]: rounding, far below WAYPOINT_GAP.
+# Largest distance between the end of a cubic and its waypoint [m]: rounding, far below WAYPOINT_GAP.
 AT_WAYPOINT = 1e-6
 
 
@@ -34,8 +35,8 @@ class Legs(Route):
     """A route through points, smooth everywhere.
 
     points: (x, y) [m]; straight: the legs that are straight, leg k from point k to point k + 1; the others are curves
-    radius: of the arcs that round a corner between two straight legs [m], smaller where a leg is too short for it
-    start_heading, end_heading: direction at an end where the leg is a curve [rad]; None: no curvature at that end
+    radius: of the arcs at corners between two straight legs [m]; smaller if a leg is too short for it
+    start_heading, end_heading: direction at an end with a curved leg [rad]; None: no curvature at that end
     start: distance of the head from the beginning at time 0 [m]
     raises: InvalidValue naming the point or the leg; TooMuchWork
 
@@ -77,7 +78,7 @@ class Legs(Route):
         return listed if len(listed) <= REPR_MOST else Shown.__repr__(self)
 
     def _laid_out(self, start_heading: float | None, end_heading: float | None) -> tuple[list[Piece], list[int]]:
-        """Lines, arcs and curves, in the order in which they are danced, and the first point of each."""
+        """Lines, arcs and curves in the order of the dance, and the first point of each."""
         points, straight, last = self.points, self.straight, len(self.points) - 2
         pieces: list[Piece] = []
         firsts: list[int] = []
@@ -108,7 +109,7 @@ class Legs(Route):
 
     @cached_property
     def knots(self) -> Floats:
-        """s of every point (N,) [m]; of a rounded corner, the middle of its arc."""
+        """s of every point (N,) [m]; for a rounded corner the middle of its arc."""
         found = [self.begin]
         ends = [self.begin, *self.joints, self.end]
         for k, (piece, (begin, end)) in enumerate(zip(self.pieces, pairwise(ends), strict=True)):
@@ -121,7 +122,7 @@ class Legs(Route):
         return np.array(found)
 
     def _between(self, k: int, points: tuple[Point, ...]) -> list[float]:
-        """s of the inner points of the curve that is piece k: each ends a cubic [m]."""
+        """s of the inner points of the curve in piece k [m], which are ends of cubics."""
         ends = self.table[self.table[:, kernels.PART] == k, 2]
         places, found, row = self.position(ends), [], 0
         for x, y in points:
@@ -142,7 +143,7 @@ def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
 
 
 def _by_point(error: InvalidValue, firsts: list[int]) -> InvalidValue:
-    """A refusal of one piece, with its points counted as those of the path."""
+    """A refusal of one piece, with the numbers of the path's points instead of the piece's."""
     found = re.match(r"path\.pieces\.(\d+)", error.field)
     if found is None:
         return error
@@ -168,12 +169,12 @@ def _heading(a: Point, b: Point) -> float:
     return math.atan2(b[1] - a[1], b[0] - a[0])
 
 
-# With phi the turn at b, an arc of radius r touches both legs at r tan(phi / 2) from b. Either leg gives at most
-# CUT_MOST of its length to a corner, so that a line remains between two corners.
+# With phi the change of direction at b, an arc of radius r touches both legs at r tan(phi / 2) from b. A corner takes
+# at most CUT_MOST of the length of a leg, so that a line remains between two corners.
 def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point, Arc, Point] | None:
-    """The arc that rounds the corner at point k, b, with the points where it begins and ends; None if it goes straight.
+    """The arc at the corner in point k, b, with its first and last point; None if the path is straight there.
 
-    raises: InvalidValue for a turn back
+    raises: InvalidValue if the path turns back there
     """
     into, out = math.dist(a, b), math.dist(b, c)
     u, v = ((b[0] - a[0]) / into, (b[1] - a[1]) / into), ((c[0] - b[0]) / out, (c[1] - b[1]) / out)

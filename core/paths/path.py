@@ -1,4 +1,4 @@
-"""Path: what every question may ask of a spiral and of a route alike."""
+"""Path: the common interface of spirals and routes."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from core.values import Floats
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HeadState(Shown):
-    """Handle 0 at one instant: theta on a spiral, in its own frame [rad, unwrapped; None off one], radius from the
-    centre of the spiral, or from the origin [m], x [m], y [m]."""
+    """Handle 0 at one instant: theta on a spiral in its own frame [rad, unwrapped], None on a route; radius from the
+    centre of the spiral, or from the origin [m]; x [m], y [m]."""
 
     theta: float | None
     radius: float
@@ -23,16 +23,16 @@ class HeadState(Shown):
 
 
 class Path(Protocol):
-    """A curve by its arc length s [m], which is 0 where the head stands at time 0 and grows in the direction of travel.
+    """A curve by its arc length s [m], which is 0 at the head's place at time 0 and grows in the direction of travel.
 
-    begin, end: s between which the head may be [m]; tail_begin: s of the first place for the last handle [m], None
-        where the path goes on without end behind its begin
-    limit: largest s of the head [m], infinity where a search may look a little past the end
+    begin, end: smallest and largest s of the head [m]; tail_begin: smallest s of the last handle [m], None if the path
+        continues without end behind its beginning
+    limit: largest s of the head in a search [m], infinity if a search may pass the end a little
     growth: radial advance [m/rad], 1 on a route
-    curve, place: the path as the kernels take it, and the place that they give to s = 0: the arc length from the centre
-        of a spiral, 0 on a route [m]
-    slide: how far a point may be from its s along the path, besides the rounding of s [m]
-    frame: of all that is computed, in the world; standard: the path in that frame
+    curve, place: the path in the form of the kernels, and their place for s = 0 [m]: the arc length from the centre of
+        a spiral, 0 on a route
+    slide: largest distance of a point from its s along the path, in addition to the rounding of s [m]
+    frame: the own frame, in which everything is computed; standard: the path in that frame
     """
 
     @property
@@ -69,13 +69,13 @@ class Path(Protocol):
         """The head at arc length s [m]."""
 
     def calm(self, curvature: float) -> float:
-        """Where handles are no faster than their leaders, in the form that kernels.Peak takes.
+        """Part of the path where handles are no faster than their leaders, in the form of kernels.Peak.
 
-        curvature: handles follow without turning back where the path bends no more than this [1/m]
+        curvature: largest curvature at which handles follow without moving backwards [1/m]
         """
 
     def drawn(self, reached: Floats) -> Floats:
-        """Points (N, 2) [m] for a picture, on a spiral as far out as the points (..., 2) reached."""
+        """Points (N, 2) [m] for a picture; on a spiral as far out as the given points (..., 2)."""
 
     def words(self) -> str:
         """The path in a sentence that names all that matters for a proof."""

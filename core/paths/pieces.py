@@ -14,7 +14,7 @@ from core.paths.cubics import cut
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point, checked_angle, checked_number, checked_point, checked_size, listed
 
-# Least distance of two consecutive waypoints [m]: nearer ones are taken for a mistake.
+# Least distance of two consecutive waypoints [m]: nearer ones are a mistake.
 WAYPOINT_GAP = 1e-3
 # Least length of a piece [m]: the direction of a shorter one is lost in rounding.
 LENGTH_MIN = 1e-6
@@ -84,9 +84,9 @@ class Arc(Shown):
 
 @dataclass(frozen=True)
 class Coil(Shown):
-    """Part of an Archimedean spiral between two turns: inwards (clockwise) or outwards (counter-clockwise).
+    """Part of an Archimedean spiral: inwards (clockwise) or outwards (counter-clockwise).
 
-    pitch: [m]; start_turns, end_turns: turns from its centre, danced from the first to the second
+    pitch: [m]; start_turns, end_turns: turns from its centre at its beginning and at its end
     centre: (x, y) [m]; rotation: of the whole spiral [rad]
     """
 

@@ -17,28 +17,28 @@ from core.paths.pieces import Arc, Coil, Line, Piece
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
 from core.values import Floats, checked_number, listed
 
-# Largest distance from its start to which a route is drawn [m], and the number of points.
+# Largest drawn distance from the start of a route [m], and number of points.
 DRAWN = 2_000.0
 DRAWN_POINTS = 20_000
 # Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
-# Largest number of pieces whose kinds are listed one by one [1].
+# Most pieces whose kinds are listed one by one [1].
 PIECES_LISTED = 6
 
 
 class Route(Shown):
-    """Pieces joined into one path, s = 0 at `start` metres from the beginning of the first one.
+    """Pieces joined into one path, with s = 0 at `start` metres from the beginning of the first one.
 
-    pieces: in the order they are danced; joints must agree within JOINT_GAP and JOINT_KINK
+    pieces: in the order of the dance; joints must agree within JOINT_GAP and JOINT_KINK
     table: rows for the kernels; joints: s of every joint [m]; begin, end: s of both ends [m]
     tail_begin: least s of a handle [m]; None if the first piece coils inwards: it continues outwards for the tail
-    calm_beginning: the curvature does not fall along the first piece, so no handle there is faster than its leader
-    slide: largest distance along the path of the head's point from its s, by rounding and at joints [m]
+    calm_beginning: True if the curvature does not fall along the first piece, so no handle is faster than its leader
+    slide: largest distance along the path between the head's point and its s, by rounding and at joints [m]
     raises: InvalidValue naming the piece or the joint and its gap; TooMuchWork
     """
 
-    # For the kernels: places are minus s, and a search may look a little past the end.
+    # For the kernels: places are minus s, and a search may pass the end a little.
     growth, place, limit = 1.0, 0.0, math.inf
     frame = WORLD
 
@@ -75,12 +75,12 @@ class Route(Shown):
         for k, (s, row) in enumerate(joints[1:], start=1):
             self._refuse_joint(k, s, row)
 
-    # Two pieces that do not quite meet are blended, on the longer of the two, by a polynomial of degree 5 over a length
-    # l of at most 1 m (BLEND in core/kernels/constants.py). It takes a gap g across the path, a kink k and a step d of
-    # the curvature inside a part to zero. It stays within g + k l + d l^2 of the piece, its second derivative within
-    # 10 g / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. A piece may have one at either
-    # end, hence twice that. A curve at some distance beside a bend has more curvature, by the square of the bend times
-    # the distance. Gaps along the path displace the head alone.
+    # Two pieces that do not meet exactly are blended, on the longer one, by a polynomial of degree 5 over a length l of
+    # at most 1 m (BLEND in core/kernels/constants.py). It reduces a gap g across the path, a kink k and a step d of the
+    # curvature inside a part to zero. It stays within g + k l + d l^2 of the piece, its second derivative within
+    # 10 g / l^2 + 6 k / l + 3 d, its third within 60 g / l^3 + 36 k / l^2 + 9 d / l. A piece may have one at both ends,
+    # hence twice that. A curve at some distance beside a piece has more curvature, by the square of the curvature times
+    # the distance. Gaps along the path displace only the head.
     def _smooth(self) -> float:
         """Fill in the distance of the pieces from a smooth path; returns `slide` [m]."""
         table, misses, slides = self.table, np.zeros((len(self.table), kernels.MISS_COLUMNS)), np.zeros(len(self.table))
@@ -142,12 +142,12 @@ class Route(Shown):
 
     @property
     def standard(self) -> Route:
-        """Itself: a route is computed in the world."""
+        """The route itself, because it is computed in the world."""
         return self
 
     @property
     def curve(self) -> kernels.Curve:
-        """The route as the kernels take it."""
+        """The route in the form of the kernels."""
         return kernels.route_curve(self.table)
 
     def head(self, s: float) -> HeadState:
@@ -156,7 +156,7 @@ class Route(Shown):
         return HeadState(None, math.hypot(x, y), x, y)
 
     def calm(self, curvature: float) -> float:
-        """1 if no handle on the first piece is faster than its leader, else 0: the form that kernels.Peak takes."""
+        """1 if no handle on the first piece is faster than its leader, else 0, in the form of kernels.Peak."""
         return 1.0 if self.calm_beginning else 0.0
 
     def words(self) -> str:
@@ -166,7 +166,7 @@ class Route(Shown):
         return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
 
     def drawn(self, reached: Floats) -> Floats:
-        """Points (N, 2) [m] for a picture: the whole route, whatever the dragon has reached."""
+        """Points (N, 2) [m] for a picture: always the whole route."""
         s = np.linspace(max(self.begin, -DRAWN), min(self.end, DRAWN), DRAWN_POINTS)
         return self.position(s)
 
@@ -180,7 +180,7 @@ class Route(Shown):
 
     @cached_property
     def sharpest(self) -> tuple[float, float]:
-        """The largest |curvature| [1/m], on a cubic its bound, and an s [m] where it occurs."""
+        """The largest |curvature| [1/m], for a cubic its bound, and the s [m] of it."""
         curvatures = np.abs(self.table[:, 3:5])
         row, end = np.unravel_index(int(curvatures.argmax()), curvatures.shape)
         return float(curvatures[row, end]), float(self.table[row, 1 + end])

@@ -1,4 +1,4 @@
-"""Spiral: arc length s -> point and tangent. s grows in the direction of travel; the tail has the smaller s.
+"""Spiral: point and tangent at arc length s, which grows in the direction of travel; the tail has the smaller s.
 
 Spiral is the whole dance of the contest; Route joins pieces (Line, Arc, Coil, Waypoints) into one path.
 """
@@ -20,9 +20,9 @@ from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, Point, checked_angle, checked_number, checked_point, checked_size
 
 START_TURNS_MAX = 1e5
-# Points in each drawn turn of a spiral.
+# Number of points in each drawn turn of a spiral.
 DRAWN_POINTS = 120
-# Width to which gentle_theta() is bisected, relative [1].
+# Relative width to which gentle_theta() is bisected [1].
 GENTLE_WIDTH = 1e-9
 
 
@@ -31,10 +31,10 @@ class Spiral(Shown):
     """Archimedean spiral r = growth * theta, danced inwards from start_turns turns.
 
     pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0
-    centre: (x, y) [m]; rotation: of the whole spiral about it [rad], as of a Coil
+    centre: (x, y) [m]; rotation: of the whole spiral about it [rad], as in a Coil
     clockwise: the direction of the dance; False: its mirror image
-    Negative s lies on the outward extension of the same spiral; the centre is at s = length.
-    Where the spiral lies matters to places, never to times, distances or proofs: those belong to `standard`.
+    Negative s is on the outward extension of the same spiral; the centre is at s = length.
+    The place of the spiral changes only places, never times, distances or proofs, which are those of `standard`.
 
     Arc length from the centre: growth / 2 (theta sqrt(1 + theta^2) + asinh theta).
 
@@ -66,10 +66,10 @@ class Spiral(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("length", worded(self.length, "m", TABLE_DIGITS))]
 
-    # The head enters at s = 0 and may go to the centre; the tail stands on the outward extension, which has no end.
+    # The head enters at s = 0 and may go to the centre; the tail is on the outward extension, which has no end.
     begin = 0.0
     tail_begin = None
-    slide = 0.0  # points are exact but for the rounding of s
+    slide = 0.0  # points are exact except for the rounding of s
 
     @property
     def end(self) -> float:
@@ -80,7 +80,7 @@ class Spiral(Shown):
 
     @cached_property
     def frame(self) -> Frame:
-        """Where its own frame is."""
+        """The own frame of the spiral."""
         return Frame(self.centre, self.rotation, self.clockwise)
 
     @property
@@ -95,7 +95,7 @@ class Spiral(Shown):
 
     @property
     def curve(self) -> kernels.Curve:
-        """The spiral as the kernels take it."""
+        """The spiral in the form of the kernels."""
         return kernels.spiral_curve(self.growth)
 
     @cached_property
@@ -149,7 +149,7 @@ class Spiral(Shown):
         return HeadState(theta, radius, *self.frame.point(radius * math.cos(theta), radius * math.sin(theta)))
 
     def calm(self, curvature: float) -> float:
-        """Radius outside which the |curvature| is at most this [1/m], in the form that kernels.Peak takes [m]."""
+        """Radius outside which the |curvature| is at most this [1/m], in the form of kernels.Peak [m]."""
         return self.growth * self.gentle_theta(curvature)
 
     def words(self) -> str:
@@ -157,7 +157,7 @@ class Spiral(Shown):
         return f"a spiral of {said(self.pitch)} m pitch from {said(self.start_turns)} turns"
 
     def drawn(self, reached: Floats) -> Floats:
-        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to the points reached."""
+        """Points (N, 2) [m] for a picture: from the centre to the start, or further out to the given points."""
         radius = max(float(np.hypot(*self.frame.back(reached).T).max()), self.growth * self.start_theta)
         theta = np.linspace(0.0, radius / self.growth, DRAWN_POINTS * int(radius / self.pitch + 2))
         line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)

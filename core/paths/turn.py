@@ -1,4 +1,4 @@
-"""The turn: two tangent arcs from a coil inwards to the same coil outwards, turned by half a revolution."""
+"""The turn: two tangent arcs from a coil inwards to a coil outwards, its rotation by half a revolution."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ RATIO_MIN = 0.01
 RATIO_MAX = 100.0
 
 
-# Where the arcs lie.
+# Places of the arcs.
 # At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta,
 # where theta is the polar angle. By symmetry the dance leaves at -E in the same direction T. With n the normal to the
 # right of T, the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
@@ -30,7 +30,7 @@ class Turn(Route):
     A route of four pieces: the coil inwards, two arcs, first clockwise, then counter-clockwise, and the coil outwards;
     s = 0 at the entry.
     pitch [m]; turning_radius [m]; ratio: radius of the first arc over that of the second; start_turns: of both coils
-    entry_radius: where the turn begins, at most the turning radius, which is its default [m]
+    entry_radius: radius at the beginning of the turn [m], at most the turning radius, which is its default
     radii [m]; centres [m]; angles: turned on each arc [rad]; entry, tangent_point, exit [m]; length: of both arcs [m]
     raises: InvalidValue
 
@@ -78,7 +78,7 @@ class Turn(Route):
         )
         try:
             route = Route(pieces)
-        except InvalidValue as error:  # every piece is valid, so a joint is at fault
+        except InvalidValue as error:  # every piece is valid, so the fault is in a joint
             rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
             raise InvalidValue.of("start_turns", rule, turns, "turns") from error
         super().__init__(pieces, start=route.joints[0])
@@ -101,7 +101,7 @@ class Turn(Route):
 
 
 def _refuse_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
-    """Refuse impossible arcs by the parameter at fault: the ratio if equal arcs would be possible."""
+    """Refuse impossible arcs by the wrong parameter: the ratio if equal arcs would be possible."""
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
     if min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN:
         return

@@ -1,1 +1,1 @@
-"""Rectangles that overlap, judged by several engines."""
+"""Overlaps of rectangles, found by several engines."""

@@ -1,6 +1,6 @@
 """The paper's rule for overlapping benches: corners by its rotation matrix, collision by a sum of angles.
 
-A cross-check, never the judge: the rule sees only corners inside rectangles, and needs a tolerance.
+It serves only as a cross-check: the rule sees only corners inside rectangles, and needs a tolerance.
 """
 
 from __future__ import annotations
@@ -16,27 +16,27 @@ from core.shapes.broad_phase import Pairs, meeting_pairs
 from core.shapes.rectangles import frames
 from core.values import Floats
 
-# Pairs that the rule judges at once: 32 angles a pair stay within 60 MB.
+# Most pairs in one batch: 32 angles for each pair stay within 60 MB.
 ANGLE_BATCH = 50_000
 
-# Sums of four angles this close to a full turn count as one: their rounding is below 1e-14. A point d outside
-# the middle of an edge of length e lacks 8 d / e, so in reach this is 4e-13 m for an edge of 3.41 m [rad].
+# Tolerance of a sum of four angles for a full turn [rad]: its rounding is below 1e-14. The sum at a point d outside the
+# middle of an edge of length e is 8 d / e too small, so the tolerance is a distance of 4e-13 m for an edge of 3.41 m.
 ANGLE_TOLERANCE = 1e-12
 
 # Upper bound on the rounding of such a sum [rad].
 SUM_ROUNDING = 1e-13
 
-# Eq. 12's order of the corners, top right, bottom right, bottom left, top left, in units of (half length, half
-# width), the length pointing right.
+# Corners in the order of eq. 12: top right, bottom right, bottom left, top left, in units of (half length, half width),
+# with the length to the right.
 PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
 def paper_corners(poses: Floats, sizes: Floats) -> Floats:
     """Corners (..., 4, 2) [m] by the paper's construction: centre, rotation matrix, half sizes.
 
-    Eq. 12 as printed does not multiply by the matrix of eq. 11: the sign of w/2 cos theta is wrong in the y of all
+    Eq. 12 as printed is not the product with the matrix of eq. 11: the sign of w/2 cos theta is wrong in the y of all
     four corners. Here it is right. The paper's theta points from the front handle to the rear one, and its arctan
-    ignores the quadrant: both differ from our heading by at most half a turn, which only renames corners.
+    ignores the quadrant: so its heading may differ from ours by half a turn, which only renames corners.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]
     source: Yang et al., eqs. 8-12
@@ -65,7 +65,7 @@ def _turned(poses: Floats, sizes: Floats, last: float) -> Floats:
 def angle_sums(points: Floats, polygon: Floats) -> Floats:
     """Sum of the angles that the edges of a convex polygon subtend at each point [rad].
 
-    A full turn inside and on an edge, less outside; a corner counts as on the edge.
+    It is a full turn inside and on an edge, corners included, and less outside.
 
     points: (..., P, 2) [m]; polygon: (..., C, 2) [m]; returns (..., P)
     source: Yang et al., eq. 13
@@ -78,7 +78,7 @@ def angle_sums(points: Floats, polygon: Floats) -> Floats:
 
 
 def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float = ANGLE_TOLERANCE) -> NDArray[np.bool_]:
-    """Whether the rule sees a corner of one polygon in the other, pair by pair.
+    """True for each pair in which the rule sees a corner of one polygon in the other.
 
     It misses polygons that cross without a corner inside, and counts corners slightly outside as inside: see
     ANGLE_TOLERANCE.
@@ -95,7 +95,7 @@ def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float 
 # side, so it fills an angle of at most pi - 2 atan(d / D). From outside, each direction into the polygon meets two
 # edges, so the sum is at most 2 pi - 4 atan(d / D), which is less than 2 pi - tolerance if d > D tan(tolerance / 4).
 def _holds_any(points: Floats, polygon: Floats, tolerance: float) -> NDArray[np.bool_]:
-    """Whether any of the points lies inside the polygon, by the rule. points: (..., P, 2), polygon: (..., C, 2) [m]"""
+    """True if any of the points is inside the polygon, by the rule. points: (..., P, 2), polygon: (..., C, 2) [m]"""
     # x and y first, then the points: numpy is slow along short last axes.
     place, edge = (np.ascontiguousarray(np.moveaxis(one, (-1, -2), (0, 1))) for one in (points, polygon))
     low, high = edge.min(axis=1), edge.max(axis=1)
@@ -108,7 +108,7 @@ def _holds_any(points: Floats, polygon: Floats, tolerance: float) -> NDArray[np.
 
 
 def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
-    """The pairs that the rule sees overlap at each instant. poses: (T, n, 3); sizes: (n, 2)
+    """The pairs that overlap by the rule at each instant. poses: (T, n, 3); sizes: (n, 2)
 
     raises: InvalidValue for a margin that is not 0
     """
@@ -128,7 +128,7 @@ def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, 
 
 
 def angle_sum_judged(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    """Does the rule see a single pair overlap, at each instant? poses: (T, 2, 3); sizes: (2, 2)"""
+    """True at each instant at which a single pair overlaps by the rule. poses: (T, 2, 3); sizes: (2, 2)"""
     corner = paper_corners(poses, sizes)
     sums = angle_sums(corner, corner[:, ::-1])  # each bench's corners in the other
     overlap: list[bool] = np.any(sums >= 2.0 * np.pi - ANGLE_TOLERANCE, axis=(1, 2)).tolist()

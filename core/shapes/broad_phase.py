@@ -1,6 +1,6 @@
-"""Pairs of benches that may touch: those whose upright boxes come within the margin. It misses none.
+"""Pairs of benches that may touch: all whose upright boxes come within the margin; no touching pair is missed.
 
-And those of them that are within it, by the exact separation of two rectangles.
+A second step keeps those within the margin, by the exact separation of two rectangles.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ Pairs = NDArray[np.int64]
 
 # Largest number of overlapping pairs in one answer: 10 for each of 100,000 benches; the search takes 200 MB for them.
 PAIRS_MAX = 1_000_000
-# Largest number of upright boxes that meet, in pairs: under a second of search. 100,000 benches on a spiral of pitch
+# Largest number of pairs of upright boxes that meet: under a second of search. 100,000 benches on a spiral of pitch
 # 0.55 m have 340,000 such pairs without neighbours.
 CANDIDATES_MAX = 20_000_000
 # The same for the other engines; FCL takes about 5 microseconds for each pair.
 CROSS_CANDIDATES_MAX = 2_000_000
-# Searches reach further by this fraction of the coordinates and sizes in their operands: each of their few operations
-# rounds by 1.1e-16, and so does the separation that they must not miss [1].
+# Additional reach of the search, as a part of the coordinates and sizes [1]: each of its few operations rounds by
+# 1.1e-16, and so does the separation that it must not miss.
 ROUNDING = 4e-15
 
 
@@ -49,14 +49,14 @@ def checked_benches(
     return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
 
 
-# If two rectangles lie within the margin, so do their upright boxes along x and along y; grown by half the margin on
-# every side, these boxes meet.
+# If two rectangles are within the margin, so are their upright boxes along x and along y; so these boxes meet when they
+# are grown by half the margin on every side.
 def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, budget: Budget | None = None) -> Pairs:
     """Pairs (P, 2), a < b, whose upright boxes meet; if exact, only those within the margin, rounded up.
 
     frame: rows of rectangles.frames()
-    raises: TooLarge with the field benches beyond PAIRS_MAX pairs or CANDIDATES_MAX boxes that meet if exact, beyond
-        CROSS_CANDIDATES_MAX otherwise
+    raises: TooLarge with the field benches for more than PAIRS_MAX pairs or CANDIDATES_MAX meeting boxes if exact, for
+        more than CROSS_CANDIDATES_MAX otherwise
     """
     half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
     scale = np.abs(frame[:, :2]).sum(axis=1) + frame[:, 4:].sum(axis=1) + margin
@@ -85,9 +85,9 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
 
 
 def _tree_order(centres: Floats, leaves: int) -> Pairs:
-    """Order of the rows in which groups of four lie close together: strips of equal count along x, each sorted along y.
+    """Order of the rows that puts near rows into groups of four: slices with equal counts along x, each sorted along y.
 
-    Strips go by rank, not by coordinate, so that one distant bench does not crowd all others into one strip.
+    Slices are made by rank, not by coordinate, so that one distant bench does not push all others into one slice.
     """
     strip = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
     strip_of = np.empty(len(centres), dtype=np.int64)
@@ -104,7 +104,7 @@ def pairs_within(poses: Floats, sizes: Floats, margin: float, chained: bool, bud
 
 
 def pair_within(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
-    """Is a single pair within the margin, at each instant? poses: (T, 2, 3); sizes: (2, 2)"""
+    """True at each instant at which a single pair is within the margin. poses: (T, 2, 3); sizes: (2, 2)"""
     pairs, gaps = frames(poses, sizes), np.empty(len(poses))
     first, second = (np.ascontiguousarray(pairs[:, bench]) for bench in (0, 1))
     kernels.pair_gaps(first, second, kernels.NO_LIMIT, gaps)

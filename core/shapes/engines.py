@@ -1,6 +1,6 @@
 """Four independent ways to find overlapping benches; shapely's tests of polygons at rest, and their union.
 
-The only file that knows FCL and shapely; it imports them on demand.
+Only this file uses FCL and shapely; it imports them on demand.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from core.values import Floats
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
 KEPT_DRAGONS = 8
 KEPT_BENCHES = 2_000
-# Polygons grow by arcs of chords, so many to a quarter of a circle. GEOS rounds their number, so that one may span half
-# as much more, and it leaves dents of up to a hundredth of the growth out: what it is told to grow by, and how far that
-# takes a point, both as a multiple of the growth asked for [1].
+# Number of chords for a quarter of a circle when polygons grow. GEOS rounds the number of chords of an arc, so a chord
+# may span half as much more, and it ignores dents of up to a hundredth of the growth. So: the growth that GEOS gets,
+# and the largest distance that a point can move, both as a multiple of the required growth [1].
 ARC_CHORDS = 8
 ARC_RADIUS = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
 GROWTH_MOST = 1.01 * ARC_RADIUS
-# Points of a union lie on a grid, which moves no side by more than a step [m]; and how many polygons are united between
-# two looks at the budget [1].
+# Step of the grid for the points of a union, by which a side can move at most [m]; and number of polygons that are
+# united between two checks of the budget [1].
 GRID, UNITED = 1e-5, 32
 
-# Of each polygon its rings (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
+# Rings of each polygon, (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
 Polygons = tuple[tuple[Floats, ...], ...]
 
 
@@ -70,7 +70,7 @@ def found_pairs(
 
 
 def _refuse_hopeless(frame: Floats, margin: float, chained: bool, budget: Budget) -> None:
-    """raises: TooLarge if too many boxes meet for FCL and shapely, which search for pairs themselves"""
+    """Refuse too many meeting boxes for FCL and shapely, which search for pairs themselves. raises: TooLarge"""
     if len(frame) ** 2 > 2 * CROSS_CANDIDATES_MAX:
         meeting_pairs(frame, margin, chained, exact=False, budget=budget)
 
@@ -86,7 +86,7 @@ def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Bud
             _refuse_hopeless(rows, margin, chained, budget)
             pairs = boxes.meeting(pose, budget)
             if margin > 0.0:
-                if chained:  # Neighbours are all among them, and testing a pair takes six more bodies.
+                if chained:  # All neighbours meet, and the test of a pair needs six more bodies.
                     pairs = pairs[pairs[:, 1] - pairs[:, 0] != 1]
                 near = [_fcl_within(pose[pair], sizes[pair], margin, budget) for pair in pairs]
                 pairs = pairs[np.array(near, dtype=bool)]
@@ -96,9 +96,9 @@ def _fcl(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Bud
 class _FclBoxes:
     """FCL's boxes of benches, made once and moved from pose to pose, by one thread at a time.
 
-    Making them takes longer than moving them, and each leaks 44 bytes, because python-fcl 0.7 frees a body without its
-    destructor. Every pose gets a new manager, whose tree fits it: building one for 223 benches takes 0.05 ms, while a
-    search in a tree built for another pose loses up to 0.2 ms of 2.0 (2026-11-21).
+    It takes longer to make them than to move them, and each leaks 44 bytes, because python-fcl 0.7 frees a body without
+    its destructor. Every pose gets a new manager with its own tree: building one for 223 benches takes 0.05 ms, while
+    the tree of another pose slows the search by up to 0.2 ms of 2.0 (measured 2026-11-21).
     """
 
     def __init__(self, sizes: Floats) -> None:
@@ -108,9 +108,9 @@ class _FclBoxes:
         self.bodies = [fcl.CollisionObject(box, fcl.Transform()) for box in self.boxes]
 
     # FCL's tree keeps the upright cube around the sphere around each box: of 223 benches 1,925 pairs of cubes meet, but
-    # only 661 pairs of upright boxes. An exception in the callback would vanish. The bodies that it gets are new
-    # wrappers, so only the geometries of a contact identify the benches. fcl.collide() makes a result of its own each
-    # time and only appends the contact to ours, so one result can gather all contacts.
+    # only 661 pairs of upright boxes. An exception in the callback would be lost. The callback gets new wrappers of
+    # bodies, so only the geometries of a contact identify the benches. fcl.collide() makes its own result each time and
+    # only appends the contact to ours, so one result can collect all contacts.
     def meeting(self, poses: Floats, budget: Budget) -> Pairs:
         """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
         import fcl
@@ -139,8 +139,8 @@ class _FclBoxes:
 
 
 class _Kept:
-    """Boxes of the most recent dragons. A user has its boxes alone: python-fcl never releases Python's lock, but
-    Python may pass the lock on while a callback runs, and a body can only be in one place."""
+    """Boxes of the most recent dragons. Each thread has its boxes for itself: python-fcl never releases Python's lock,
+    but Python may pass the lock on during a callback, and a body can only be in one place."""
 
     def __init__(self) -> None:
         self.lock = Lock()
@@ -169,7 +169,7 @@ _KEPT = _Kept()
 
 
 # FCL separates two boxes by the separating axis theorem [boxBox2 of its narrow phase]. All boxes lie flat on one plane,
-# so no axis separates them by their heights, and every height gives the same answer: a low one keeps the sphere around
+# so no axis separates them by their heights, and every height gives the same answer. A low one keeps the sphere around
 # the box small.
 def _fcl_box(length: float, width: float) -> object:
     import fcl
@@ -219,7 +219,10 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget:
 
 
 def unions_meet(a: Floats, b: Floats, margin: float) -> NDArray[np.bool_]:
-    """Does shapely find unions of polygons a and b, (n, parts, corners, 2), within the margin [m]? (n,)"""
+    """True for each of n unions of polygons a and b that shapely finds within the margin [m].
+
+    a, b: (n, parts, corners, 2) [m]
+    """
     import shapely
 
     meet = shapely.dwithin(shapely.polygons(a)[:, :, None], shapely.polygons(b)[:, None, :], margin)
@@ -243,7 +246,7 @@ def polygon_fault(rings: Sequence[ArrayLike]) -> tuple[str, float, float] | None
 
 
 def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
-    """Which points lie inside a valid polygon, not on its boundary. rings: as in polygon_fault(); points: (P, 2) [m]"""
+    """True for points inside a valid polygon, not on its boundary. rings: as in polygon_fault(); points: (P, 2) [m]"""
     import shapely
 
     found: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
@@ -251,10 +254,11 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 
 
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
-    """The union of convex polygons, grown: with all within `grown` of it, nothing further than GROWTH_MOST times that,
-    both to within GRID [m].
+    """The grown union of convex polygons: it holds every point within `grown` of the union, and no point further away
+    than GROWTH_MOST times that, both to within GRID [m].
 
-    core, rest: arrays (N, corners, 2) [m]; of the rest only those count that go further than `left_out` out of the core
+    core, rest: arrays (N, corners, 2) [m]; a polygon of the rest counts only if it leaves the core by `left_out` or
+        more
     """
     import shapely
 
@@ -288,7 +292,7 @@ def _union(parts: NDArray[np.object_], budget: Budget) -> object:
 
 
 def widened(polygons: Polygons, by: float) -> Polygons:
-    """Polygons that hold all within `by` of the given ones, and nothing further than GROWTH_MOST times that [m]."""
+    """Polygons that hold all points within `by` of the given ones, and none further than GROWTH_MOST times that [m]."""
     import shapely
 
     ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
@@ -296,7 +300,7 @@ def widened(polygons: Polygons, by: float) -> Polygons:
 
 
 def thickened(line: Floats, radius: float) -> Polygons:
-    """Polygons that hold all within `radius` of a line through points (P, 2), and nothing further than GROWTH_MOST
+    """Polygons that hold every point within `radius` of a line through points (P, 2), and none further than GROWTH_MOST
     times that [m]."""
     import shapely
 
@@ -326,8 +330,8 @@ FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool, Budget], Iterator[P
 }
 
 
-# One pair needs no search. poses: (T, 2, 3); sizes: (2, 2); each judge tells for each of the T instants whether the
-# pair is within the margin, by the method of its engine above.
+# One pair needs no search. poses: (T, 2, 3); sizes: (2, 2). Each function returns, for each of the T instants, True if
+# the pair is within the margin by the method of its engine above.
 def _judged_by_fcl(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
     return [_fcl_within(pair, sizes, margin, Budget()) for pair in poses]
 

@@ -1,4 +1,4 @@
-"""Overlapping benches at one instant, found by four engines, and whether the four agree."""
+"""Overlapping benches at one instant, found by four engines, with a comparison of the four."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Overlaps(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class CrossCheck(Shown):
-    """pairs: what each engine found; agree: all the same; only: pairs by engine that not all engines found;
-    missing: pairs by engine that some other engine found and this one did not.
-    left_out: engines that cannot judge this margin; they appear in no other field.
+    """pairs: found by each engine; agree: True if all are equal; only: for each engine its pairs that not all engines
+    found; missing: for each engine the pairs that another engine found and this one did not
+    left_out: engines that cannot judge this margin; they appear in no other field
     """
 
     agree: bool
@@ -53,7 +53,7 @@ class CrossCheck(Shown):
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Shown):
-    """Whether an engine finds the pair overlapping just before and just after first contact; None: no before."""
+    """True if an engine finds the pair overlapping just before, and just after first contact; None: no time before."""
 
     before: bool | None
     after: bool
@@ -73,7 +73,7 @@ def overlaps(
     """All pairs with separation <= margin; if chained, without neighbours in the chain.
 
     The engine finds the pairs; their separation is always the exact one of rectangles.py. The angle-sum rule misses
-    rectangles that cross without a corner inside, and takes no margin; the other three engines miss no pair.
+    rectangles that cross without a corner inside, and accepts no margin; the other three engines miss no pair.
 
     poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
     raises: InvalidValue with the field benches.K.x, y, heading, length or width, margin or engine; TooLarge with the

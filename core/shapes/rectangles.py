@@ -1,7 +1,7 @@
 """Exact signed separation of two oriented rectangles, with witness points and normal.
 
-The derivation stands in core/kernels/rectangles.py: the separating axis theorem for rectangles that meet, the least
-distance from a corner of one to the other for rectangles apart.
+The derivation is in core/kernels/rectangles.py: the separating axis theorem for rectangles that meet; for rectangles
+apart, the least distance from a corner of one to the other.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from core.kernels.constants import (
 from core.shown import Shown, worded
 from core.values import SIZE_MAX, SIZE_MIN, Floats
 
-# Beyond any dance: a double resolves only 1e-7 m there [m].
+# Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
 POSITION_MAX = 1e9
 
 # Lowest and highest value, and unit, of each number that describes a rectangle in the plane.
@@ -109,7 +109,7 @@ def frames_separation(a: Floats, b: Floats) -> Separation:
 
 
 def frames(poses: Floats, sizes: Floats) -> Floats:
-    """Rectangles as the kernels take them: x, y, unit vector (x, y) along it, half length, half width.
+    """Rectangles in the form of the kernels: x, y, unit vector (x, y) along the length, half length, half width.
 
     poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
     returns: (..., 6), never a view

@@ -150,7 +150,7 @@ def test_a_rounded_instant_is_traced_and_contradicts_no_point_of_the_rubric(time
 def test_equal_speeds_do_not_belong_to_the_positions() -> None:
     found = known("equal_speeds")
     assert {point.criterion: point.met for point in found.rubric}["speeds"] is False
-    assert found.sheets[1].notes[-1].endswith("were not rounded to so many: they have 0.")
+    assert found.sheets[1].notes[-1].endswith("but are written with 0.")
 
 
 def test_right_results_have_nothing_to_diagnose() -> None:

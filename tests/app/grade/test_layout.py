@@ -102,7 +102,7 @@ def test_positions_in_centimetres_are_read_as_such() -> None:
     sheets = few()
     found = grade(by_xlsxwriter({**sheets, "位置": in_centimetres(sheets["位置"])}))
     assert found.sheets[0].right == 4 * 448
-    assert "The numbers are in cm: they were read as such." in found.sheets[0].notes
+    assert "The numbers are in cm, and were converted." in found.sheets[0].notes
 
 
 def test_a_handle_too_many_is_told_and_the_others_are_graded() -> None:

@@ -156,14 +156,14 @@ UNREADABLE = {
     "encrypted": (encrypted, "encrypted: save it without a password"),
     "old format": (lambda: bytes.fromhex("d0cf11e0a1b11ae1") + bytes(2000), "old format .xls"),
     "truncated": (lambda: small()[:-3000], "ends early or does not unpack"),
-    "entities": (entities, "declares a document type in xl/worksheets/sheet1.xml"),
-    "entities in UTF-16": (wide_entities, "declares a document type in xl/worksheets/sheet2.xml"),
+    "entities": (entities, "xl/worksheets/sheet1.xml declares a document type"),
+    "entities in UTF-16": (wide_entities, "xl/worksheets/sheet2.xml declares a document type"),
     "too many elements": (lambda: filled(b"<c/>", ELEMENTS_MAX), "more than 2,000,000 elements"),
     "strict": (strict, "Strict Open XML: save it as an ordinary .xlsx"),
-    "another archive": (lambda: zipped("essay.txt", b"words"), "an archive but no .xlsx workbook"),
+    "another archive": (lambda: zipped("essay.txt", b"words"), "not an .xlsx workbook"),
     "no sheets": (lambda: repacked(small(), lambda part, content: b"<nonsense/>"), "damaged and cannot be opened"),
     "a picture": (lambda: b"\x89PNG\r\n\x1a\n" + bytes(200), "neither a workbook nor a table"),
-    "prose": (lambda: "我们没有算出来，对不起。".encode(), "is named as a workbook but is none"),
+    "prose": (lambda: "我们没有算出来，对不起。".encode(), "has the name of a workbook, but its content is text"),
 }
 
 
@@ -262,7 +262,7 @@ def test_text_in_number_cells_is_told_with_its_place() -> None:
         book["位置"]["D3"] = str(book["位置"]["D3"].value)
 
     sheet = grade(small(change)).sheets[0]
-    assert "C3 should hold a number and holds the text “—”." in sheet.notes
+    assert "C3 should hold a number, but holds the text “—”." in sheet.notes
     assert "The number in D3 is stored as text." in sheet.notes
     assert sheet.right == 4 * 448 - 1
 
@@ -272,7 +272,7 @@ def test_a_date_is_no_number() -> None:
         book["位置"]["C2"].number_format = "yyyy-mm-dd"
 
     sheet = grade(small(change)).sheets[0]
-    assert any(note.startswith("C2 should hold a number and holds the text “1900-01-") for note in sheet.notes)
+    assert any(note.startswith("C2 should hold a number, but holds the text “1900-01-") for note in sheet.notes)
     assert sheet.right == 4 * 448 - 1
 
 

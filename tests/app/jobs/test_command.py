@@ -61,7 +61,7 @@ def test_a_result_goes_to_standard_output(service: Service) -> None:
     ("arguments", "words"),
     [
         (["list"], "--data or --url must say where the jobs are"),
-        (["list", "--data", "/nowhere"], "/nowhere, which holds no jobs"),
+        (["list", "--data", "/nowhere"], "/nowhere without jobs"),
         (["list", "--data", ".", "--url", "http://127.0.0.1:1"], "give one of the two"),
         (["list", "--url", "http://127.0.0.1:1"], "--url http://127.0.0.1:1 does not answer"),
         (["list", "--url", "ftp://x"], "--url must begin with http:// or https://"),

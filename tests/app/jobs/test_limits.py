@@ -100,7 +100,7 @@ def test_a_result_that_is_too_long_is_not_kept(strict: Service) -> None:
     assert strict.finished(address)["status"] == "failed"
     answer = strict.client.get(f"{address}/result")
     assert answer.status_code == 413
-    assert f"one that is kept may have {RESULT_BYTES_MAX}" in answer.json()["detail"]
+    assert f"the limit for a kept one is {RESULT_BYTES_MAX}" in answer.json()["detail"]
     assert list((strict.folder / "results").iterdir()) == []
     remove(strict, address)
 
@@ -139,7 +139,7 @@ def test_results_expire_and_then_all_that_is_known_of_the_job(brief: Service) ->
     assert brief.client.get(f"{address}/result").status_code == 200
     full = brief.client.post("/jobs", json=SHORT)
     assert full.status_code == 507
-    assert "all the room that they may" in full.json()["detail"]
+    assert "all the room, the limit" in full.json()["detail"]
     wait_for(lambda: brief.client.get(f"{address}/result").status_code == 410, 20 * AGE)
     assert "expired" in brief.client.get(f"{address}/result").json()["detail"]
     assert list((brief.folder / "results").iterdir()) == []
@@ -152,7 +152,7 @@ def test_a_job_that_wants_too_much_memory_fails_in_words(brief: Service) -> None
     assert brief.finished(address)["status"] == "failed"
     answer = brief.client.get(f"{address}/result")
     assert answer.status_code == 422
-    assert f"more memory than the {2**31} bytes" in answer.json()["detail"]
+    assert f"more memory than {2**31} bytes" in answer.json()["detail"]
 
 
 def test_a_job_that_runs_too_long_is_ended(tmp_path: Path) -> None:

@@ -141,7 +141,7 @@ def test_a_folder_of_another_layout_is_not_touched(store: Store) -> None:
     with sqlite3.connect(store.folder / "jobs.sqlite") as connection:
         connection.execute("PRAGMA user_version = 99")
     connection.close()
-    with pytest.raises(OSError, match="of another version of this program"):
+    with pytest.raises(OSError, match="to another version of this program"):
         Store(store.folder)
 
 

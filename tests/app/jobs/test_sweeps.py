@@ -170,7 +170,7 @@ def test_a_dismissed_sweep_leaves_no_shard_and_no_process_and_others_are_answere
             "/over/pitch/count",
             "count must be at least 2",
         ),
-        ({"over": {"pitch": {"start": 1, "stop": 2}}}, 422, "/samples", "samples must say how pitch is sampled"),
+        ({"over": {"pitch": {"start": 1, "stop": 2}}}, 422, "/samples", "samples must say how to sample pitch"),
         ({"over": {}}, 422, "/over", "over must have at least 1 entry, got none"),
         ({"question": "pitch", "over": {"pitch": [1.0]}}, 422, "/question", "question must be one of collision_time,"),
         ({"over": {"pitch": [1.0]}, "accept": "image/png"}, 406, "/accept", "This call answers application/vnd.apache"),
@@ -205,7 +205,7 @@ def test_a_cluster_answers_and_a_sweep_that_takes_too_much_room_fails(tmp_path: 
             large = service.post(SPEC | {"shard_size": 1}, "/sweeps")
             status = service.finished(large)
             assert (status["status"], status["problem"]["status"]) == ("failed", 413)
-            assert f"and one may have {BYTES_MAX} here" in status["message"]
+            assert f"the limit is {BYTES_MAX} here" in status["message"]
             wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
     finally:
         cluster.end()

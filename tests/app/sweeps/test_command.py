@@ -148,9 +148,9 @@ def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Pa
     ("arguments", "message"),
     [
         (["run", "no-such.toml", "--output", "out"], "no-such.toml: No such file or directory"),
-        (["show", "no-such-folder"], "no-such-folder has no sweep: there is no sweep.json of one in it"),
+        (["show", "no-such-folder"], "no-such-folder has no sweep: it holds no valid sweep.json"),
         (["show", "no-such-folder", "--output", "map.pdf"], "--output must end in .svg or .png, got .pdf"),
-        (["compact", "no-such-folder"], "no-such-folder has no sweep: there is no sweep.json of one in it"),
+        (["compact", "no-such-folder"], "no-such-folder has no sweep: it holds no valid sweep.json"),
     ],
 )
 def test_wrong_usage_is_one_line(arguments: list[str], message: str) -> None:

@@ -143,7 +143,7 @@ def test_no_process_is_left(tmp_path: Path) -> None:
 
 def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
     (tmp_path / "letter.txt").write_text("dear")
-    with pytest.raises(InvalidValue, match="has files already and is not a sweep"):
+    with pytest.raises(InvalidValue, match="has files but no sweep"):
         run(spec_of(LAND, 6), tmp_path, question=LAND)
     run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
     with pytest.raises(InvalidValue, match="has another sweep, or one of another version"):

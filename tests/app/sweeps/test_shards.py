@@ -189,7 +189,7 @@ def test_a_killed_design_has_the_columns_of_the_others() -> None:
 def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> None:
     spec, other = spec_of(LAND, {"x": [1.0]}), spec_of(LAND, {"x": [2.0]})
     write_part(tmp_path, other, 0, [Piece.whole(other, LAND, 0).answered()])
-    with pytest.raises(InvalidValue, match="is of another sweep"):
+    with pytest.raises(InvalidValue, match="belongs to another sweep"):
         checked_part(tmp_path, spec, 0)
     (tmp_path / part_name(0)).write_bytes(b"PAR1 no more")
     with pytest.raises(InvalidValue, match="is not part of a sweep"):

@@ -83,7 +83,7 @@ def test_a_folder_without_a_sweep_or_of_another_version_is_refused(folder: Path,
         Sweep.open(tmp_path / "nowhere")
     told = orjson.loads((folder / "sweep.json").read_bytes())
     (folder / "sweep.json").write_bytes(orjson.dumps(told | {"version": "0.0.1"}))
-    with pytest.raises(InvalidValue, match=r"must be of version .*, got 0\.0\.1"):
+    with pytest.raises(InvalidValue, match=r"must be of this version, .*, got 0\.0\.1"):
         Sweep.open(folder)
 
 

@@ -89,7 +89,7 @@ def test_a_run_to_a_fold_is_told_from_a_contact_as_by_first_contact(
 def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(core.design.pitch_scan, "SCAN_WORK", 1e4)
     with pytest.raises(
-        TooMuchWork, match=r"pitches must be fewer, .* at a pitch of 0\..* m .* not found within 10000 steps"
+        TooMuchWork, match=r"pitches must be fewer, .* from a pitch of 0\..* m on were not found within 10000 steps"
     ):
         pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
     with pytest.raises(
