@@ -39,13 +39,11 @@ ISLAND_SAMPLES = 400
 TOP_WIDTH = 0.02
 # Lower end over upper end of the ranges of growths, below that growth, to which the bounds are applied [1].
 RANGES = (0.95, 0.99, 0.998)
-# Distance below the minimum pitch at which its limit is examined, where a graze has become a longer contact [m of
-# pitch].
+# Distance below the minimum pitch [m] at which its limit is examined, where a graze has become a longer contact.
 BELOW = 1e-11
 # A contact this close to the circle or the start, with the pair still approaching, counts as on it [m of head travel].
 ON_CIRCLE = 1e-4
-# Largest distance between the contact found just below the minimum pitch and the bottom of the graze [m of head
-# travel].
+# Largest head travel between the contact found just below the minimum pitch and the bottom of the graze [m].
 BOTTOM_WITHIN = 0.01
 
 

@@ -219,10 +219,7 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget:
 
 
 def unions_meet(a: Floats, b: Floats, margin: float) -> NDArray[np.bool_]:
-    """True for each of n unions of polygons a and b that shapely finds within the margin [m].
-
-    a, b: (n, parts, corners, 2) [m]
-    """
+    """True for each of n unions of polygons a and b, (n, parts, corners, 2), that shapely finds within the margin [m]."""
     import shapely
 
     meet = shapely.dwithin(shapely.polygons(a)[:, :, None], shapely.polygons(b)[:, None, :], margin)
@@ -257,8 +254,7 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
     """The grown union of convex polygons: it holds every point within `grown` of the union, and no point further away
     than GROWTH_MOST times that, both to within GRID [m].
 
-    core, rest: arrays (N, corners, 2) [m]; a polygon of the rest counts only if it leaves the core by `left_out` or
-        more
+    core, rest: arrays (N, corners, 2) [m]; a polygon of the rest counts only if it leaves the core by over `left_out`
     """
     import shapely
 

@@ -93,7 +93,7 @@ def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.Mon
     ):
         pitch_scan(Dragon(), np.linspace(0.44, 0.46, 5))
     with pytest.raises(
-        TooMuchWork, match=r"^samples must be fewer, or benches, got 7: the first contact at a pitch of"
+        TooMuchWork, match=r"^samples must be fewer, or benches, got 7: the first contacts from a pitch of"
     ):
         scan_near_minimum(Dragon(), turning_radius=4.5, start_turns=16.0, margin=0.0, samples=7)
 
