@@ -219,7 +219,7 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget:
 
 
 def unions_meet(a: Floats, b: Floats, margin: float) -> NDArray[np.bool_]:
-    """True for each of n unions of polygons a and b, (n, parts, corners, 2), that shapely finds within the margin [m]."""
+    """True for each of n unions a and b of polygons, (n, parts, corners, 2), that shapely finds within a margin [m]."""
     import shapely
 
     meet = shapely.dwithin(shapely.polygons(a)[:, :, None], shapely.polygons(b)[:, None, :], margin)
