@@ -9,9 +9,10 @@ import pytest
 
 from tests.app.attacks import ATTACKS, memory, watching
 from tests.app.serving import serving
+from tests.depth import examples
 
 # How long an attack goes on, and the longest that another client may wait, 0.1 s on an idle machine [s].
-SECONDS, SLOWEST = 2.0, 1.0
+SECONDS, SLOWEST = examples(1, 2), 1.0
 # What the service makes others wait it makes them wait each time; what else the machine does, it does not.
 TIMES = 3
 

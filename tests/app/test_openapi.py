@@ -22,11 +22,11 @@ from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 from tests.depth import examples
 
-EXAMPLES_PER_CALL = examples(8, 25)
+EXAMPLES_PER_CALL = examples(5, 25)
 # Of right values for the calls that take up to a second each, and of wrong ones for films, maps and plans: some of them
 # are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
 SLOW = ("POST /films", "POST /maps.{format}", "POST /plan")
-EXAMPLES_OF_SLOW = examples(4, 8)
+EXAMPLES_OF_SLOW = examples(3, 8)
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
 SPENT = {"steps", "bound", "evaluations", "method", "evidence", "at_least", "head_speed_bracket", "speed_bracket"}

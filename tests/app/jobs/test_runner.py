@@ -19,8 +19,9 @@ from app.jobs.store import Store
 from app.settings import Settings
 from tests.app.jobs.kills import survive
 from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
+from tests.depth import examples
 
-KILLS, SEED = 4, 1
+KILLS, SEED = examples(2, 4), 1
 
 
 @pytest.fixture(scope="module")

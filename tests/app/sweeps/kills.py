@@ -78,15 +78,15 @@ def free_port() -> int:
 
 
 class Cluster:
-    """A scheduler on a port of its own and two workers, kept alive."""
+    """A scheduler on a port of its own and workers, kept alive."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, workers: int = 2) -> None:
         port = str(free_port())
         self.address, none = f"tcp://127.0.0.1:{port}", "--no-dashboard"
         scheduler = (*DASK, "scheduler", "--host", "127.0.0.1", "--port", port, none)
         worker = (*DASK, "worker", self.address, "--nthreads", "1", none, "--death-timeout", "20")
         self.scheduler = Kept(folder / "scheduler.log", *scheduler)
-        self.workers = [Kept(folder / f"worker-{k}.log", *worker, "--name", str(k)) for k in range(2)]
+        self.workers = [Kept(folder / f"worker-{k}.log", *worker, "--name", str(k)) for k in range(workers)]
 
     def keep(self) -> None:
         """Start again what ended."""

@@ -24,11 +24,11 @@ from tests.conftest import heed_ctrl_c
 
 SPEC = """
 question = "collision_time"
-shard_size = 20
+shard_size = 10
 [request]
 benches = 60
 [over]
-pitch = { start = 0.42, stop = 0.60, count = 200 }
+pitch = { start = 0.42, stop = 0.60, count = 100 }
 width = [0.25, 0.30, 0.35, -1.0]
 """
 SHARDS = 40
@@ -36,7 +36,7 @@ SHARDS = 40
 
 @pytest.fixture
 def spec(tmp_path: Path) -> Path:
-    """A sweep of 800 designs, a quarter of which are refused."""
+    """A sweep of 400 designs, a quarter of which are refused."""
     (tmp_path / "spec.toml").write_text(SPEC)
     return tmp_path / "spec.toml"
 
@@ -66,7 +66,7 @@ def table(spec: Path, folder: Path) -> bytes:
     """Bytes of the table of a sweep that is gone on with and compacted."""
     done = sweep("run", spec, "--output", folder)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
-    assert done.stderr == f"{folder}: 800 designs in {SHARDS} shards\n"
+    assert done.stderr == f"{folder}: 400 designs in {SHARDS} shards\n"
     assert sweep("compact", folder).returncode == 0
     return (folder / "sweep.parquet").read_bytes()
 
@@ -116,14 +116,14 @@ def test_workers_leave_when_the_command_is_killed_and_it_goes_on_to_the_same_byt
 def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
     shutil.copytree(answered, tmp_path / "a")
     lines = sweep("show", tmp_path / "a").stdout.splitlines()
-    assert lines[0].split() == ["designs", "800", "of", "800"]
-    assert lines[1].split() == ["error", "invalid-value", "200"]
+    assert lines[0].split() == ["designs", "400", "of", "400"]
+    assert lines[1].split() == ["error", "invalid-value", "100"]
     assert lines[2].startswith("least time")
     drawn = sweep("show", tmp_path / "a", "--output", tmp_path / "map.png", "--value", "head.radius")
     assert (drawn.returncode, drawn.stderr) == (0, f"{tmp_path / 'map.png'}\n")
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
     assert sweep("compact", tmp_path / "a", "--csv", tmp_path / "a.csv").returncode == 0
-    assert len((tmp_path / "a.csv").read_text().splitlines()) == 801
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 401
 
 
 def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
@@ -139,7 +139,7 @@ def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Pa
             break
     os.close(parent)
     assert process.wait(PATIENCE) == 0
-    assert b"of 800, " in said
+    assert b"of 400, " in said
     assert b"/s, 0:00:" in said
     assert b" left" in said
 

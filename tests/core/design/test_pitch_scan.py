@@ -10,6 +10,7 @@ import pytest
 import core.design.pitch_scan
 from core import Dance, Dragon, InvalidValue, Spiral, TooMuchWork, first_contact, minimum_pitch
 from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum, stop_radius
+from tests.depth import some
 
 SMALL = Dragon(benches=30)
 BRACKET = 1e-9  # [m]: how well the minimum pitch is known
@@ -61,7 +62,7 @@ def test_radii_are_those_of_first_contact_also_beside_jumps() -> None:
     chosen = sorted(beside | set(range(0, len(scan.pitch), 8)))
     assert len(chosen) >= 100
     stops = Stops(Dragon(), 0.0)
-    for pitch in scan.pitch[chosen].tolist():
+    for pitch in some(scan.pitch[chosen].tolist(), 50):
         head = first_contact(Dance(Dragon(), Spiral(pitch))).head
         assert head is not None
         assert stops.radius(Spiral(pitch)) == pytest.approx(head.radius, rel=0.0, abs=RADIUS_WIDTH), pitch

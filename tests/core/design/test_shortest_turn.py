@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -34,21 +35,27 @@ NEAR = 0.9  # [m], farther pairs are not measured
 DEEPER = 1e-5  # [m], an entry clearly on the other side of the border
 
 # A long head reaches the bend first; as short a head as the body lets benches touch first.
-EVEN = {"benches": 40, "head_length": 2.2}
+EVEN = {"benches": 25, "head_length": 2.2}
 CONTACT: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
-    "margin": ({"benches": 60}, {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}),
-    "tight pitch": ({"benches": 60}, {"pitch": 1.25, "ratio": 0.7}),
+    "margin": ({"benches": 30}, {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}),
+    "tight pitch": ({"benches": 30}, {"pitch": 1.25, "ratio": 0.7}),
     "wide benches": ({**EVEN, "width": 0.45}, {"pitch": 1.4, "ratio": 1.0}),
     "small dragon": (
-        {"benches": 40, "head_length": 1.5, "body_length": 1.5, "width": 0.4, "overhang": 0.2},
+        {"benches": 25, "head_length": 1.5, "body_length": 1.5, "width": 0.4, "overhang": 0.2},
         {"pitch": 1.1, "ratio": 1.3},
     ),
 }
 BEND: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
-    "contest": ({"benches": 60}, {"pitch": 1.7}),
-    "equal arcs": ({"benches": 60}, {"pitch": 1.7, "ratio": 1.0}),
+    "contest": ({"benches": 30}, {"pitch": 1.7}),
+    "equal arcs": ({"benches": 30}, {"pitch": 1.7, "ratio": 1.0}),
     "even": (EVEN, {"pitch": 1.2}),
 }
+
+
+@cache
+def answer(name: str) -> ShortestTurn:
+    sizes, asked = (CONTACT | BEND)[name]
+    return shortest_turn(Dragon(**sizes), **asked)
 
 
 def slow_clearance(dragon: Dragon, found: ShortestTurn, entry: float, start: float, stop: float, step: float) -> float:
@@ -70,10 +77,10 @@ def whole(dragon: Dragon, found: ShortestTurn) -> tuple[float, float]:
     return -15.0, found.turn.length + length
 
 
-@pytest.mark.parametrize(("sizes", "asked"), CONTACT.values(), ids=CONTACT)
-def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(sizes: Any, asked: Any) -> None:
-    dragon, margin = Dragon(**sizes), asked.get("margin", 0.0)
-    found = shortest_turn(dragon, **asked)
+@pytest.mark.parametrize("name", CONTACT)
+def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(name: str) -> None:
+    sizes, asked = CONTACT[name]
+    dragon, margin, found = Dragon(**sizes), asked.get("margin", 0.0), answer(name)
     infeasible, feasible = found.entry_bracket
     assert found.limited_by is TurnLimit.CONTACT
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
@@ -87,10 +94,10 @@ def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(sizes:
         assert slow_clearance(dragon, found, entry, *whole(dragon, found), STEP) > margin
 
 
-@pytest.mark.parametrize(("sizes", "asked"), BEND.values(), ids=BEND)
-def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(sizes: Any, asked: Any) -> None:
-    dragon = Dragon(**sizes)
-    found = shortest_turn(dragon, **asked)
+@pytest.mark.parametrize("name", BEND)
+def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name: str) -> None:
+    sizes, asked = BEND[name]
+    dragon, found = Dragon(**sizes), answer(name)
     infeasible, feasible = found.entry_bracket
     assert (found.limited_by, found.benches, found.time) == (TurnLimit.BEND, None, None)
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
@@ -118,21 +125,20 @@ def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(sizes: An
 
 
 def test_the_answer_does_not_depend_on_how_long_the_dragon_or_the_coil_is() -> None:
-    asked: dict[str, Any] = {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}
-    known = shortest_turn(Dragon(benches=60), **asked)
-    for dragon, start_turns in ((Dragon(benches=60), 3.0), (Dragon(benches=60), 80.0), (Dragon(benches=1_000), 3.0)):
+    (sizes, asked), known = CONTACT["margin"], answer("margin")
+    for dragon, start_turns in ((Dragon(**sizes), 3.0), (Dragon(**sizes), 80.0), (Dragon(benches=1_000), 3.0)):
         other = shortest_turn(dragon, **asked, start_turns=start_turns)
         assert other.turn.entry_radius == pytest.approx(known.turn.entry_radius, abs=ENTRY_ERROR)
         assert other.benches == known.benches
 
 
 def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one() -> None:
-    uniform = Dragon(benches=30)
+    uniform = Dragon(**CONTACT["margin"][0])
     widths = uniform.widths.copy()
     widths[-1] -= 1e-9
     listed = Dragon.of(uniform.lengths, widths, uniform.overhangs)
     assert listed.uniform_from > uniform.uniform_from
-    a, b = (shortest_turn(dragon, 1.7, ratio=1.0, margin=0.2) for dragon in (uniform, listed))
+    a, b = answer("margin"), shortest_turn(listed, **CONTACT["margin"][1])
     assert a.turn.entry_radius == pytest.approx(b.turn.entry_radius, abs=ENTRY_ERROR)
     assert (a.limited_by, a.benches) == (b.limited_by, b.benches)
 
@@ -191,10 +197,9 @@ def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch: pytest
 
 
 def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkeypatch: pytest.MonkeyPatch) -> None:
-    dragon, options = Dragon(benches=60), {"pitch": 1.7, "ratio": 1.0, "margin": 0.2}
-    whole = shortest_turn(dragon, **options)
-    monkeypatch.setattr(core.design.shortest_turn, "TURN_WORK", 9e5)
-    least = shortest_turn(dragon, **options)
+    (sizes, asked), whole = CONTACT["margin"], answer("margin")
+    monkeypatch.setattr(core.design.shortest_turn, "TURN_WORK", 4e5)
+    least = shortest_turn(Dragon(**sizes), **asked)
     assert least.entry_bracket[0] <= whole.entry_bracket[0]
     assert whole.entry_bracket[1] <= least.entry_bracket[1]
     assert least.evaluations < whole.evaluations

@@ -376,7 +376,7 @@ def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
     return least.min(axis=1)
 
 
-@settings(max_examples=examples(12, 40), deadline=None)
+@settings(max_examples=examples(8, 40), deadline=None)
 @given(routes())
 def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
     times = np.linspace(float(instants(route, 2)[0]), route.end, 2_000)

@@ -21,6 +21,7 @@ from core.proof.paths import chain_on, recorded_path
 from core.shapes.rectangles import corners
 from tests.core.forgeries import edit, places, refusal, stretches, through_json
 from tests.core.forgeries import put_at as at
+from tests.depth import examples
 
 ROOT = Path(__file__).parents[3]
 CONTACTS = {
@@ -214,14 +215,16 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
 
 
 def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:
-    certificate = through_json(prove_clear(Dance(Dragon(), Turn(1.7)), 100.0, start=-100.0))
+    """By `make deep` with all of its benches."""
+    dance = Dance(Dragon(benches=examples(60, 223)), Turn(1.7))
+    certificate = through_json(prove_clear(dance, 100.0, start=-100.0))
     assert "no two benches but neighbours touch from -100 s to 100 s" in check(certificate).statement
-    time = first_contact(Dance(Dragon(), Turn(1.7)), start=-100.0, margin=0.33).time
-    assert time is not None
-    check(through_json(prove_contact(Dance(Dragon(), Turn(1.7)), time, start=-100.0, margin=0.33)))
+    time = first_contact(dance, start=-100.0, margin=0.33).time
+    assert time == pytest.approx(13.741349327226573, abs=1e-9)  # docs/proofs.md
+    check(through_json(prove_contact(dance, time, start=-100.0, margin=0.33)))
     for wrong in (time - OFF, time + OFF):
         with pytest.raises(ProofRefused):
-            prove_contact(Dance(Dragon(), Turn(1.7)), wrong, start=-100.0, margin=0.33)
+            prove_contact(dance, wrong, start=-100.0, margin=0.33)
 
 
 def test_a_route_is_clear_to_its_end() -> None:

@@ -17,6 +17,7 @@ from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.overlaps import Engine, Verdict, cross_check, overlaps, verdicts
 from core.shapes.rectangles import separation
+from tests.depth import examples
 
 Floats = NDArray[np.float64]
 Pairs = NDArray[np.int64]
@@ -140,7 +141,7 @@ def test_contact_holds_the_exact_separation_of_each_pair() -> None:
 # -- the engines against each other ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("count", "margin"), [(100_000, 0.0), (10_000, 0.05)])
+@pytest.mark.parametrize(("count", "margin"), [(examples(30_000, 100_000), 0.0), (10_000, 0.05)])
 def test_engines_agree_on_random_and_near_touching_pairs(count: int, margin: float) -> None:
     scene, gap = near_pairs(count, seed=2, margin=margin)
     assert np.mean(np.abs(gap - margin) <= NEAR + UNDECIDED) > 0.6
