@@ -30,7 +30,7 @@ NO_CURL = "they run the commands of the documentation as they stand: apt install
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the tests that this machine cannot run; one line for each reason is printed after the tests.
+    """Skip the tests that this machine cannot run; one line for each reason is printed after the tests.
 
     raises: UsageError if no test may be left out
     """

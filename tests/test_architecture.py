@@ -1,4 +1,4 @@
-"""The shape of the house: who may import whom, and what importing core may cost."""
+"""The architecture: allowed imports between rooms, and the cost of importing core."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""compose.yaml: valid by the Compose specification, and the commands of its services do together what it says."""
+"""compose.yaml: valid by the Compose specification, and the commands of its services work together."""
 
 from __future__ import annotations
 

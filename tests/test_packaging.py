@@ -1,4 +1,4 @@
-"""What the distribution promises: versions, requirements by system, compiler flags, types, and the lock."""
+"""Promises of the distribution: versions, requirements by system, compiler flags, types, and the lock."""
 
 from __future__ import annotations
 

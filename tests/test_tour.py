@@ -1,4 +1,4 @@
-"""The notebook examples/tour.py: it converts, every cell runs, and what its sentences say is so."""
+"""The notebook examples/tour.py: it converts, every cell runs, and its sentences are true."""
 
 from __future__ import annotations
 

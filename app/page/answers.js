@@ -1,4 +1,4 @@
-/** The answers, each with how it is known. */
+/** The answers, each with its evidence. */
 
 import { make } from "./elements.js";
 import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
@@ -10,7 +10,7 @@ const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓
 export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
 const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
-/** A separation in words: the gap, or below zero by how much two benches overlap. metres: [m] */
+/** A separation in words: the gap, or for a negative one the depth of the overlap. metres: [m] */
 export function gapWords(metres) {
   const gap = millimetres(metres);
   return gap.startsWith("-") ? say("overlap", { depth: gap.slice(1) }) : say("gap", { gap });
@@ -76,13 +76,13 @@ export function outcomeWords(answer, asked) {
   return sayOf(stateOf(answer), asked, { time: time?.toFixed(6) });
 }
 
-/** The same with its mark, for where there is little room. */
+/** The same with its mark, for small screens. */
 export const verdictWords = (answer, asked) => `${MARKS[stateOf(answer)]} ${outcomeWords(answer, asked)}`;
 
 /** Time of the fold [s] if a dance ends in one; else null. */
 export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? end.time : null);
 
-/** An instant of a dance with the digits that it has everywhere: the last one shown before the end is that of the end. */
+/** An instant of a dance with its usual digits; just before the end it is written as the end. */
 export const instantWords = (time, { answer, end }) => (time === end && answer.time === null ? (answer.end?.time ?? time) : time).toFixed(6);
 
 function contactLine(answer, asked) {
@@ -100,7 +100,7 @@ function contactLine(answer, asked) {
   return sayOf("pairMeets", asked, { ...values, gap: shown });
 }
 
-/** The time until which nothing is proven to touch; none for a contact at the start, or if nothing is decided. */
+/** The time up to which it is proven that nothing touches; none for a contact at the start, or an undecided search. */
 function certificateWords({ outcome, certificate: { steps, clear_until: until } }, asked) {
   if (until !== null) return sayOf("certificateSteps", asked, { steps, until: bound(until, 10, -1) });
   return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", asked);
@@ -125,14 +125,14 @@ export function showFirstContact(box, answer, asked) {
   show(box, titleOf("firstContact", asked), value, lines, known, state);
 }
 
-/** A button of an answer: what it offers, and what it does. */
+/** A button of an answer, with its text and its action. */
 function offer(box, key, act) {
   const button = make("button", { type: "button", textContent: say(key) });
   button.addEventListener("click", act);
   box.querySelector("details").before(button);
 }
 
-/** answer: of /minimum-pitch; use(pitch) sets it; key: of what the button offers */
+/** answer: of /minimum-pitch; use(pitch) sets it; key: of the button's text */
 export function showMinimumPitch(box, answer, asked, key, use) {
   const { benches, turning_diameter: diameter } = asked;
   const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
@@ -158,7 +158,7 @@ export function showMinimumPitch(box, answer, asked, key, use) {
   offer(box, key, () => use(answer.pitch_bracket[1]));
 }
 
-/** answer: of /shortest-turn; use(radius) lets the turn begin there */
+/** answer: of /shortest-turn; use(radius) sets the entry of the turn */
 export function showShortestTurn(box, answer, asked, use) {
   const { entry_radius, length, limited_by, scan_step, evaluations } = answer;
   const names = answer.benches ? pair(answer.benches, Number(asked.benches)) : {};
@@ -180,7 +180,7 @@ export function showHeadSpeed(box, answer, asked, use) {
   offer(box, "useSpeed", () => use(low ?? head_speed));
 }
 
-/** answer: of /tolerance on the way to a circle of this diameter [m]; without one, on the part of a turn that is danced */
+/** answer: of /tolerance on the way to a circle of this diameter [m]; without one, in the shown part of a turn */
 export function showTolerance(box, answer, benches, diameter) {
   const { stray, stray_bracket: [low, high], limited_by: limit, time, certificate } = answer;
   const values = { ...(answer.benches && pair(answer.benches, benches)), time: time?.toFixed(6), area: answer.area };
@@ -210,7 +210,7 @@ export function showEnd(box, answer, time, asked) {
   show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
-/** detail: the service's message; null if it stands elsewhere; names: of the fields beside which it stands */
+/** detail: the service's message; null if it is shown elsewhere; names: of the fields beside which it is shown */
 export function showRefusal(box, title, detail, names) {
   show(box, say(title), say("unanswered"), []);
   const listed = names.map((name) => say("quoted", { name: say(name) })).join(say("and"));

@@ -1,19 +1,19 @@
-/** The service: only the newest question of a kind is answered, and a lost service is retried until it is back. */
+/** The service: only the newest question of a kind gets an answer, and a lost service is tried until it is back. */
 
 /**
- * A superseded question may still answer for this long [ms], and for twice as long as the last one took, up to the most:
- * so a slider that is dragged sees answers of a busy service too.
+ * A superseded question may still answer for this long [ms], or for twice the time of the last one, up to a maximum: so
+ * a dragged slider also gets answers from a busy service.
  */
 const [GRACE, GRACE_MOST] = [150, 2_000];
-/** Between two looks whether the service lives, and the longest wait for its answer [ms]: together less than 3 s. */
+/** Time between two liveness checks of the service, and longest wait for an answer [ms]: together less than 3 s. */
 const [HEARTBEAT, PATIENCE] = [600, 1_600];
 const [RETRY_FIRST, RETRY_LAST] = [1_000, 8_000];
 const SECOND = 1_000;
-/** What may be done twice without harm; a job that hangs is not started again. */
+/** Methods that may be repeated without harm; a hanging job is not started again. */
 const ONCE = ["sweeps", "films"];
 const GATEWAY_ERRORS = [502, 504];
 const EMPTY = 204;
-/** Refusals that a moment mends, and the longest moment for which a person is kept waiting [s]. */
+/** Refusals that a retry may solve, and the longest wait for a retry [s]. */
 const BUSY = [429, 503];
 const MOMENT = 10;
 
@@ -28,7 +28,7 @@ export class Problem extends Error {
 /** A newer question of the same kind replaced this one. */
 export class Superseded extends Error {}
 
-/** How long the service asks to wait [s]. */
+/** Wait that the service asks for [s]. */
 const pauseOf = (response) => Number(response.headers.get("Retry-After")) || 1;
 
 const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
@@ -61,7 +61,7 @@ class Channel {
     }
   }
 
-  /** Nobody wants the answer any more. */
+  /** Cancel the question, because nobody needs the answer any more. */
   drop() {
     this.#newest = null;
     this.#running?.abort.abort();
@@ -72,7 +72,7 @@ export class Service {
   #channels = new Map();
   #return = null;
   #retryNow = () => {};
-  /** Ends what hangs in a service that does not answer any more. */
+  /** End the requests to a service that does not answer any more. */
   #hanging = new AbortController();
 
   /** tell: {lost(seconds until the next try, 0 during one), back(), busy(channel, whether it is busy)} */
@@ -113,7 +113,7 @@ export class Service {
     this.#retryNow();
   }
 
-  /** Asks until there is an answer, also while the service is lost or busy. */
+  /** Ask until there is an answer, also while the service is lost or busy. */
   async #patiently(url, options, signal) {
     for (;;) {
       const wanted = ONCE.includes(url) ? signal : AbortSignal.any([signal, this.#hanging.signal]);
@@ -127,7 +127,7 @@ export class Service {
     }
   }
 
-  /** The response; null when the service cannot be reached. asked: signal of who asks, who may want no answer any more */
+  /** The response; null if the service cannot be reached. asked: signal of the caller, which may cancel the question */
   async #fetch(url, options, asked = null) {
     try {
       const response = await fetch(url, options);
@@ -154,7 +154,7 @@ export class Service {
     this.tell.back();
   }
 
-  /** Waits, and tells every second how long; ends early when a person wants to try now. */
+  /** Wait, and report the remaining time every second; ends early when a person wants to try now. */
   async #countDown(pause) {
     const now = new Promise((resolve) => (this.#retryNow = () => resolve(true)));
     for (let left = pause; left > 0; left -= SECOND) {
@@ -167,7 +167,7 @@ export class Service {
     return Boolean((await this.#fetch("healthz", { cache: "no-store", signal: AbortSignal.timeout(PATIENCE) }))?.ok);
   }
 
-  /** Looks again and again whether the service lives, while somebody looks at the page. */
+  /** Check regularly whether the service is alive, while the page is visible. */
   async #beat() {
     for (;;) {
       await wait(HEARTBEAT);

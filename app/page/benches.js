@@ -1,4 +1,4 @@
-/** Benches measured one by one: a table that is typed, pasted, dropped or opened, as the service reads it. */
+/** Benches measured one by one: a table that is typed, pasted, dropped or opened, in the service's format. */
 
 import { $, make } from "./elements.js";
 import { nameBenches, refusalWords, say } from "./text.js";
@@ -6,7 +6,7 @@ import { nameBenches, refusalWords, say } from "./text.js";
 /** A typed table counts after this pause [ms]. */
 const TYPING = 500;
 const ROWS = 6;
-/** The first letters of the columns' names: of the name, and of the sizes in the order in which tables are written. */
+/** First letters of the column names: the name, and the sizes in the order of a table. */
 const COLUMNS = { names: /^(name|名称|姓名)/i, lengths: /^(length|长)/i, widths: /^(width|宽)/i, overhangs: /^(overhang|孔距|端距)/i };
 const QUOTED = /^"(.*)"$/s;
 
@@ -33,7 +33,7 @@ export function benchesOf(text) {
 
 const quoted = (name) => (/[",]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name);
 
-/** The table of a dragon as a request has it; an empty text for equal benches without names. */
+/** The table of a dragon in a request; an empty text for equal benches without names. */
 export function tableOf({ csv, lengths, widths, overhangs, names, ...equal }) {
   if (csv !== undefined) return csv;
   if (!lengths && !names?.some(Boolean)) return "";
@@ -44,7 +44,7 @@ export function tableOf({ csv, lengths, widths, overhangs, names, ...equal }) {
 }
 
 export class BenchTable {
-  /** group: the numbers of equal benches, in whose place the table stands */
+  /** group: the numbers of equal benches, which the table replaces */
   constructor(group, state) {
     Object.assign(this, { group, state });
     const button = (key, act) => {
@@ -96,7 +96,7 @@ export class BenchTable {
     this.show();
   }
 
-  /** Begin with the equal benches of now. */
+  /** Begin with the present equal benches. */
   #begin() {
     const numbers = ["benches", "head_length", "body_length", "width", "overhang"].map((name) => [name, Number(this.state.get(name))]);
     this.#take(tableOf({ ...Object.fromEntries(numbers), names: [say("theHead")] }));

@@ -1,4 +1,4 @@
-/** Charts drawn by uPlot: clearance over time, and, against the pitch, how far people may stray and where the head stops. */
+/** Charts drawn by uPlot: clearance over time; stray and radius at first contact against the pitch. */
 
 import { make } from "./elements.js";
 import { say } from "./text.js";
@@ -33,7 +33,7 @@ export class Chart {
     this.now(this.#now);
   }
 
-  /** x: where the marker stands; null hides it */
+  /** x: place of the marker; null hides it */
   now(x) {
     this.#now = x;
     if (!this.#plot) return;
@@ -125,7 +125,7 @@ export function clearancePlan({ time, clearance, grazes, margin, contact }) {
   };
 }
 
-/** How far people may stray against the pitch, of /tolerance-curve; own: a stray [m]; least: the pitch for it, or null. */
+/** Proven stray against the pitch, of /tolerance-curve; own: a stray [m]; least: the pitch for it, or null. */
 export function curvePlan({ pitch, stray, own, least }) {
   return {
     labels: ["pitchAxis", "strayAxis"],
@@ -141,7 +141,7 @@ export function curvePlan({ pitch, stray, own, least }) {
 
 /**
  * Radius of the head at first contact against the pitch, of /pitch-scan; circle: radius of the turning circle [m];
- * coarse: a first look at the samples, whose jumps are not known yet.
+ * coarse: a first view of the samples, whose jumps are not known yet.
  */
 export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, coarse }) {
   const samples = pitch.map((one, k) => [one, radius[k]]);
@@ -160,7 +160,7 @@ export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, 
   };
 }
 
-/** Stretches without a jump, each a list of points: the samples of a piece, and the ends of the jumps around them. */
+/** Parts without a jump, each a list of points: the samples of a piece, and the ends of the jumps around them. */
 export function staircase(samples, pieces, jumps) {
   const ends = jumps.map(({ pitch, radius }) => pitch.map((one, k) => [one, radius[k]]));
   const stretches = [];

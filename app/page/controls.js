@@ -1,5 +1,5 @@
 /**
- * The form: for each number a field, what it is, a slider whose ends can be changed, its unit, its limits, a reset, and the
+ * The form: for each number a field, its meaning, a slider with adjustable ends, its unit, its limits, a reset, and the
  * service's message if it is wrong.
  */
 
@@ -7,10 +7,10 @@ import { $$, make, onClick } from "./elements.js";
 import { FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
 
-/** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not asked. */
+/** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not sent. */
 const TYPING = 300;
 const ENDS = ["min", "max"];
-/** Numbers -> the part of the bench in the sketch. */
+/** Number -> part of the bench in the sketch. */
 const PARTS = { head_length: "length", body_length: "length", width: "width", overhang: "overhang", hole: "hole", pin: "hole" };
 
 /** Limits and unit of every number: name -> [low, high, unit]. paths: of the service's OpenAPI document */
@@ -24,11 +24,11 @@ export function limitsIn(paths) {
   );
 }
 
-/** A number as it is typed, also with a decimal comma, which some phones alone offer. */
+/** A typed number, also with a decimal comma, the only one on some phones. */
 const typed = (text) => text.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
-/** A number in another unit, without the noise of binary fractions; what is no number stays as it is. */
+/** A number in another unit, without the noise of binary fractions; other texts stay unchanged. */
 const times = (text, factor) => (factor !== 1 && text !== "" && Number.isFinite(Number(text)) ? String(Number((Number(text) * factor).toPrecision(12))) : text);
-/** How many of the unit that is shown are one of the service's. */
+/** Factor from the service's unit to the shown unit. */
 const SHOWN = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, centimetres ? 100 : 1]));
 
 export class Controls {
@@ -42,14 +42,14 @@ export class Controls {
       const legend = make("legend", { "data-text": group, className: "unseen" });
       form.append(make("fieldset", { "data-group": group }, legend, ...fields.map((field) => this.#row(field))));
     }
-    // The default pitch depends on the path, and so do the numbers that there are.
+    // The default pitch and the set of numbers depend on the path.
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
     state.listen((names) => names.has("path") && this.#offer());
     this.#offer();
     for (const type of ["focusin", "focusout"]) form.addEventListener(type, ({ target }) => this.#point(type === "focusin" ? target.id : null));
   }
 
-  /** Mark the part of the bench in the sketch that the chosen number is about. */
+  /** Mark the part of the bench in the sketch that belongs to the chosen number. */
   #point(name) {
     for (const part of $$("#sketch [data-part]")) part.classList.toggle("chosen", PARTS[name] === part.dataset.part);
   }
@@ -95,7 +95,7 @@ export class Controls {
     return field;
   }
 
-  /** Only the numbers that the path has. */
+  /** Show only the numbers of this path. */
   #offer() {
     for (const { name, only } of FIELDS) this.#rows.get(name).box.hidden = Boolean(only) && only !== this.state.get("path");
   }

@@ -4,13 +4,13 @@ import { strayOf } from "./state.js";
 import { View } from "./view.js";
 
 const SHADES = 48;
-/** Speeds closer than this [m/s] get one colour, so that the colours do not show rounding. */
+/** Speeds closer together than this [m/s] get one colour, so that colours do not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
 /** A click within this distance of a handle [px] selects it. */
 const PICK_RADIUS = 22;
-/** Longest scale bar [px], its distance from the edges, and the numbers of metres that it may stand for, times a power of ten. */
+/** Longest scale bar [px], its distance from the edges, and its possible lengths in metres, times a power of ten. */
 const [BAR, BAR_EDGE, ROUND] = [120, 14, [5, 2, 1]];
-/** Arrows along the path, and their size [px]; how far the head's arrow reaches before its bench [px]. */
+/** Number of arrows along the path, and their size [px]; length of the head's arrow before its bench [px]. */
 const [ARROWS, ARROW, AHEAD] = [9, 5, 24];
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
@@ -45,10 +45,10 @@ export function scaleBar(scale) {
   return { metres, pixels: metres * scale };
 }
 
-/** {overhang, width} of bench k of a dragon; listed: its benches one by one, if they are. */
+/** {overhang, width} of bench k of a dragon; listed: its benches one by one, if they are given so. */
 const sizeOf = ({ listed, overhang, width }, k) => (listed ? { overhang: listed.overhangs[k], width: listed.widths[k] } : { overhang, width });
 
-/** Corners of bench k of a pose as drawn: front left, front right, rear right, rear left. */
+/** Corners of bench k in a drawn pose: front left, front right, rear right, rear left. */
 function outline({ x, y }, dragon, k) {
   const { overhang, width } = sizeOf(dragon, k);
   const length = Math.hypot(x[k] - x[k + 1], y[k] - y[k + 1]);
@@ -82,7 +82,7 @@ export function addGround(path, { x, y }, dragon, k, stray) {
   path.closePath();
 }
 
-/** The two ends of an edge that the service names; inner is the side nearer to the centre. */
+/** The two ends of an edge by its name in the service; inner is the side nearer to the centre. */
 function edge(corners, name) {
   const far = ([[ax, ay], [bx, by]]) => Math.hypot(ax + bx, ay + by);
   const [inner, outer] = [[corners[0], corners[3]], [corners[1], corners[2]]].sort((a, b) => far(a) - far(b));
@@ -184,10 +184,10 @@ export class Dance {
    * whole dance [m/s], which have the first and the last colour; null: those of the pose
    */
   scene = { pose: null, dragon: null, contact: null, handle: null, headName: "", handleName: "", circle: null, speeds: null };
-  /** Functions of a pen and the colours that draw more: below the benches, and above them. */
+  /** Functions of a pen and the colours that draw additional layers: below the benches, and above them. */
   below = [];
   above = [];
-  /** Is the path drawn by hand, and so to be seen well? */
+  /** True if the path is drawn by hand, so that it must be clearly visible. */
   drawn = false;
   #path = null;
   #points = null;
@@ -252,7 +252,7 @@ export class Dance {
     if (contact?.point) this.#drawInset();
   }
 
-  /** How many handles, and how often the point of contact, lie in each rectangle {left, top, right, bottom} [px]. */
+  /** Number of handles, and weight of the point of contact, in each rectangle {left, top, right, bottom} [px]. */
   covered(rectangles) {
     const { pose, contact } = this.scene;
     const places = Array.from(pose.x, (x, k) => this.view.toScreen(x, pose.y[k]));
@@ -283,7 +283,7 @@ export class Dance {
     pen.stroke(shaft, this.#colours.head, 2.5);
   }
 
-  /** Outline of bench k as it is drawn. */
+  /** Outline of bench k in the picture. */
   bench(k, path = new Path2D()) {
     return trace(path, outline(this.scene.pose, this.scene.dragon, k));
   }

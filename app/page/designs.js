@@ -7,7 +7,7 @@ import { announce } from "./overlays.js";
 import { QUESTIONS, SweepForm } from "./sweeps.js";
 
 export class Designs {
-  /** What the map shows was asked by this; null if another browser asked for it. */
+  /** The spec behind the map; null if another browser asked for it. */
   #spec = null;
 
   /** names: of the state's numbers, which a design may set */

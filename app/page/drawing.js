@@ -1,5 +1,5 @@
 /**
- * A drawing: the path through its points, and what stands in the square. Drawings are never changed, only replaced.
+ * A drawing: the path through its points, and the things in the square. Drawings are never changed, only replaced.
  *
  * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
  * the head at time 0 [m]; limit: of every speed [m/s] or null; path: one from a file that is no list of points, or null
@@ -9,7 +9,7 @@
 export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, things: [], origin: null };
 /** Names of the parts of a drawing in an address. */
 export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "origin"];
-/** Half a side of the ground where nobody drew an area [m]. */
+/** Half a side of the ground without a drawn area [m]. */
 const PLAIN = 90_000;
 const DECIMALS = 4;
 const NUMBER = /^-?\d+(\.\d+)?(e-?\d+)?$/;
@@ -18,7 +18,7 @@ const KINDS = { a: "area", b: "block", c: "circle", w: "wall" };
 const rounded = (number) => Number(number.toFixed(DECIMALS));
 export const place = ([x, y]) => [rounded(x), rounded(y)];
 
-/** The path as the service takes it. */
+/** The path in the service's format. */
 export function pathOf({ points, straight, radius, begin, path }) {
   if (path) return path;
   const drawn = { kind: "waypoints", points, straight };
@@ -29,7 +29,7 @@ export function pathOf({ points, straight, radius, begin, path }) {
 
 const closed = (points) => [...points, points[0]];
 const needs = { area: 3, block: 3, circle: 1, wall: 2 };
-/** Has this thing as many points as its kind needs? */
+/** True if a thing has as many points as its kind needs. */
 export const isWhole = ({ kind, points }) => points.length >= needs[kind];
 
 function featureOf(thing) {
@@ -42,7 +42,7 @@ function featureOf(thing) {
   return { type: "Feature", properties, geometry: geometry() };
 }
 
-/** The venue as the service takes it; null without one. An endless plain surrounds obstacles without an area. */
+/** The venue in the service's format; null without one. Obstacles without an area stand on an endless plain. */
 export function venueOf({ things, origin }) {
   const whole = things.filter(isWhole);
   if (!whole.length) return null;
@@ -53,7 +53,7 @@ export function venueOf({ things, origin }) {
   return { type: "FeatureCollection", ...(origin && { origin }), features };
 }
 
-/** Where a path is danced and how fast: the fields of /check that are not null. */
+/** Path, venue and speeds of the dance: the fields of /check that are not null. */
 export function placeOf(drawing) {
   const [venue, limit] = [venueOf(drawing), drawing.limit];
   return { ...(venue && { venue }), ...(limit && { speed_limit: limit }) };
@@ -68,7 +68,7 @@ export function freeName(things, name, own = null) {
   }
 }
 
-/** Things of a GeoJSON venue, the square first as the service reads it. */
+/** Things of a GeoJSON venue, the square first, as in the service. */
 function thingsOf(venue) {
   const features = venue.type === "FeatureCollection" ? venue.features : [venue.type === "Feature" ? venue : { properties: {}, geometry: venue }];
   const things = [];
@@ -87,7 +87,7 @@ function thingsOf(venue) {
   return things.filter(({ points, kind }) => kind !== "area" || Math.abs(points[0][0]) < PLAIN);
 }
 
-/** The drawing of a dance as /check takes it, or as /places answers. */
+/** The drawing of a dance from a request of /check, or from an answer of /places. */
 export function drawingOf({ path, venue, speed_limit: limit }) {
   const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin: venue?.origin ?? null };
   if (!path) return drawing;
@@ -141,7 +141,7 @@ export function toAddress(drawing) {
   return Object.entries(told).filter(([, text]) => text !== "");
 }
 
-/** The drawing in an address; what cannot be read is left out. given: URLSearchParams */
+/** The drawing in an address; unreadable parts are left out. given: URLSearchParams */
 export function fromAddress(given) {
   const number = (name, otherwise) => (NUMBER.test(given.get(name) ?? "") ? Number(given.get(name)) : otherwise);
   const finite = (points) => points.every((point) => point.length === 2 && point.every(Number.isFinite));
@@ -161,12 +161,12 @@ export function fromAddress(given) {
     const [longitude, latitude] = (given.get("origin") ?? "").split(",").map(Number);
     if (given.has("origin")) drawing.origin = { longitude, latitude };
   } catch {
-    // An address that somebody cut short still opens with what can be read.
+    // An address that was cut off still opens with its readable part.
   }
   return drawing;
 }
 
-/** Item k of a drawing that a person edits: null for the path, else the number of a thing. */
+/** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
 
 /** The drawing with other points of one item. */
@@ -179,7 +179,7 @@ export function withThing(drawing, item, changes) {
   return { ...drawing, things: drawing.things.map((thing, k) => (k === item ? { ...thing, ...changes } : thing)) };
 }
 
-/** A point put in before point k of an item; a straight leg that it divides stays straight. */
+/** The drawing with a new point before point k of an item; both parts of a straight leg stay straight. */
 export function inserted(drawing, item, k, point) {
   const changed = withPoints(drawing, item, pointsOf(drawing, item).toSpliced(k, 0, place(point)));
   if (item !== null) return changed;
@@ -187,19 +187,19 @@ export function inserted(drawing, item, k, point) {
   return { ...changed, straight, path: null };
 }
 
-/** Without point k of an item; a thing without points goes. */
+/** The drawing without point k of an item; a thing without points is removed. */
 export function removed(drawing, item, k) {
   const points = pointsOf(drawing, item).toSpliced(k, 1);
   if (item !== null) return points.length ? withPoints(drawing, item, points) : { ...drawing, things: drawing.things.toSpliced(item, 1) };
   const isStraight = (leg) => drawing.straight.includes(leg);
-  // The two legs that met there become one, straight if both were.
+  // The two legs at this point become one, straight if both were.
   const legs = points.slice(1).flatMap((_, leg) => (leg < k - 1 ? isStraight(leg) : leg === k - 1 ? isStraight(leg) && isStraight(k) : isStraight(leg + 1)) ? [leg] : []);
   return { ...drawing, points, straight: legs };
 }
 
 export const moved = (drawing, item, k, point) => withPoints(drawing, item, pointsOf(drawing, item).with(k, place(point)));
 
-/** The leg becomes straight, or a curve again. */
+/** The drawing with a leg made straight, or curved again. */
 export function bent(drawing, leg) {
   const { straight } = drawing;
   return { ...drawing, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };

@@ -10,13 +10,13 @@ import { PRESETS } from "./presets.js";
 import { RouteForm } from "./route.js";
 import { layers } from "./venue.js";
 
-/** Boxes about spirals, for which nothing is asked here. */
+/** Boxes about spirals, which are empty here. */
 const SPIRAL_ALONE = ["#minimum-pitch", "#curve", "#scan"];
 
 export class Drawn {
-  /** The failure that is shown on the picture. */
+  /** The failure shown on the picture. */
   #failure = null;
-  /** A failure whose benches are still to be brought into sight. */
+  /** A failure whose benches must still be moved into view. */
   #wanted = null;
 
   constructor({ state, service, questions, dance, announce, draw }) {
@@ -44,7 +44,7 @@ export class Drawn {
     return { drawing: this.state.get("drawing"), selected, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
   }
 
-  /** What to begin with where nothing is drawn: a path of one's own, or a preset. */
+  /** The offers without a drawing: draw a path, or begin with a preset. */
   #invite() {
     const button = (key, act, properties = {}) => {
       const one = make("button", { type: "button", "data-text": key, ...properties });
@@ -63,7 +63,7 @@ export class Drawn {
     this.editor.turn(true);
   }
 
-  /** Points of the venue, which are to be seen beside the path. */
+  /** Points of the venue, which must be visible together with the path. */
   around() {
     return this.#isRoute ? this.state.get("drawing").things.flatMap(({ points }) => points) : [];
   }
@@ -84,7 +84,7 @@ export class Drawn {
     this.form.show();
     for (const box of SPIRAL_ALONE) $(box).setAttribute("aria-busy", false);
     if (empty) {
-      // Nothing is asked, so nothing is awaited.
+      // Without a question there is no answer to wait for.
       for (const box of $$("main [aria-busy=true]")) box.setAttribute("aria-busy", false);
       this.picture.setPath(null);
       this.picture.scene.pose = null;
@@ -93,7 +93,7 @@ export class Drawn {
     this.draw();
   }
 
-  /** The service's verdict on the dance came. */
+  /** Show the service's verdict on the dance. */
   judged() {
     const { dance, course, refusals } = this.questions;
     if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
@@ -101,13 +101,13 @@ export class Drawn {
     this.judgement.show(dance, course);
   }
 
-  /** The service refused the dance, or the reason for that is known better. */
+  /** Show that the service refused the dance, with a better reason if one is known. */
   refused() {
     const refusal = this.questions.refusals.get("contact") ?? this.questions.refusals.get("course");
     if (this.#isRoute && refusal) this.judgement.refuse(refusal.message, this.questions.course, Number(this.state.get("benches")));
   }
 
-  /** A pose is shown: bring the benches at fault into sight once. */
+  /** Move the benches at fault into view once, after a pose is shown. */
   posed(pose) {
     const failure = this.#wanted;
     if (!failure || !pose.dance || pose.time !== failure.time) return;
@@ -131,7 +131,7 @@ export class Drawn {
     this.draw();
   }
 
-  /** Move the picture to a point [m] that is out of sight. */
+  /** Move the picture to a point [m] outside the view. */
   #look([x, y]) {
     const { view } = this.picture;
     const [px, py] = view.toScreen(x, y);

@@ -1,27 +1,27 @@
-/** Drawing on the picture: the points of one item as buttons that are dragged or moved by keys, and taps that add points. */
+/** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
 import { freeName, inserted, moved, pointsOf, removed, withPoints } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
 import { say } from "./text.js";
 
-/** A press within this distance is no drag [px]; a tap within the next of the path divides it. */
+/** Largest movement of a press that is not a drag [px]; largest distance from the path of a tap that divides it [px]. */
 const [TRAVEL, ON_PATH] = [3, 16];
-/** What an arrow key moves a point by, alone and with Shift [m]. */
+/** Step of an arrow key that moves a point, alone and with Shift [m]. */
 const [STEP, LONG_STEP] = [0.1, 1];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 export const TREE_RADIUS = 0.5;
 const WALL_RADIUS = 0.15;
 
 export class Editor {
-  /** Do taps draw? */
+  /** True if taps draw. */
   active = false;
   tool = "path";
-  /** What is edited: null for the path, else the number of a thing. */
+  /** The edited item: null for the path, else the number of a thing. */
   item = null;
   #knots = [];
   #drag = null;
 
-  /** course(): the drawn path as the service has it; chosen(): another item is edited */
+  /** course(): the drawn path from the service; chosen(): called when another item is edited */
   constructor(dance, state, steps, course, chosen) {
     Object.assign(this, { dance, state, steps, course, chosen, box: $("#knots") });
     dance.tapped = (x, y) => this.#tap(x, y);
@@ -47,7 +47,7 @@ export class Editor {
     this.chosen();
   }
 
-  /** Draw with this tool from now on; another obstacle begins with the next tap. */
+  /** Draw with this tool from now on; a new obstacle begins with the next tap. */
   take(tool) {
     this.tool = tool;
     const area = this.#drawing.things.findIndex(({ kind }) => kind === "area");
@@ -80,7 +80,7 @@ export class Editor {
     this.#fit();
   }
 
-  /** The points of the item that is edited; of the path only while it is drawn itself. */
+  /** The points of the edited item; those of the path only while the path itself is drawn. */
   get #points() {
     if (!this.active || !this.#isRoute || (this.item === null && this.tool !== "path")) return [];
     return pointsOf(this.#drawing, this.item);
@@ -97,7 +97,7 @@ export class Editor {
     });
   }
 
-  /** Put the buttons where the points are in the picture, whenever that is drawn. */
+  /** Move the buttons to the points in the picture, at each drawing of it. */
   place() {
     this.#points.forEach(([x, y], k) => {
       const [px, py] = this.dance.view.toScreen(x, y);
@@ -116,7 +116,7 @@ export class Editor {
     return knot;
   }
 
-  /** Take hold of the point nearest to the pointer: where points lie close together, one is over another. */
+  /** Take the point nearest to the pointer, because buttons of near points overlap. */
   #grab(event) {
     event.preventDefault();
     const { left, top } = this.box.getBoundingClientRect();
@@ -161,7 +161,7 @@ export class Editor {
     event.stopPropagation();
   }
 
-  /** A point more between point k and the next one, at the end before it: on the path, or half way along an edge. */
+  /** Insert a point after point k (after the last one: before it), on the path or half way along an edge. */
   #divide(k) {
     const points = this.#points;
     if (points.length < 2) return;
@@ -187,7 +187,7 @@ export class Editor {
 
   #last = null;
 
-  /** Move the picture so that a point that got the focus is in sight. */
+  /** Move the picture so that a point that got the focus is in view. */
   #reveal(k) {
     this.#last = k;
     const { view } = this.dance;
@@ -199,7 +199,7 @@ export class Editor {
     }
   }
 
-  /** A tap on the picture. Returns whether it drew something. */
+  /** Handle a tap on the picture; returns true if it drew something. */
   #tap(px, py) {
     if (!this.active || !this.#isRoute) return false;
     const drawing = this.#drawing;
@@ -219,7 +219,7 @@ export class Editor {
     this.steps.take(found ? inserted(drawing, null, found.k, found.point) : inserted(drawing, null, count, point));
   }
 
-  /** Where a tap divides the path: before which point, and its place on it. */
+  /** The division of the path by a tap: number of the next point, and place of the new one. */
   #onPath(px, py) {
     const { s, x, y, knots } = this.course() ?? { s: [], knots: [] };
     if (knots.length !== this.#drawing.points.length) return null;
@@ -234,7 +234,7 @@ export class Editor {
     return { k: k < 0 ? knots.length - 1 : k, point: [x[best], y[best]] };
   }
 
-  /** A new thing at this point. */
+  /** Add a new thing at this point. */
   #begin(drawing, point) {
     const kind = this.tool;
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS }[kind];

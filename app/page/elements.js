@@ -4,12 +4,12 @@ export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];
 export const onClick = (selector, act) => $(selector).addEventListener("click", act);
 
-/** To hide what is hidden would cost a new look at all styles. */
+/** Show or hide an element only on a change, because each assignment makes the browser compute all styles again. */
 export function hide(element, hidden) {
   if (element.hidden !== hidden) element.hidden = hidden;
 }
 
-/** An element with these properties and children; attributes with a dash go in by name. */
+/** An element with these properties and children; names with a dash become attributes. */
 export function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {

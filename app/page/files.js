@@ -14,7 +14,7 @@ const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
 export class Files {
-  /** steps: take drawings; questions: know the dance shown; announce(words) */
+  /** steps: receives drawings; questions: has the shown dance; announce(words) */
   constructor(state, steps, service, questions, announce) {
     Object.assign(this, { state, steps, service, questions, announce });
     this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "open", hidden: true });
@@ -74,7 +74,7 @@ export class Files {
     const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof found[one] === "number").map((one) => [one, String(found[one])]));
     if (this.state.get("path") !== "route") this.state.choosePath("route");
     const opened = drawingOf({ ...found, venue: typeof venue === "object" ? venue : null });
-    // A map without a path leaves the path that is drawn, and one without a venue the venue.
+    // A map without a path keeps the drawn path, and one without a venue keeps the venue.
     const { points, straight, radius, begin, path: given, things, origin } = this.state.get("drawing");
     if (!path) Object.assign(opened, { points, straight, radius, begin, path: given });
     if (!venue) Object.assign(opened, { things, origin });
@@ -88,7 +88,7 @@ export class Files {
     this.announce([say("opened", { name }), ...(found.notes ?? [])].join(" "));
   }
 
-  /** The dance as `bench-dragon check` takes it. */
+  /** The dance in the format of `bench-dragon check`. */
   save() {
     const text = JSON.stringify(this.questions.checkBody(this.questions.drawn()), null, 2);
     const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: "dance.json" });
@@ -98,7 +98,7 @@ export class Files {
   }
 }
 
-/** A dance that this page saved, or null for any other file. */
+/** The dance in a file saved by this page; null for any other file. */
 async function ownDance(file) {
   if (!/\.json$/i.test(file.name)) return null;
   try {

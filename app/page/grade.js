@@ -1,4 +1,4 @@
-/** The grader: workbooks that are dropped or chosen, and typed answers, each with the service's verdict. */
+/** The grader: dropped or chosen workbooks, and typed answers, each with the service's verdict. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
@@ -6,14 +6,14 @@ import { bearer } from "./jobs.js";
 import { refusalWords, say } from "./text.js";
 
 const ANSWERS = ["collision_time", "pitch", "turn_length", "speed"];
-/** The colour of each mark of a picture; what is right stays pale. */
+/** Colour of each mark of a picture; right cells are pale. */
 const COLOURS = { ".": "--line", o: "--undecided", "#": "--contact", "?": "--border" };
 const OUTCOMES = { right: "clear", rounded: "clear", incomplete: "undecided", wrong: "contact", unreadable: "contact" };
 const MARKS = { right: "✓", rounded: "✓", incomplete: "!", wrong: "✕", unreadable: "✕" };
 const CELL = 6;
-/** What each mark of a picture means. */
+/** Meaning of each mark of a picture. */
 const MEANINGS = { ".": "mark_right", o: "mark_rounded", "#": "mark_wrong", "?": "mark_missing" };
-/** Numbers as they may be typed, and an example of each. */
+/** Numbers that may be typed, with an example of each. */
 const NUMBER = /^[0-9]{1,6}(\.[0-9]{1,15})?$/;
 const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
 const TOO_LONG = /^The body must be at most (\d+) bytes/;
@@ -46,7 +46,7 @@ export class Grader {
     });
   }
 
-  /** Show everything in this language; the service's words are asked for again. */
+  /** Show everything in this language; the service is asked again for its words. */
   translate(language) {
     const changed = this.#language !== null && this.#language !== language;
     this.#language = language;
@@ -153,7 +153,7 @@ function sheetParts(sheet) {
   return parts;
 }
 
-/** What the colours of a picture mean. */
+/** Legend of the colours of a picture. */
 function legend(marks) {
   const entries = Object.keys(MEANINGS).filter((mark) => marks.includes(mark)).flatMap((mark) => {
     const colour = make("span", { "aria-hidden": "true", textContent: "■ " });
@@ -163,7 +163,7 @@ function legend(marks) {
   return make("p", { className: "hint legend" }, ...entries);
 }
 
-/** A picture of where the wrong cells are: handles from the top, instants from the left. */
+/** A picture of the places of wrong cells: handles from the top, instants from the left. */
 function drawn(picture) {
   const width = picture[0].length;
   const size = { width: CELL * width, height: CELL * picture.length };

@@ -1,4 +1,4 @@
-/** The charts of the page: what each shows of the answers, its reading and its help. */
+/** The charts of the page: the content, the reading and the help text of each. */
 
 import { centimetres, gapWords, instantWords, outcomeWords } from "./answers.js";
 import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
@@ -7,9 +7,9 @@ import { CONTACT, strayOf } from "./state.js";
 import { benchName, refusalWords, say, sayOf } from "./text.js";
 
 const PITCH_DECIMALS = 4;
-/** Charts that take the service seconds. */
+/** Charts for which the service needs seconds. */
 const SLOW = ["curve", "scan"];
-/** How far from the view these are asked for: on wide screens they begin soon below it, so farther only once somebody scrolls. */
+/** Distance from the view at which they are requested: small at first, because on wide screens they are just below it. */
 const [IN_VIEW, A_SCREEN] = ["0px", "100%"];
 
 export class Graphs {
@@ -27,11 +27,11 @@ export class Graphs {
     };
     this.#watchFrom(IN_VIEW);
     addEventListener("scroll", () => this.#watchFrom(A_SCREEN), { once: true });
-    // Paper does not wait: charts that are not there yet are left out, and are there when it is printed once more.
+    // Printing does not wait: missing charts are left out, and appear when the page is printed again.
     addEventListener("beforeprint", () => SLOW.forEach((kind) => questions.near(kind)));
   }
 
-  /** Ask for slow charts from when they are this near to the view. margin: as CSS writes it */
+  /** Request slow charts as soon as they are this near to the view. margin: as in CSS */
   #watchFrom(margin) {
     this.#watch?.disconnect();
     const tell = (seen) => seen.filter((one) => one.isIntersecting).forEach(({ target }) => this.questions.near(target.parentElement.id));
@@ -43,14 +43,14 @@ export class Graphs {
     for (const chart of Object.values(this.#charts)) chart.show();
   }
 
-  /** The help texts, which depend on what counts as a contact. */
+  /** The help texts, which depend on the definition of a contact. */
   help() {
     const asked = this.state.texts(CONTACT);
     $("#clearance .hint").textContent = sayOf("clearanceHelp", asked);
     $("#scan .hint").textContent = sayOf("scanHelp", asked) + (strayOf(asked) > 0 ? say("scanStray") : "");
   }
 
-  /** Show a refusal in place of the chart of this kind, if there is one. message: null if it stands elsewhere */
+  /** Show a refusal in place of the chart of this kind, if there is one. message: null if it is shown elsewhere */
   refuse(kind, message) {
     if (!(kind in this.#charts)) return;
     this.#charts[kind].show(null);
@@ -77,7 +77,7 @@ export class Graphs {
     $("#clearance .reading").textContent = say("clearanceAt", { time: instantWords(k === answer.time.length - 1 ? dance.end : answer.time[k], dance), gap, a, b });
   }
 
-  /** How far people may stray against the pitch, with the stray asked about and the minimum pitch for it. */
+  /** Draw the proven stray against the pitch, with the current stray and the minimum pitch for it. */
   curve() {
     const { curve, minimum, tolerance } = this.questions.answers;
     if (!curve) return;
@@ -89,7 +89,7 @@ export class Graphs {
     $("#curve .reading").textContent = pitch ? words() : "";
   }
 
-  /** The first look at the staircase, or all of it. kind: look or scan */
+  /** Draw the first view of the staircase, or all of it. kind: look or scan */
   scan(kind) {
     const { answer, asked } = this.questions.answers[kind];
     const coarse = kind === "look";
@@ -98,7 +98,7 @@ export class Graphs {
     this.pitch();
   }
 
-  /** Mark the dance shown where the head stops against the pitch. */
+  /** Mark the shown dance on the staircase. */
   pitch() {
     const { answer, numbers, kind } = this.questions.dance ?? {};
     const { look, scan } = this.questions.answers;

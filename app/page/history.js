@@ -1,6 +1,6 @@
 /** Undo and redo of the drawing. Each step is an entry of the browser's history too, so that its back button works. */
 
-/** Changes of the same kind within this time [ms] are one step: arrow keys, a number that is typed. */
+/** Changes of the same kind within this time [ms] are one step, such as arrow keys or digits of a number. */
 const TOGETHER = 1_000;
 
 export class Steps {
@@ -8,7 +8,7 @@ export class Steps {
   #future = [];
   #last = { kind: null, at: 0 };
 
-  /** changed(): called when there is something to undo or redo, or no longer */
+  /** changed(): called when undo or redo becomes possible or impossible */
   constructor(state, changed) {
     Object.assign(this, { state, changed });
   }
@@ -21,7 +21,7 @@ export class Steps {
     return this.#future.length > 0;
   }
 
-  /** Replace the drawing. before: what undo brings back, where the drawing has already changed in steps of a drag */
+  /** Replace the drawing. before: the drawing for undo, if a drag has already changed it in steps */
   take(drawing, kind = null, before = this.state.get("drawing")) {
     if (drawing === before) return;
     const now = performance.now();

@@ -1,20 +1,20 @@
-/** The jobs that this browser has started, and with a token all of the service: how far each is, its result, its end. */
+/** The jobs that this browser has started, or with a token all jobs of the service: progress, result and removal. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, make } from "./elements.js";
 import { refusalWords, say } from "./text.js";
 
 const STORED = "bench-dragon-jobs";
-/** So many jobs are remembered. */
+/** Most jobs that the browser remembers. */
 const REMEMBERED = 50;
-/** Between two looks at a job that is not finished [ms]. */
+/** Time between two checks of an unfinished job [ms]. */
 const LOOK = 1_000;
-/** Ends of the names of files, by their type. */
+/** Endings of file names, by media type. */
 const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv" };
 const UNFINISHED = ["accepted", "running"];
 const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
 
-/** What the browser remembers; nothing where it may not. */
+/** The remembered jobs; empty if the browser allows no storage. */
 function remembered() {
   try {
     const found = JSON.parse(localStorage.getItem(STORED));
@@ -24,7 +24,7 @@ function remembered() {
   }
 }
 
-/** The token that was given here, for calls that may need it. */
+/** The typed token, for calls that may need it. */
 export function bearer() {
   const token = $("#token").value.trim();
   return token ? { Authorization: `Bearer ${token}` } : {};
@@ -61,7 +61,7 @@ export class Jobs {
     try {
       localStorage.setItem(STORED, JSON.stringify(own.map(([id, { spec }]) => ({ id, spec }))));
     } catch {
-      // Where the browser keeps nothing, the list ends with the page.
+      // Without storage in the browser the list ends with the page.
     }
   }
 
@@ -77,7 +77,7 @@ export class Jobs {
     }
   }
 
-  /** Ask how far every job is that is not finished, and again after a while. */
+  /** Ask for the progress of every unfinished job, and again after a while. */
   async #look() {
     clearTimeout(this.#timer);
     this.render();
@@ -130,7 +130,7 @@ export class Jobs {
     }
   }
 
-  /** Show the list, also after a change of language; what has the focus keeps it. */
+  /** Show the list, also after a change of language; the focused element keeps the focus. */
   render() {
     const focus = document.activeElement?.id;
     const rows = [...this.#jobs].filter(([, { status }]) => status).map(([id, job]) => this.#row(id, job));
@@ -163,7 +163,7 @@ export class Jobs {
 }
 
 const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {};
-/** Is the result the table of a sweep, which the page draws? A film is a file. */
+/** True if the result is the table of a sweep, which the page can draw. */
 const isTable = (status) => status.processID === "sweep" && resultOf(status).type === "application/json";
 
 function what(process, spec) {
@@ -173,7 +173,7 @@ function what(process, spec) {
   return say("sweepOver", { question: say(`sweep_${spec.question}`), names: names.join(say("and")) });
 }
 
-/** How far a job is: state, designs, rate and time left. */
+/** Progress of a job: state, designs, rate and time left. */
 function stateWords({ status, done, total, rate, time_left: left }) {
   const words = [say(STATES[status])];
   if (done !== null && status === "running") words.push(say("jobDesigns", { done, total }));

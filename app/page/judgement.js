@@ -1,4 +1,4 @@
-/** Can the drawn dance be danced? The verdict, and each failure in order of time with a button that shows it. */
+/** The verdict on the drawn dance, and each failure in order of time with a button that shows it. */
 
 import { $, make } from "./elements.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
@@ -30,7 +30,7 @@ export class Judgement {
     Object.assign(this, { box, seek, look });
   }
 
-  /** The verdict on a dance that the service has checked. */
+  /** Show the verdict on a dance that the service has checked. */
   show(dance, course) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
     const rows = dance.failures.map((failure) => this.#row([`${failure.time.toFixed(DECIMALS)} s`, failure.clock].filter(Boolean).join(" · "), words(failure, dance), () => this.seek(failure)));
@@ -39,7 +39,7 @@ export class Judgement {
     this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows);
   }
 
-  /** Why there is no verdict: nothing is drawn yet, bends are too tight, or what the service says. */
+  /** Show why there is no verdict: no drawing yet, bends that are too tight, or the service's refusal. */
   refuse(message, course, benches) {
     const bends = course?.bends ?? [];
     const said = ({ radius, least_radius: least, bench }) =>
@@ -59,7 +59,7 @@ export class Judgement {
   #fill(outcome, mark, value, lines, rows) {
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
-    // On a phone the verdict stands under the picture too.
+    // On a phone the verdict also appears below the picture.
     Object.assign($("#verdict"), { hidden: false, textContent: [mark, value, rows[0] ? `· ${rows[0].textContent}` : ""].join(" ") });
     const said = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);

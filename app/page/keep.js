@@ -1,4 +1,4 @@
-/** What a person can keep: the link, files of every kind, a film, and the command that gives the same. */
+/** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
@@ -23,7 +23,7 @@ const TYPES = {
   A4: "application/pdf",
   A3: "application/pdf",
 };
-/** What can be kept, in the order of the page: its forms, and the method that says what is asked; as a job if it is slow. */
+/** Items to save, in the order of the page: formats, and the method with the request; slow ones become a job. */
 const ITEMS = [
   { key: "keepTrajectory", forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
   { key: "keepPicture", forms: ["PNG"], file: "dance" },
@@ -41,14 +41,14 @@ const ITEMS = [
   { key: "keepClearance", forms: ["JSON"], ask: "clearance", file: "clearance" },
   { key: "keepPaper", forms: ["JSON"], ask: "paperAsked", file: "paper" },
 ];
-/** The name of a file in this form. */
+/** Name of a file in this format. */
 const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
-/** Commands besides those of the items: of what the page shows, and of a proof. */
+/** Commands in addition to those of the items: for the shown answer, and for a proof. */
 const SHOWN = "keepShown";
 const PROOF = "keepProof";
 
 export class Keep {
-  /** jobs: where a film is made; announce(words): reports what happened */
+  /** jobs: makes films; announce(words): reports events */
   constructor({ state, service, questions, jobs, canvas, announce }) {
     Object.assign(this, { state, service, questions, jobs, canvas, announce });
     onClick("#share", () => {
@@ -72,14 +72,14 @@ export class Keep {
     return make("li", {}, make("span", { "data-text": item.key }), make("span", { className: "buttons" }, ...buttons));
   }
 
-  /** Name each button after what it keeps. */
+  /** Name each button after its item. */
   translate() {
     for (const button of $("#kept").querySelectorAll("button")) button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}`);
     if (this.questions.dance) this.show();
     if ($("#paper").open) this.paper();
   }
 
-  /** Offer only what this service can write. paths: of its OpenAPI document */
+  /** Offer only formats that this service can write. paths: of its OpenAPI document */
   offer(paths) {
     const types = new Set();
     for (const calls of Object.values(paths)) {
@@ -88,7 +88,7 @@ export class Keep {
     for (const button of $("#kept").querySelectorAll("button")) button.hidden = !types.has(TYPES[button.dataset.form]);
   }
 
-  /** The commands for what is chosen. */
+  /** The commands for the chosen item. */
   show() {
     const wanted = $("#curl-of").value;
     const item = ITEMS.find(({ key }) => key === wanted);
@@ -96,7 +96,7 @@ export class Keep {
     $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(this[item.ask](item.forms[0]), item)]))().join("\n");
   }
 
-  /** The command for a question; item: whose first form goes into a file */
+  /** The command for a question. item: its first format goes into a file */
   #curl({ path, query, body }, item) {
     const base = new URL("./", location).href;
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
@@ -106,7 +106,7 @@ export class Keep {
     return `curl '${base}${url}'${sent}${kept}`;
   }
 
-  /** The command that proves in ball arithmetic what is shown. */
+  /** The command that proves the shown answer in ball arithmetic. */
   #proof() {
     const { kind, numbers, answer, begin, end } = this.questions.dance;
     if (kind === "route" || !isPlain(this.questions.dance)) return "bench-dragon prove dance dance.json";
@@ -151,7 +151,7 @@ export class Keep {
     return form === "JSON" ? new Blob([JSON.stringify(answer, null, 2)], { type: TYPES.JSON }) : form === "GeoJSON" ? new Blob([JSON.stringify(answer)]) : answer;
   }
 
-  /** Begin a job, whose result stands among the jobs. */
+  /** Start a job; its result appears among the jobs. */
   async #begin({ ask }, form) {
     const { path, body } = this[ask](form);
     const headers = { Prefer: "respond-async", ...bearer() };
@@ -185,7 +185,7 @@ export class Keep {
 
   contact(form) {
     const { kind, query, numbers, end } = this.questions.dance;
-    // The figure of a contact has everybody in their place: with a stray, the figure is that of the last instant shown.
+    // The figure of a contact shows everybody in their place: with a stray, the figure of the last shown instant replaces it.
     if (strayOf(query) > 0) return this.#figure("trajectory", form, { body: this.questions.body({ time: end }) });
     const { stray, hole, pin, ...flat } = query;
     return this.#figure("contact", form, kind === "spiral" && isPlain(this.questions.dance) ? { query: flat } : { body: this.questions.body({ margin: numbers.margin }) });
@@ -214,7 +214,7 @@ export class Keep {
     return { path: `maps.${form.toLowerCase()}`, body: { ...this.questions.checkBody(this.questions.dance), ...(origin && { origin }) } };
   }
 
-  /** The answer that the command gives; in the one shown, the engines may have judged only the pair. */
+  /** The answer of the command; in the shown one the engines may have judged only the pair. */
   answer() {
     const { dance } = this.questions;
     if (dance.kind !== "spiral") return this.verdict();
@@ -242,7 +242,7 @@ export class Keep {
     return { path: "paper", query: { language: language() } };
   }
 
-  /** The paper's numbers beside ours, asked for when somebody looks. */
+  /** The paper's numbers beside ours, requested when the section is opened. */
   async paper() {
     const answer = await this.service.ask("paper", "paper", this.paperAsked()).catch((error) => this.#told(error));
     if (!answer) return;

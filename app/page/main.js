@@ -36,7 +36,7 @@ const BUSY = {
   grade: ["#grade"],
 };
 const ZOOM = 1.5;
-/** On a run that ends in a fold, a handle this many times faster than the head shows that the fold is near [1]. */
+/** In a run that ends in a fold: a handle this many times faster than the head shows that the fold is near [1]. */
 const FAST = 2;
 
 const state = new State();
@@ -87,17 +87,17 @@ function draw() {
   });
 }
 
-/** Move the choice by a number of handles. */
+/** Choose the handle a number of places further. */
 function choose(step) {
   const last = (dance.scene.pose?.x.length ?? 1) - 1;
   state.set({ handle: Math.min(Math.max((state.get("handle") ?? -Math.sign(step)) + step, 0), last) });
 }
 
-/** Show a pose: interpolated while the dance moves, or the service's own (it has `dance`) for the table and at rest. */
+/** Show a pose: interpolated in motion, or the service's own (with `dance`) for the table and at rest. */
 function showPose(pose) {
   const { answer, end, kind, numbers } = questions.dance;
   const contact = answer.benches && pose.time === end ? answer : null;
-  // Inner and outer refer to the centre of a spiral, which other paths do not have.
+  // Inner and outer refer to the centre of a spiral; other paths have none.
   const drawn = contact && kind !== "spiral" ? { ...contact, edge: null } : contact;
   Object.assign(dance.scene, { pose, dragon: numbers, contact: drawn });
   $("#halo").hidden = !(strayOf(numbers) > 0);
@@ -140,7 +140,7 @@ function showTable(pose) {
 
 function showTime() {
   const { time } = player;
-  // At rest an instant has the same digits everywhere; in motion nobody could read them.
+  // At rest an instant has the same digits everywhere; in motion they would be unreadable.
   const text = `${player.playing || !questions.dance ? time.toFixed(2) : answers.instantWords(time, questions.dance)} s`;
   $("#time").value = time;
   $("#time").setAttribute("aria-valuetext", text);
@@ -184,7 +184,7 @@ const SHOW = {
   },
   curve: () => graphs.curve(),
   look() {
-    // The jumps of before belong to other numbers.
+    // The former jumps belong to other numbers.
     delete questions.answers.scan;
     graphs.scan("look");
   },
@@ -196,7 +196,7 @@ const SHOW = {
   head() {
     const { answer, asked } = questions.answers.head;
     answers.showHeadSpeed($("#head-speed"), answer, asked, (speed) => {
-      // The whole dance is played faster or slower.
+      // The whole dance becomes faster or slower.
       const passages = quickened(state.said().passages, speed / Number(state.get("head_speed")));
       state.set({ head_speed: String(speed), passages: passagesText(passages) });
     });
@@ -325,11 +325,11 @@ function restyle() {
   graphs.restyle();
   map.draw();
   grader.show();
-  // Paper does not wait for the next frame.
+  // Printing does not wait for the next frame.
   dance.draw();
 }
 
-/** Limits and units of the numbers, and what this service can write. */
+/** Limits and units of the numbers, and formats that this service can write. */
 async function readDocument() {
   const { paths } = await service.ask("openapi", "openapi.json");
   limits = limitsIn(paths);

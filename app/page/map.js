@@ -10,16 +10,16 @@ const [LEFT, RIGHT, TOP, BOTTOM] = [64, 16, 12, 44];
 const LEVELS = 8;
 const TICKS = 6;
 const DIGITS = 6;
-/** Of a step between ticks, far more than rounding takes [1]. */
+/** Tolerance of a tick, as a part of the step between ticks: far more than rounding [1]. */
 const ROUNDING = 1e-6;
-/** Columns that stand before the values of the answer. */
+/** Columns before the values of the answer. */
 const DESIGN = "design";
 const ERROR = "error.code";
 
 const shown = (number) => (number === null || number === undefined ? "–" : String(Number(Number(number).toPrecision(DIGITS))));
 
 export class SweepMap {
-  /** name -> unit, as the service states them */
+  /** name -> unit in the service */
   units = {};
   #table = null;
   #cell = null;
@@ -37,7 +37,7 @@ export class SweepMap {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
-  /** columns: name -> list, as the service answers; own, title: the column shown first, and the key of its name */
+  /** columns: name -> list, the service's answer; own, title: the first shown column, and the key of its name */
   show(columns, own, title) {
     const names = Object.keys(columns);
     const over = names.slice(names.indexOf(DESIGN) + 1, names.indexOf(ERROR));
@@ -87,7 +87,7 @@ export class SweepMap {
 
   #drawn = null;
 
-  /** Rows of the value by the second parameter, each by the first; null where a design has none. */
+  /** Rows of the value for the second parameter, each over the first; null for a design without it. */
   #grid(values) {
     const { columns, over, axes } = this.#table;
     const places = axes.map((axis) => new Map(axis.map((one, k) => [one, k])));
@@ -127,7 +127,7 @@ export class SweepMap {
     context.stroke();
   }
 
-  /** Number of the row of a design, by its places on the axes. */
+  /** Row number of a design, from its places on the axes. */
   #design(i, j) {
     const { columns, over, axes } = this.#table;
     const [first, second] = over.map((name) => columns[name]);
@@ -201,7 +201,7 @@ function drawCells(context, [xs, ys], grid, [low, high], at, colour) {
       if (value === null) return;
       const [[left, bottom], [right, top]] = [at(ex[i], ey[j]), at(ex[i + 1], ey[j + 1])];
       context.fillStyle = shades[Math.min(Math.floor(((value - low) / (high - low || 1)) * shades.length), shades.length - 1)];
-      // A pixel more, so that no seams show.
+      // One pixel more, so that no seams are visible.
       context.fillRect(left, top, right - left + 0.7, bottom - top + 0.7);
     }),
   );
@@ -211,7 +211,7 @@ function drawCells(context, [xs, ys], grid, [low, high], at, colour) {
   context.stroke();
 }
 
-/** The line on which the value has this level, cell by cell: straight between the places where it crosses their sides. */
+/** The contour of a level, cell by cell: a straight line between its crossings with the sides of the cell. */
 function contour(context, [xs, ys], grid, level, at) {
   const cross = (a, b, from, to) => (a < level !== b < level ? from.map((one, k) => one + ((level - a) / (b - a)) * (to[k] - one)) : null);
   for (let j = 0; j + 1 < ys.length; j++) {

@@ -1,16 +1,16 @@
-/** What lies over the picture and the page: the inset, the mark of the contact, messages that go away. */
+/** Elements over the picture and the page: the inset, the mark of the contact, temporary messages. */
 
 import { $ } from "./elements.js";
 import { say } from "./text.js";
 
-/** How long a message stays, and for each letter of a long one [ms]. */
+/** Time that a message stays, and additional time for each letter of a long one [ms]. */
 const [SAID, LETTER] = [6_000, 80];
-/** Where the inset may stand, the favourite first; the lower left has the legend. */
+/** Possible corners of the inset, the preferred one first; the lower left has the legend. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
 let said = 0;
 
-/** Say what happened; the words go away by themselves, or when they are clicked. */
+/** Show a message; it disappears by itself, or on a click. */
 export function announce(words) {
   const box = $("#status");
   const end = () => (box.textContent = "");
@@ -20,7 +20,7 @@ export function announce(words) {
 }
 
 /**
- * Let the inset stand in the corner where it covers least of the dragon; where it stands is left only for a better one.
+ * Put the inset into the corner where it covers least of the dragon; it moves only to a better corner.
  * covered(rectangles): how much of the dragon lies in each {left, top, right, bottom} [px]
  */
 export function placeInset(covered) {

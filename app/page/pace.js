@@ -1,4 +1,4 @@
-/** How fast the head goes when, and at what time of day: passages beside the head speed, and the clock at time 0. */
+/** Speeds and times of the head: passages in addition to the head speed, and the time of day at time 0. */
 
 import { make } from "./elements.js";
 import { refusalWords, say } from "./text.js";
@@ -7,14 +7,14 @@ const DAY = 86_400;
 const [HOUR, MINUTE] = [3_600, 60];
 const CLOCK = /^([01]\d|2[0-3]):[0-5]\d(:[0-5]\d)?$/;
 const NUMBER = /^-?\d+([.,]\d+)?$/;
-/** Where a passage ends: at a place [m] or at a time [s]. */
+/** End of a passage: a place [m] or a time [s]. */
 const ENDS = { m: "until_s", s: "until_time" };
-/** The first passage that a person adds: a pause of ten seconds after this many metres or seconds. */
+/** The first added passage: a pause of ten seconds after this many metres or seconds. */
 const FIRST = 20;
 
 const read = (text) => (NUMBER.test(text.trim()) ? Number(text.trim().replace(",", ".")) : text.trim());
 
-/** Passages as in an address, such as 0.5@20m_0@100s, as the service takes them; what is no number it refuses. */
+/** Passages of an address, such as 0.5@20m_0@100s, in the service's format; the service refuses wrong numbers. */
 export function passagesIn(text) {
   return text.split("_").filter(Boolean).map((one) => {
     const [, speed, until, unit] = /^(.*?)@(.*?)([ms]?)$/.exec(one) ?? [null, one, "", ""];
@@ -22,22 +22,22 @@ export function passagesIn(text) {
   });
 }
 
-/** The same as a text. */
+/** Passages as the text of an address. */
 export const passagesText = (passages) =>
   passages.map(({ speed, until_s: place, until_time: time }) => `${speed}@${place ?? time}${place === undefined || place === null ? "s" : "m"}`).join("_");
 
-/** The dance played faster by a factor. */
+/** The passages of the dance made faster by a factor. */
 export const quickened = (passages, factor) =>
   passages.map(({ speed, until_time: time, ...place }) => ({ speed: speed * factor, ...place, ...(time !== undefined && { until_time: time / factor }) }));
 
-/** A time of day as a person types it, such as 19:30, 7:30 or 19:30:15, as the service takes it; null if it is none. */
+/** A typed time of day, such as 19:30, 7:30 or 19:30:15, in the service's format; null if it is none. */
 export function clockIn(text) {
   const typed = text.trim().replaceAll("：", ":");
   const full = /^\d:/.test(typed) ? `0${typed}` : typed;
   return full === "" || CLOCK.test(full) ? full : null;
 }
 
-/** When the head has gone this far [m] since time 0 [s]. */
+/** Time at which the head has travelled this far since time 0 [s]. */
 export function timeAfter(distance, speed, passages) {
   let [time, gone] = [0, 0];
   for (const { speed: own, until_s: place, until_time: until } of passages) {
@@ -58,7 +58,7 @@ export function timeOfDay(time, clock) {
 export class Pace {
   #rows = [];
 
-  /** field: of the head speed, below which this stands */
+  /** field: that of the head speed, above these elements */
   constructor(field, state) {
     this.state = state;
     this.title = make("summary");
@@ -77,7 +77,7 @@ export class Pace {
     this.show();
   }
 
-  /** The passages as they are typed: [speed, until, unit] of each. */
+  /** The typed passages: [speed, until, unit] of each. */
   get #typed() {
     return this.#rows.map(({ speed, until, unit }) => `${read(speed.value)}@${read(until.value)}${unit.value}`);
   }

@@ -4,11 +4,11 @@ import { $, onClick } from "./elements.js";
 import { RATES } from "./state.js";
 import { say } from "./text.js";
 
-/** Interval between requests for the service's own numbers while the dance moves [ms]. */
+/** Time between requests for the service's own numbers in motion [ms]. */
 const EXACT_EVERY = 250;
 /** Time between steps of the dance with reduced motion [ms]. */
 const STEP_EVERY = 500;
-/** Longest frame time that counts [ms], so that a slow frame does not jump ahead. */
+/** Longest frame time that counts [ms], so that the dance does not jump after a slow frame. */
 const FRAME_MAX = 100;
 
 export class Player {
@@ -45,7 +45,7 @@ export class Player {
     return this.questions.dance ?? { begin: 0, end: 0 };
   }
 
-  /** The instant shown; without a time in the state it is the end. */
+  /** The shown instant; without a time in the state it is the end. */
   get time() {
     const { begin, end } = this.#span;
     return Math.min(Math.max(this.state.get("time") ?? end, begin), end);

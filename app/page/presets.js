@@ -22,7 +22,7 @@ const drawings = {
       [0, -19.5], [14.3, -14.3], [21, 0],
     ],
   },
-  /** That of examples/village_square.toml, with its trees and its well as circles. */
+  /** The dance of examples/village_square.toml, with its trees and its well as circles. */
   village: {
     points: [
       [-67, -8], [-12, -8], [-3, -9], [6, -8], [10.5, -3], [7, 2.5], [0, 3.5], [-4.5, 7], [-1, 10.5], [6, 10.5], [12, 15], [12, 62],

@@ -1,7 +1,7 @@
-/** How an answer is proven, in Chinese: the service's sentences, part by part. */
+/** The proof of an answer in Chinese: the service's sentences, part by part. */
 
 const PLACE = "不共用把手的任何两节板凳";
-/** Parts of a sentence, in their order: what stands before is translated first. */
+/** Parts of a sentence in the order of translation. */
 const PARTS = [
   [/^(\d+) bench(?:es)? \(head (.+?) m(?:, body (.+?) m)?, width (.+?) m, overhang (.+?) m\)/, (_, n, head, body, width, overhang) =>
     `${n} 节板凳（龙头长 ${head} m，${body ? `龙身长 ${body} m，` : ""}宽 ${width} m，孔心距板头 ${overhang} m）`],

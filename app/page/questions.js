@@ -10,12 +10,12 @@ import { Track } from "./track.js";
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
 const SPEED_CELLS = 12_000;
-/** The curve of how far people may stray is nearly straight. */
+/** Samples of the curve of strays: few, because it is nearly straight. */
 const CURVE = { samples: 13 };
-/** The first look at the pitch chart, many times faster than the jumps between the samples. */
+/** Request for the first view of the pitch chart, many times faster than with the jumps between samples. */
 const LOOK = { samples: 41, locate: false };
 const nameOf = ({ name, pointer = "" }) => name ?? (pointer.startsWith("/passages") ? "passages" : pointer.split("/").at(-1));
-/** At a fold the chain is about to break, and at its end a path: the page shows the instant this long before it [s]. */
+/** Time before a fold, or before the end of a path, of the last shown instant [s], because the chain ends there. */
 const BEFORE_END = 1e-6;
 /** Distance between samples of the path [m], and the largest number of samples. */
 const [PATH_STEP, PATH_SAMPLES] = [0.3, 6_000];
@@ -27,31 +27,31 @@ const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
 const HEAD = [...DRAGON, "pitch", "start_turns", ...TURN, "speed_limit"];
 /** While a slider is dragged, the engines judge only the touching pair. */
 const QUICK = { cross_check: "pair" };
-/** While a path is drawn, nothing is asked but whether it can be danced. */
+/** While a path is being drawn, the only question is whether it can be danced. */
 const VERDICT = { cross_check: "none", details: false };
-/** Channels on which questions at rest are asked about a drawn dance. */
+/** Channels of the questions at rest about a drawn dance. */
 const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
-/** Refusals of these concern a number that a person entered; others only affect what can be shown. The last one wins. */
+/** Questions whose refusals concern an entered number; other refusals only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["head", "shortest", "minimum", "contact"];
 
-/** Instants from which the picture takes the colours of the whole dance: fewer with more handles. */
+/** Number of instants for the colours of the whole dance: fewer with more handles. */
 function speedTimes({ begin, end, numbers: { benches } }) {
   const count = Math.min(Math.max(Math.floor(SPEED_CELLS / (benches + 1)), 8), 100);
   return begin < end ? { start: begin, stop: end, step: (end - begin) / count } : [begin];
 }
 
-/** The last instant shown: first contact, or the time until which nothing touches. */
+/** The last shown instant: first contact, or the time until which nothing touches. */
 function lastInstant({ time, time_bracket, end }) {
   return time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
 }
 
-/** Is a dance told by its numbers alone? Then a query can ask about it on a spiral. */
+/** True if its numbers describe a dance completely, so that a query can ask about it on a spiral. */
 export const isPlain = ({ said: { csv, passages } }) => !csv && !passages.length;
 
 export class Questions {
   /** {kind, query, numbers, said, answer, begin, end, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
   dance = null;
-  /** The drawn path as the service has it: {s, x, y, knots, bends, drawing} */
+  /** The drawn path from the service: {s, x, y, knots, bends, drawing} */
   course = null;
   /** kind -> {answer, asked: the numbers as texts, query or body, dance}: the newest, to be shown again in another language */
   answers = {};
@@ -59,14 +59,14 @@ export class Questions {
   refusals = new Map();
   #rest = 0;
   #asked = new Map();
-  /** Charts that somebody came near: the questions of the others, which take long, are not asked. */
+  /** Charts near the view; the slow questions of other charts are not asked. */
   #near = new Set();
-  /** The slow questions that are being asked. */
+  /** The slow questions in progress. */
   #turn = null;
-  /** Whether the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
+  /** True if the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
 
-  /** tell(kind, detail): an answer of this kind came, or a refusal came or went */
+  /** tell(kind, detail): called for a new answer of this kind, and for a new or solved refusal */
   constructor(service, state, tell) {
     Object.assign(this, { service, state, tell });
   }
@@ -86,7 +86,7 @@ export class Questions {
     this.#keep("minimum", "minimum-pitch", this.#whole ? circle : this.#over([...CIRCLE, ...CONTACT], QUICK));
   }
 
-  /** What is asked about a dance of this kind: its numbers, with a table of benches those of the table. */
+  /** Numbers in questions about a dance of this kind; with a table of benches those of the table. */
   #asking(kind, query) {
     const said = this.state.said();
     const numbers = numbersOf(query);
@@ -108,7 +108,7 @@ export class Questions {
     return { asked: { ...texts, benches: listed.lengths.length }, body: { dragon: { csv }, ...Object.fromEntries(others), ...more } };
   }
 
-  /** The same for a drawn path. */
+  /** Ask everything for a drawn path. */
   #refreshDrawn() {
     const asked = this.drawn();
     const { drawing } = asked;
@@ -116,20 +116,20 @@ export class Questions {
     const { dragon, path } = this.body({}, asked);
     if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);
     if (!this.#isNew("contact", this.checkBody(asked))) return;
-    // What the dance before still costs would hold up the verdict on the new one.
+    // Questions about the former dance would delay the verdict on the new one.
     this.service.drop(AT_REST);
     for (const channel of AT_REST) this.#asked.delete(channel);
     this.#askContact(asked);
   }
 
-  /** What is asked about the drawing as it is now. */
+  /** The request about the present drawing. */
   drawn() {
     const query = this.state.texts([...DRAGON, "head_speed", ...CONTACT]);
     const { numbers, said } = this.#asking("route", query);
     return { kind: "route", query, numbers: { ...numbers, drawn: true }, said, drawing: this.state.get("drawing") };
   }
 
-  /** Body of a request about a dance; default: the dance shown. */
+  /** Body of a request about a dance; default: the shown dance. */
   body(more, { numbers, kind, drawing, said: { csv, passages, clock } } = this.dance) {
     const dragon = csv ? { csv } : Object.fromEntries(DRAGON.map((name) => [name, numbers[name]]));
     const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }) };
@@ -145,7 +145,7 @@ export class Questions {
     return this.body({ ...contact, ...this.#stretch(asked) }, asked);
   }
 
-  /** The part of a turn that is danced, as its coils have no end; a spiral is danced to its end, a drawn path in its place. */
+  /** The shown part of a turn, whose coils have no end; a spiral is shown to its end, a drawn path in its place. */
   #stretch({ kind, numbers: { head_speed: speed }, said, drawing }) {
     if (kind === "route") return placeOf(drawing);
     return kind === "turn" ? { start: -TURN_TRAVEL / speed, stop: timeAfter(TURN_TRAVEL, speed, said.passages) } : {};
@@ -159,7 +159,7 @@ export class Questions {
     this.tell("pose", { time, dance, x: table.x[0], y: table.y[0], speed: table.speed[0] });
   }
 
-  /** Is this refusal about a number, and so told beside its field? Then the names of these; else none. */
+  /** Names of the numbers that a refusal concerns, which show it beside their fields; else none. */
   fieldsOf(channel) {
     if (!ABOUT_NUMBERS.includes(channel)) return [];
     return this.refusals.get(channel).errors.map(nameOf).filter((name) => SAID.includes(name) || FIELDS.some((field) => field.name === name));
@@ -243,7 +243,7 @@ export class Questions {
     if (!this.#rest) this.#atRest();
   }
 
-  /** The request for how far people may stray on the way to the circle, or on the part of a turn that is danced. */
+  /** The request for the tolerance on the way to the circle, or in the shown part of a turn. */
   toleranceOf() {
     const kind = this.state.get("path");
     if (kind === "route") {
@@ -267,7 +267,7 @@ export class Questions {
     return isPlain(asking) ? { asked, query: flat } : { asked, body: this.body({ speed_limit: asking.numbers.speed_limit }, asking) };
   }
 
-  /** The request for the smallest pitch, and that for where the head stops against the pitch. */
+  /** The requests for the smallest pitch, and for the radius at first contact against the pitch. */
   pitchOf(names) {
     return this.#over([...CIRCLE, ...names]);
   }
@@ -280,12 +280,12 @@ export class Questions {
   }
 
   async #askEach(changed, before) {
-    // A chart that comes near waits for what is being asked; new numbers do not.
+    // A chart that comes near the view waits for questions in progress; new numbers do not.
     if (changed.every(([kind]) => this.#near.has(kind))) await before;
     for (const ask of changed) if (!this.#isNew(ask[0], ask[2], false)) await this.#keep(...ask);
   }
 
-  /** Ask once for all that belongs to the dance shown. */
+  /** Ask once for everything that belongs to the shown dance. */
   #askDance() {
     const { dance } = this;
     if (!dance || dance.track) return;
@@ -325,7 +325,7 @@ export class Questions {
     this.tell(kind);
   }
 
-  /** Is this another question of its kind than the last one? mark: it becomes the last one */
+  /** True if a question differs from the last one of its kind. mark: it becomes the last one */
   #isNew(kind, question, mark = true) {
     const key = JSON.stringify(question);
     if (this.#asked.get(kind) === key) return false;
@@ -333,7 +333,7 @@ export class Questions {
     return true;
   }
 
-  /** The answer, or undefined when it was refused or superseded. */
+  /** The answer; undefined if it was refused or superseded. */
   async #answer(channel, path, { asked, ...question }) {
     try {
       const answer = await this.service.ask(channel, path, question);

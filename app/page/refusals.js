@@ -6,16 +6,16 @@ import { PLACES, REASONS, RULES, WHOLE, WORDS } from "./words/refusals.js";
 /** Names in tables of benches and of passages: the key of their words. */
 const NAMES = { length: "csvLength", speed: "passageSpeed", until_s: "passagePlace", until_time: "passageTime" };
 const UNITS = { m: "metres", cm: "centimetres", "m/s": "metres per second", s: "seconds", turns: "turns", rad: "radians" };
-/** A number of each unit, such as a person may type where the page has no other to begin with. */
+/** An example of a number in each unit, for fields without a default. */
 const EXAMPLES = { m: "0.55", cm: "2", "m/s": "1.5", s: "300", turns: "16" };
-/** What a client of the service may do, and a person at the page need not know. */
+/** Advice for clients of the service, which the page leaves out. */
 const FOR_CLIENTS = /\.? Ask for it as a job, which may take longer: .*$/s;
 
 const fieldOf = (name) => FIELDS.find((field) => field.name === name);
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 const bench = (k, say) => (Number(k) ? say("body", { k }) : say("theHead"));
 
-/** A text with what a pattern found in its places. */
+/** A text with the groups of a pattern filled in. */
 function filled(text, found, say) {
   return text.replace(/\{(\d)(\+1|[bwu])?\}/g, (_, k, how) => {
     const word = found[k];
@@ -26,17 +26,17 @@ function filled(text, found, say) {
   });
 }
 
-/** The text of the first pattern that words fit, in a column of the table; null without one. */
+/** The text of the first matching pattern, from a column of the table; null without one. */
 function told(table, words, column, say) {
   const row = table.find(([pattern]) => pattern.test(words));
   return row?.[column] ? filled(row[column], row[0].exec(words), say) : null;
 }
 
-/** Benches by the names that they have on the page. */
+/** Benches by their names on the page. */
 const named = (words, say) =>
   words.replace(/\bbenches (\d+) and (\d+)\b/g, (_, a, b) => `${bench(a, say)} and ${bench(b, say)}`).replace(/\bbench (\d+)\b/g, (_, k) => bench(k, say));
 
-/** What was given, without the quotes of JSON. */
+/** The given value, without the quotes of JSON. */
 function given(value, rule, chinese) {
   if (['""', "null", "None"].includes(value)) return chinese ? "现在为空" : "it is empty";
   const typed = /^"(.*)"$/.exec(value);
@@ -44,10 +44,10 @@ function given(value, rule, chinese) {
   return typed ? `you typed “${typed[1]}”` : `it ${rule.startsWith("have") ? "has" : "is"} ${value}`;
 }
 
-/** Lengths in centimetres, in which the page asks for this number. */
+/** Lengths in centimetres, if the page uses them for this number. */
 const inCentimetres = (words) => words.replace(/(-?\d[\d.e+-]*) m\b/g, (_, metres) => `${Number((100 * metres).toPrecision(12))} cm`).replace("[m]", "[cm]");
 
-/** Names of fields, as the page calls them. */
+/** Names of fields on the page. */
 function labelled(detail, chinese, say) {
   const [pattern, english, other] = PLACES.find(([pattern]) => pattern.test(detail)) ?? [];
   if (pattern) return detail.replace(pattern, filled(chinese ? other : english, pattern.exec(detail), say));
@@ -67,7 +67,7 @@ function asked(rule, field) {
 }
 
 /**
- * A refusal as text and its language. detail: the service's message; chinese: the language that is wanted;
+ * A refusal as text and its language. detail: the service's message; chinese: true for Chinese;
  * say(name): the label of a field
  */
 export function refusalIn(detail, chinese, say) {

@@ -24,7 +24,7 @@ export class RouteForm {
   #points = [];
   #things = [];
 
-  /** editor: chooses what is edited; steps: take changes; files: {open, save, map} */
+  /** editor: chooses the edited item; steps: receives changes; files: {open, save, map} */
   constructor(box, state, steps, editor, files) {
     Object.assign(this, { box, state, steps, editor });
     this.preset = labelled("select", "preset", { id: "preset" });
@@ -62,14 +62,14 @@ export class RouteForm {
     this.steps.take({ ...this.#drawing, ...changes }, kind);
   }
 
-  /** Take the place of x = y = 0 on earth once both of its numbers are there, or neither is. */
+  /** Set the place of x = y = 0 on earth when both of its numbers are given, or none. */
   #placed() {
     const [latitude, longitude] = this.origin.map(read);
     if (latitude !== null && longitude !== null) this.#take({ origin: { longitude, latitude } });
     else if (this.origin.every(({ value }) => !value.trim())) this.#take({ origin: null });
   }
 
-  /** Begin with a preset; a square that is no preset's stays, unless this one has its own. */
+  /** Begin with a preset; a person's own square stays, unless the preset has one. */
   beginWith(name) {
     const { things, origin, limit } = this.#drawing;
     const isOwn = Object.values(PRESETS).every((one) => JSON.stringify(one.things) !== JSON.stringify(things));
@@ -80,7 +80,7 @@ export class RouteForm {
     this.steps.take(isOwn && !preset.things.length ? { ...preset, things, origin, limit } : preset);
   }
 
-  /** Show the drawing; rows are made anew only where there are more or fewer of them. */
+  /** Show the drawing; rows are made again only if their number changes. */
   show() {
     const { points, straight, radius, limit, begin, things, path, origin } = this.#drawing;
     put(this.corner, radius);

@@ -6,7 +6,8 @@ import { clockIn, passagesIn } from "./pace.js";
 
 /**
  * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
- * begin with: [from, to, step]; only: the path that has this number; centimetres: what people measure in, here and on the slider. An empty text leaves the number to the service.
+ * begin with: [from, to, step]; only: the path that has this number; centimetres: the unit here and on the slider. An
+ * empty text leaves the number to the service.
  */
 export const FIELDS = [
   { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
@@ -29,27 +30,27 @@ export const FIELDS = [
 
 const namesOf = (wanted) => FIELDS.filter(({ group }) => group === wanted).map(({ name }) => name);
 export const DRAGON = namesOf("dragon");
-/** What counts as a contact. */
+/** Numbers that define a contact. */
 export const CONTACT = ["margin", ...namesOf("people")];
-/** How far every hole may be from its place in all [m]: what people do, and half of what the pin lacks. */
+/** Largest distance of every hole from its place [m]: the stray of people, and half the difference of hole and pin. */
 export const strayOf = ({ stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
-/** The numbers of a turn besides those of its coils. */
+/** The numbers of a turn in addition to those of its coils. */
 export const TURN = ["turning_diameter", "ratio", "entry_radius"];
-/** Texts as numbers; what is no number stays as it is, for the service to refuse. */
+/** Texts as numbers; other texts stay unchanged, so that the service refuses them. */
 export const numbersOf = (texts) =>
   Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, text.trim() && Number.isFinite(Number(text)) ? Number(text) : text]));
 export const RATES = [1, 2, 5, 10, 20, 50];
 /** Default pitch of a turn, from the contest: a turn needs a wider spiral. */
 const PITCHES = { spiral: "0.55", turn: "1.7" };
-/** Default number of benches of a drawn dance: more need a longer path than a square has. */
+/** Default number of benches of a drawn dance: more benches need a longer path than fits on a square. */
 const DRAWN_BENCHES = "24";
-/** Longest address that every browser and chat program keeps [characters]. */
+/** Longest address that all browsers and chat programs accept [characters]. */
 const ADDRESS_MOST = 8_000;
 
-/** What may be said of a dance besides its numbers, as text: a table of benches, passages, the time of day at time 0. */
+/** Parts of a dance in addition to its numbers, as text: a table of benches, passages, the time of day at time 0. */
 export const SAID = ["csv", "passages", "start_clock"];
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...SAID.map((name) => [name, ""])]);
-/** Is the address bare, but for the language? Then the page opens with the dance in motion. */
+/** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (given) => [...given.keys()].every((name) => name === "lang");
 /** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
 const DEFAULTS = { ...NUMBERS, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
@@ -73,7 +74,7 @@ export class State {
   #values = { ...DEFAULTS };
   #listeners = [];
   #writing = 0;
-  /** Is the whole dance in the address? */
+  /** True if the whole dance is in the address. */
   fits = true;
 
   constructor() {
@@ -111,12 +112,12 @@ export class State {
     return name === "pitch" ? (PITCHES[path] ?? DEFAULTS[name]) : DEFAULTS[name];
   }
 
-  /** The numbers of these names, as entered; one that is empty by default is left out while it is empty. */
+  /** The entered numbers of these names, without empty ones that are empty by default. */
   texts(names) {
     return Object.fromEntries(names.map((name) => [name, this.#values[name]]).filter(([name, text]) => text || DEFAULTS[name]));
   }
 
-  /** What is said besides the numbers: the table of benches and the benches in it, passages, the time of day at time 0. */
+  /** Parts in addition to the numbers: the table of benches and its benches, passages, the time of day at time 0. */
   said() {
     const { csv, passages, start_clock } = this.#values;
     return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), clock: start_clock };
@@ -127,7 +128,7 @@ export class State {
     this.#listeners.push(listener);
   }
 
-  /** write: also into the address, once changes pause */
+  /** write: also into the address, after a pause in changes */
   set(changes, write = true) {
     const names = Object.keys(changes).filter((name) => changes[name] !== this.#values[name]);
     if (!names.length) return;
@@ -151,7 +152,7 @@ export class State {
     this.push({ path, benches, pitch: this.initial("pitch", path), time: null, view: null });
   }
 
-  /** Change the state so that the browser's back button leads to what is shown now. */
+  /** Change the state so that the browser's back button leads back to the present view. */
   push(changes = {}) {
     if (Object.keys(changes).length) this.write();
     history.pushState(history.state, "", location.href);

@@ -1,4 +1,4 @@
-/** The form of a sweep: a question over one or two of its parameters, the others as on the page. */
+/** The form of a sweep: a question for many values of one or two parameters, the others as on the page. */
 
 import { make } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS } from "./state.js";
@@ -6,7 +6,7 @@ import { refusalWords, say } from "./text.js";
 
 const SPIRAL = [...DRAGON, "pitch", "start_turns", "head_speed"];
 const CIRCLE = [...DRAGON, "turning_diameter", "start_turns"];
-/** Questions that the page sweeps: the parameters of each, its own value, and the path of its dance. */
+/** Questions for sweeps on the page: the parameters of each, its main value, and the path of its dance. */
 export const QUESTIONS = {
   collision_time: { parameters: [...SPIRAL, ...CONTACT], value: "time", path: "spiral" },
   minimum_pitch: { parameters: [...CIRCLE, ...CONTACT], value: "pitch", path: "spiral" },
@@ -15,7 +15,7 @@ export const QUESTIONS = {
   tolerance: { parameters: [...SPIRAL, "turning_diameter"], value: "stray", path: "spiral" },
   maximum_head_speed: { parameters: [...CIRCLE, "pitch"], value: "head_speed", path: "turn" },
 };
-/** What the form begins with: parameter, from, to, count. */
+/** First values of the form: parameter, from, to, count. */
 const FIRST = [
   ["pitch", 0.45, 0.6, 31],
   ["width", 0.25, 0.35, 11],
@@ -63,7 +63,7 @@ export class SweepForm {
     return row;
   }
 
-  /** Offer the parameters of the question; one that it does not have gives way to another. */
+  /** Offer the parameters of the question, and replace a chosen one that it does not have. */
   #offer() {
     const { parameters } = QUESTIONS[this.question.value];
     const taken = new Set();
@@ -86,7 +86,7 @@ export class SweepForm {
     if (field) [row.from.value, row.to.value] = field.slider.map((one) => (field.centimetres ? one / 100 : one));
   }
 
-  /** What is asked: the spec of a sweep. */
+  /** The spec of the sweep. */
   spec() {
     const question = this.question.value;
     const rows = this.#rows.filter((row) => row.wanted);

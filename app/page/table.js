@@ -16,7 +16,7 @@ export class Table {
   #count = 0;
   #queued = false;
 
-  /** choose(step): called to move the choice by some rows; chosen(handle): called to choose a row */
+  /** choose(step): called to choose a row some steps further; chosen(handle): called to choose a row */
   constructor(box, { choose, chosen }) {
     Object.assign(this, { box, body: box.querySelector("tbody"), table: box.querySelector("table") });
     box.addEventListener("scroll", () => this.#queue());
@@ -64,7 +64,7 @@ export class Table {
     const { x, y, speed } = this.#pose;
     const first = Math.max(0, Math.floor(this.box.scrollTop / ROW) - SPARE);
     const last = Math.min(x.length, first + Math.ceil(this.box.clientHeight / ROW) + 2 * SPARE);
-    // Rows stay while the same handles are in sight: one that is replaced under the mouse, as in motion, takes no click.
+    // Rows stay while the same handles are visible, because a row that is replaced under the mouse gets no click.
     if (first !== this.#first || last - first !== this.#rows.length || x.length !== this.#count) {
       [this.#first, this.#count] = [first, x.length];
       this.#rows = Array.from({ length: last - first }, (_, row) => rowOf(first + row));

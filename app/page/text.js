@@ -6,7 +6,7 @@ import { strayOf } from "./state.js";
 import { WORDS } from "./words.js";
 
 let column = 0;
-/** Names of the benches, such as households, head first; empty where they have none. */
+/** Names of the benches, such as households, head first; empty for benches without a name. */
 let households = [];
 
 /** Set the language to the choice, en or zh, or to the browser's preference. */
@@ -23,7 +23,7 @@ export function setLanguage(choice) {
   return language;
 }
 
-/** The language of the page as the service takes it: en or zh. */
+/** The language of the page for the service: en or zh. */
 export const language = () => document.documentElement.lang.slice(0, 2);
 
 /** The text of this key, with {names} replaced. */
@@ -32,7 +32,7 @@ export function say(key, values = {}) {
 }
 
 /**
- * The same, in the words for what is asked: with a margin benches in contact need not touch, and with a stray they may
+ * The text of this key for a question: with a margin benches in contact may be apart, and with a stray they only may
  * touch. {touch} and {touches} in a text are the words for a contact. asked: {margin, stray, hole, pin}, [m]
  */
 export function sayOf(key, asked, values = {}) {
@@ -43,7 +43,7 @@ export function sayOf(key, asked, values = {}) {
   return say(form(key), { margin, touch, touches: say(form("touches"), { margin, touch }), ...values });
 }
 
-/** A title, with the stray for which the answer holds. */
+/** A title with the stray of the answer. */
 export function titleOf(key, asked) {
   const [title, stray] = [sayOf(key, asked), strayOf(asked)];
   return stray > 0 ? say(asked.hole > 0 ? "withinPlay" : "within", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
@@ -52,7 +52,7 @@ export function titleOf(key, asked) {
 /** A refusal of the service in the language of the page: the properties of an element. */
 export const refusalWords = (detail) => refusalIn(detail, column === 1, say);
 
-/** How an answer is proven, in the language of the page. */
+/** The proof of an answer in the language of the page. */
 export const proofWords = (method) => (column ? proofInChinese(method) : method);
 
 export const nameBenches = (names) => (households = names);

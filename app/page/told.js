@@ -1,4 +1,4 @@
-/** Where a refusal is told: each message stands once. */
+/** Places of refusals on the page: each message appears once. */
 
 import { showRefusal } from "./answers.js";
 import { $ } from "./elements.js";
@@ -9,7 +9,7 @@ const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "t
 
 /** boxOf(kind): selector of the box of this kind of answer */
 export function tellRefusals(questions, graphs, boxOf) {
-  // Each message stands once: beside its field, or in the first place that it concerns.
+  // Each message appears once: beside its field, or in the first box that it concerns.
   const wordsOf = (detail) => refusalWords(detail).textContent;
   const told = new Set([...questions.errors().values()].map(wordsOf));
   for (const [kind, { message, errors }] of questions.refusals) {

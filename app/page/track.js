@@ -1,9 +1,9 @@
 /**
- * The dance as samples of the service, loaded in chunks around the time that is shown.
+ * The dance as samples of the service, loaded in chunks around the shown time.
  *
  * Between two samples, SAMPLE_TRAVEL metres of the head apart, the cubic through four of them gives smooth motion. It is
- * off by less than 1 mm down to a radius of 2 m: for the eye only. Numbers on the page and the picture at rest are the
- * service's own for that very instant.
+ * off by less than 1 mm down to a radius of 2 m, and used only for the moving picture. Numbers on the page and the
+ * picture at rest are the service's own for that instant.
  */
 
 const SAMPLE_TRAVEL = 0.5;
@@ -17,7 +17,7 @@ export class Track {
 
   /**
    * ask(chunk, times, decimals) -> Promise of the table at {start, stop, step}; span: [first, last] instant [s];
-   * ready() is called when a chunk has come
+   * ready() is called when a chunk has arrived
    */
   constructor(ask, span, handles, headSpeed, ready) {
     Object.assign(this, { ask, span, handles, ready });
@@ -58,7 +58,7 @@ export class Track {
       if (this.#chunks.size > KEPT) this.#chunks.delete(this.#chunks.keys().next().value);
       if (!this.stopped) this.ready();
     } catch {
-      // Refused, or the dance has changed meanwhile; at rest the dance is drawn without samples.
+      // Refused, or the dance has changed; at rest the dance is drawn without samples.
       this.stopped = true;
     } finally {
       this.#loading.delete(k);

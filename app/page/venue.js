@@ -1,4 +1,4 @@
-/** What a drawing adds to the picture: the square and what stands in it, bends that are too tight, benches at fault. */
+/** Layers of a drawing on the picture: the square and its obstacles, bends that are too tight, benches at fault. */
 
 import { isWhole } from "./drawing.js";
 import { benchName, say } from "./text.js";
@@ -8,7 +8,7 @@ const FAULT_WIDTH = 4;
 const RING = 14;
 const FONT = "600 12px system-ui, sans-serif";
 const NAME_HEIGHT = 13;
-/** A time counts as that of a failure within this [s]. */
+/** Largest difference between a time and that of a failure that it shows [s]. */
 const SAME_TIME = 1e-6;
 
 const outline = (points, path = new Path2D(), close = true) => {
@@ -35,8 +35,8 @@ function drawThing(pen, colours, thing) {
 }
 
 /**
- * A name beside its place. It keeps off the names so far, whose boxes are taken: without room it waits until the picture
- * is enlarged, unless its colour marks it.
+ * A name beside its place. It must not overlap the names so far, whose boxes are taken: without room it is left out until
+ * the picture is enlarged, unless its colour marks it.
  */
 function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
   const { context } = pen;
@@ -58,7 +58,7 @@ function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
   context.restore();
 }
 
-/** Where the name of a thing stands: at its middle, that of an area at its first corner. */
+/** Place of a thing's name: its middle, or the first corner of an area. */
 function labelled({ kind, points }) {
   if (kind === "area") return points[0];
   const [x, y] = points.reduce(([a, b], [c, d]) => [a + c, b + d], [0, 0]);

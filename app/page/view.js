@@ -5,7 +5,7 @@ const PAN_STEP = 60;
 const CLICK_TRAVEL = 5;
 const [SCALE_MIN, SCALE_MAX] = [0.05, 20_000];
 const PADDING = 24;
-/** Width of the column of buttons on the left, of which a picture narrower than this keeps clear [px]. */
+/** Width of the column of buttons on the left, and width of a picture below which it keeps clear of them [px]. */
 const [BUTTONS, NARROW] = [44, 500];
 
 const within = (scale) => Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX);
@@ -25,7 +25,7 @@ export class View {
     for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => this.#up(event));
   }
 
-  /** Take the size of the canvas. Kept, because to read it while something changes costs a layout of the whole page. */
+  /** Read and keep the size of the canvas, because reading it during a change costs a layout of the whole page. */
   measure() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     Object.assign(this, { width, height });
@@ -39,7 +39,7 @@ export class View {
     return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];
   }
 
-  /** Show these bounds [x min, y min, x max, y max] whole. */
+  /** Show these bounds completely, [x min, y min, x max, y max]. */
   fit([left, bottom, right, top]) {
     const side = this.width < NARROW ? BUTTONS : 0;
     const [wide, high] = [this.width - 2 * PADDING - side, this.height - 2 * PADDING];
@@ -63,7 +63,7 @@ export class View {
     this.moved(true);
   }
 
-  /** Obey keys: those that move the view, and others. keys: key -> what it does */
+  /** Handle keys: those that move the view, and others. keys: key -> action */
   listen(keys) {
     this.canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;

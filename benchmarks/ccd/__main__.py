@@ -1,6 +1,6 @@
 """python -m benchmarks.ccd: make the queries, ask every engine, and write the table and the figures into docs/.
 
-A run that was interrupted goes on where it was: what stands in its folder is not made again.
+An interrupted run continues: existing files in its folder are not made again.
 """
 
 from __future__ import annotations

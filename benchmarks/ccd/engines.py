@@ -29,7 +29,7 @@ FCL_RADIUS = 0.01
 
 
 class Answer(NamedTuple):
-    """touches: does the corner come within the margin; time: when first, in [0, 1], not a number if it does not."""
+    """touches: True if the corner comes within the margin; time: the first time in [0, 1], else not a number."""
 
     touches: bool
     time: float

@@ -60,7 +60,7 @@ def joined(shards: list[Shard]) -> Shard:
 
 
 def save(path: Path, arrays: dict[str, NDArray[Any]]) -> None:
-    """Write a file of arrays all at once: who is interrupted leaves no half of it."""
+    """Write a file of arrays completely or not at all."""
     half = path.with_suffix(".half.npz")
     np.savez_compressed(half, **arrays)
     os.replace(half, path)

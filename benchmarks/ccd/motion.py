@@ -1,4 +1,4 @@
-"""The motion that every engine is given: where benches are, in doubles, and a proven bound on how they accelerate.
+"""The motion for every engine: places of benches, in doubles, and a proven bound on their acceleration.
 
 Time runs from 0 to 1 over a query, and the head goes `span` metres meanwhile, at a constant speed.
 """
@@ -37,7 +37,7 @@ Point = tuple[float, float]
 
 
 class Query(NamedTuple):
-    """Does a corner of one bench meet an edge of another while the head goes its way, and when first?
+    """A question: does a corner of one bench meet an edge of another during a travel of the head, and when first?
 
     The edge is moved outwards by the margin, as if its bench were wider there; over the whole way the corner is beside
     it, never beyond one of its ends.

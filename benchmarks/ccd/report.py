@@ -1,4 +1,4 @@
-"""What a run found: a table for each class of queries, and two figures, for docs/dragon-ccd.md."""
+"""Results of a run: a table for each class of queries, and two figures, for docs/dragon-ccd.md."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Results(NamedTuple):
 
 
 class Score(NamedTuple):
-    """What one engine did on some queries.
+    """Results of one engine on some queries.
 
     missed, invented: false negatives and positives; other: those without an answer, in the order of ENDS
     late, early: largest, against a certified contact [s]; median: of the errors' sizes [s]
@@ -106,7 +106,7 @@ def collected(folder: Path) -> Results | None:
 
 
 def errors(results: Results, name: str) -> NDArray[np.float64]:
-    """How much later than the certified contact an engine has it [s], 0 within the bracket; not a number elsewhere."""
+    """Delay of an engine's contact after the certified one [s], 0 within the bracket; not a number without contact."""
     answers, columns = results.answers[name], results.queries.columns
     travel = np.where(answers["touches"] == 1, answers["travel"], np.nan)
     found: NDArray[np.float64] = np.maximum(travel - columns["high"], 0.0) + np.minimum(travel - columns["low"], 0.0)
@@ -114,7 +114,7 @@ def errors(results: Results, name: str) -> NDArray[np.float64]:
 
 
 def score(results: Results, name: str, rows: NDArray[np.bool_]) -> Score:
-    """What an engine did on some of the queries."""
+    """The score of an engine on some of the queries."""
     answers = results.answers[name]
     answered = rows & (answers["end"] == ENDS.index("answered"))
     touches, truly = answers["touches"] == 1, results.truly

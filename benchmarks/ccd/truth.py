@@ -1,4 +1,4 @@
-"""What is true of a corner and an edge, certified in ball arithmetic: clear, or the first time at which they meet.
+"""The truth on a corner and an edge, certified in ball arithmetic: clear, or the first time at which they meet.
 
 The corner is seen from the bench of the edge: `along` the edge from its middle, and `out` from it. Both are polynomials
 with a proven error (series.py). That |along| stays below half the length of the edge is shown first, so the corner

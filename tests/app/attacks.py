@@ -1,4 +1,4 @@
-"""Requests that once took the service down, each as a function of its address, and a client that watches meanwhile."""
+"""Attacks: requests that once took the service down, each a function of its address; and a client that watches."""
 
 from __future__ import annotations
 

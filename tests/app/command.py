@@ -44,7 +44,7 @@ with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
 
 
 def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    """What a run of the command leaves: exit code, standard output, standard error."""
+    """Result of the command: exit code, standard output, standard error."""
     command = [COMMAND, *arguments]
     if arguments[:1] == ("serve",) or "PYTHONPATH" in environment:
         given = ENVIRONMENT | environment
@@ -90,7 +90,7 @@ def bin_folder() -> Path:
 
 
 def main() -> None:
-    """Fork for everyone who comes to the door, until standard input ends: whoever started this process is gone then."""
+    """Fork for each request, until standard input ends, which means that the parent is gone."""
     commands, core = import_module("app.command.main"), import_module("core")
     for room in set(commands.ROOMS.values()):
         import_module(f"app.command.{room}")

@@ -1,4 +1,4 @@
-"""Requests that nobody would write: every call as its description allows and forbids, and its example with odd values.
+"""Odd requests: valid and invalid ones made from the description of every call, and examples with odd values.
 
 `make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED] asks a service so many of each, and prints what it answered.
 """
@@ -33,7 +33,7 @@ ODD: tuple[Any, ...] = (
 
 
 class Tally:
-    """What a service answered."""
+    """Counts of a service's answers."""
 
     def __init__(self) -> None:
         self.statuses: Counter[int] = Counter()

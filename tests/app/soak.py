@@ -1,4 +1,4 @@
-"""What another client sees while the service is attacked, attack by attack and then by all at once for long.
+"""The service under attack, seen by another client: first each attack alone, then all at once for a long time.
 
 `make soak`: python -m tests.app.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
 """

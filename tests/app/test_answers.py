@@ -1,4 +1,4 @@
-"""What the fields of an answer say holds without a margin and with one."""
+"""Descriptions of the fields of an answer hold with and without a margin."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every call promises besides its numbers: forms, caching, HEAD and OPTIONS, health, documentation."""
+"""Promises of every call in addition to its numbers: formats, caching, HEAD and OPTIONS, health, documentation."""
 
 from __future__ import annotations
 

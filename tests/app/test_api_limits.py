@@ -1,4 +1,4 @@
-"""What bounds the work: body bytes, also streamed, sizes from the environment, and computations at once."""
+"""Limits of the work: body bytes, also streamed, sizes from the environment, and simultaneous computations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each attack, and what another client sees meanwhile."""
+"""Each attack, and the answers to another client during it."""
 
 from __future__ import annotations
 

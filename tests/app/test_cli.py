@@ -444,7 +444,7 @@ def serving(
 
 
 def becomes(url: str, name: str, expected: float) -> bool:
-    """Does a metric, summed over its labels, get to a value? A request is counted just after its answer has left."""
+    """True if a metric, summed over its labels, reaches a value. Requests are counted just after their answers."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end:
         lines = httpx.get(f"{url}/metrics").text.splitlines()
@@ -486,7 +486,7 @@ def test_a_service_in_the_background_ends_on_sigterm(options: list[str]) -> None
 
 
 def refuses(url: str) -> bool:
-    """Does nothing listen there any more? A connection may still be taken and dropped while the last one ends."""
+    """True if nothing listens there any more. A connection may still be taken and dropped while the last one ends."""
     try:
         httpx.get(f"{url}/healthz")
     except httpx.ConnectError:

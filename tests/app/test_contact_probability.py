@@ -1,4 +1,4 @@
-"""Contacts by chance, over HTTP, as a job and from a terminal: the answers of core, and what is refused."""
+"""Contact probability over HTTP, as a job and from a terminal: core's answers, and refusals."""
 
 from __future__ import annotations
 

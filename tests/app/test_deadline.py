@@ -1,4 +1,4 @@
-"""A computation ends at its deadline, and when its client is gone; as a job it goes on."""
+"""A computation ends at its deadline, and when its client is gone; as a job it continues."""
 
 from __future__ import annotations
 

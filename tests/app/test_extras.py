@@ -1,4 +1,4 @@
-"""What the plain installation can do, and what it says of the rest. The packages of all extras are hidden for this."""
+"""The plain installation: its functions, and its messages on the others. The packages of all extras are hidden."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The figures: what they claim is what core answers; what they draw can be read back from the SVG."""
+"""The figures: their texts agree with core's answers, and their drawings can be read back from the SVG."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files that the command writes: refused before any work, there whole or not at all."""
+"""Files of the command: refused before any work, and written completely or not at all."""
 
 from __future__ import annotations
 

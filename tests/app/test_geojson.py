@@ -1,4 +1,4 @@
-"""What GeoJSON is read, and where the rest is refused."""
+"""GeoJSON: accepted forms, and the places of refusals."""
 
 from __future__ import annotations
 

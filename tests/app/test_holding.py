@@ -1,4 +1,4 @@
-"""What the service does with bad HTTP, slow clients, full lanes, signals and a full disk, over real sockets."""
+"""The service with bad HTTP, slow clients, full lanes, signals and a full disk, over real sockets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Answers that the service keeps: repeated to the byte without computing, within their room."""
+"""Answers in the service's memory: repeated with the same bytes without computing, within a limit of memory."""
 
 from __future__ import annotations
 

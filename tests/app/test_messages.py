@@ -1,4 +1,4 @@
-"""What an unknown name is taken for: only for one that the call itself has, at that place."""
+"""Suggestions for an unknown name: only names that the call itself has at that place."""
 
 from __future__ import annotations
 

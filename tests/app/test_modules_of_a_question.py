@@ -1,4 +1,4 @@
-"""How many modules of ours a question goes through, and how many classes hold a contact: fewer are easier to read."""
+"""Number of our modules that a question uses, and of classes that hold a contact: fewer are easier to read."""
 
 from __future__ import annotations
 

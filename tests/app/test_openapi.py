@@ -1,4 +1,4 @@
-"""The service does what /openapi.json says, and /openapi.json says all of it."""
+"""The service agrees with /openapi.json, and /openapi.json is complete."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of the pages over HTTP: gzip for who takes it, tags of content and form, no Python."""
+"""Files of the pages over HTTP: gzip for clients that accept it, entity tags, no Python."""
 
 from __future__ import annotations
 

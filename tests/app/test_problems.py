@@ -1,4 +1,4 @@
-"""Problems: where they point, what they say, and that no mistake of ours shows its traceback."""
+"""Problems: their pointers and texts, and no traceback for an error of ours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each error that core raises reaches whoever asked by a name that they gave or can give, with the value they gave."""
+"""Each error of core reaches the client with a name that the client used or can use, and with the given value."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far people may stray, over HTTP and from a terminal: the answers of core, and what is refused."""
+"""Tolerance over HTTP and from a terminal: core's answers, and refusals."""
 
 from __future__ import annotations
 

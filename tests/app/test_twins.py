@@ -1,4 +1,4 @@
-"""A question over a body answers what it answers over a query, and on any path, of any dragon, what core answers."""
+"""A question over a body gives the same answer as over a query, and for any path and dragon the answer of core."""
 
 from __future__ import annotations
 

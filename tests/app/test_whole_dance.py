@@ -1,4 +1,4 @@
-"""What belongs to a whole dance beside its path: passages, where the spiral lies, names of benches, the time of day."""
+"""Parts of a dance in addition to its path: passages, place of the spiral, names of benches, time of day."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What forgers need: certificates as read from a file, edits whose digest fits, and forgeries of five benches."""
+"""Forged certificates: read from a file, edited with a matching digest; and forgeries of five benches."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What computed gaps are off by, against the bounds on it: random chains, computed and to 50 digits.
+"""Errors of computed gaps against their bounds: random chains in doubles and to 50 digits.
 
 python -m tests.core.rounding_sweep 10000 [SEED] compares so many gaps and prints the largest and the median error, in
 parts of its bound; exit code 1 where one exceeds its bound.

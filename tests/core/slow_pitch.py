@@ -1,4 +1,4 @@
-"""Is a pitch feasible? A second, slow, obvious answer: no code shared with core, every pair, dense samples of the way.
+"""Feasible pitches, computed a second time slowly and plainly: no code of core, every pair, dense samples of the way.
 
 Every next handle is found by bisection, rectangles are compared corner by corner as in slow_search.py, and dips between
 samples are looked at again in finer ones.

@@ -1,4 +1,4 @@
-"""A second, slow, obvious answer to every question of first contact: no code shared with core, every pair, tiny steps.
+"""First contact, computed a second time slowly and plainly: no code of core, every pair, tiny steps.
 
 The head is found with scipy's brentq on the arc length, every next handle by plain bisection, many instants at once;
 rectangles are compared corner by corner. Dips between two steps are looked at again in smaller ones.

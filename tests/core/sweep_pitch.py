@@ -1,4 +1,4 @@
-"""Random dragons: is what minimum_pitch() says true of a dense scan that shares no code with it?
+"""Answers of minimum_pitch() for random dragons against a dense scan that shares no code with it.
 
 `make sweep-pitch` runs it over 2,000 dragons, `test_sweep_pitch.py` over a few. Dragons are uniform or given bench by
 bench, also such as overlap on a straight line; starts from 0.2 to 20 turns, circles from a part of a bench to many.

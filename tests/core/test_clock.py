@@ -1,4 +1,4 @@
-"""Clock: passages change when the head is where, and nothing else."""
+"""Clock: passages change only the times of the head."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A path as it is drawn, and its bends that are too tight."""
+"""Points of a path for a drawing, and its bends that are too tight."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A dance: where it ends, which head speeds and times it has."""
+"""A dance: its end, and its allowed head speeds and times."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Dragon: sizes, limits, equality; strays add up, and what cannot be is refused with its limit."""
+"""Dragon: sizes, limits, equality; strays add up, and impossible values are refused with their limit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tree of errors: their names for programs, and messages in the words of whoever asked."""
+"""The tree of errors: codes for programs, and messages with the caller's names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rounding: what chains and gaps are off by against the bounds on it, to 50 digits, and what the bounds decide."""
+"""Rounding: errors of chains and gaps against their bounds, to 50 digits, and decisions by these bounds."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claime
 
 
 def exact_theta(spiral: Spiral, time: float, head_speed: float = 1.0) -> arb:
-    """Where the head stands at a time [s], a double taken as exact."""
+    """Place of the head at a time [s], a double taken as exact."""
     flint.ctx.prec = BITS
     arc = spiral_place(arb(spiral.start_theta)) - arb(time) * head_speed / spiral.growth
     theta = arb(float(spiral.theta(time * head_speed)))

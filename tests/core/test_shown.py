@@ -1,4 +1,4 @@
-"""What a console and a notebook show of every public value: short, with units, and escaped."""
+"""Displays of every public value in a console and in a notebook: short, with units, and escaped."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers that users give: in range they come back as floats, else the error says what, which unit and which limit."""
+"""Numbers of users: in range they become floats, else the error names the value, its unit and the limit."""
 
 from __future__ import annotations
 

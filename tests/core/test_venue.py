@@ -1,4 +1,4 @@
-"""The square: what is refused, and distances that are shapely's."""
+"""The square: refusals, and distances compared with shapely."""
 
 from __future__ import annotations
 

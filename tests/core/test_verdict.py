@@ -1,4 +1,4 @@
-"""One verdict: each part is what its own search says, and what fails is told in order of time."""
+"""The verdict: each part agrees with its own search, and failures are in order of time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every public function of core refuses what is of a wrong type by the name of its parameter."""
+"""Every public function of core refuses a value of a wrong type by the name of its parameter."""
 
 from __future__ import annotations
 

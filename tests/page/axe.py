@@ -1,4 +1,4 @@
-"""What axe, which checks pages for accessibility, finds on a page."""
+"""Findings of axe, which checks pages for accessibility."""
 
 from __future__ import annotations
 

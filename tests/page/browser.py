@@ -1,4 +1,4 @@
-"""A Chrome or Chromium for the tests of the page: found where one usually is, or else installed.
+"""A Chrome or Chromium for the tests of the page: found in a usual place, or else installed.
 
 `make test` runs this file before the tests. Where nothing can be installed, the tests of the page are left out, and the
 last lines of the run say so.
@@ -64,7 +64,7 @@ def candidates() -> Iterator[str]:
 
 
 def starts(program: str) -> bool:
-    """Does it run, and say that it is one? Ubuntu's /usr/bin/chromium-browser only says that a snap is missing."""
+    """True if it runs and reports its version. Ubuntu's /usr/bin/chromium-browser only says that a snap is missing."""
     if not os.access(program, os.X_OK):
         return False
     if sys.platform == "win32":
@@ -83,7 +83,7 @@ def found() -> str | None:
 
 
 def has_chinese() -> bool:
-    """Is there a font for the page in Chinese? Where no fontconfig tells, the system brings one."""
+    """True if there is a font for the page in Chinese; a system without fontconfig has one."""
     if not shutil.which("fc-list"):
         return sys.platform != "linux"
     return bool(subprocess.run(["fc-list", ":lang=zh", "family"], capture_output=True).stdout.strip())

@@ -1,4 +1,4 @@
-"""A real Chromium on the real service: every page that a test opens must stay without errors and without strangers."""
+"""A real Chromium on the real service: every page of a test must stay without errors and without foreign requests."""
 
 from __future__ import annotations
 

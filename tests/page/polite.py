@@ -1,4 +1,4 @@
-"""A client beside the page: where the service is busy with what the page asked, it comes again when it is told to."""
+"""A client beside the page: if the service is busy with the page's questions, it retries after the stated wait."""
 
 from __future__ import annotations
 

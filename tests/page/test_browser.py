@@ -1,4 +1,4 @@
-"""Where the tests of the page look for a browser, and what a run without one says."""
+"""The search of the page tests for a browser, and the message of a run without one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What makes the page good to use: on a phone, in motion, at a glance, in print, in both languages."""
+"""Comfort of the page: on a phone, in motion, at a glance, in print, in both languages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person sees and does on the page, against the service's own answers."""
+"""Sights and actions of a person on the page, against the service's own answers."""
 
 from __future__ import annotations
 
@@ -89,12 +89,12 @@ def test_every_answer_stands_with_how_it_is_known(visit: Any, server: str) -> No
     text_of(page, "#minimum-pitch .value", f"{least['pitch']:.9f} m")
     page.locator("#minimum-pitch summary").click()
     assert (
-        f"from {bounded(least['proven_from'], 9, ROUND_CEILING)} m on, without end"
+        f"from {bounded(least['proven_from'], 9, ROUND_CEILING)} m on, without limit"
         in page.locator("#minimum-pitch dl").inner_text()
     )
     assert (
         page.locator("#minimum-pitch dt").last.inner_text()
-        == "Ways to the circle computed, for single pitches and for strips"
+        == "Computed ways to the circle, for single pitches and for bands of pitches"
     )
     assert page.locator("#minimum-pitch dd").last.inner_text() == str(least["evaluations"])
     assert page.locator(".answer details").count() == page.locator(".answer:not([hidden])").count() == 5
@@ -258,7 +258,7 @@ def test_benches_that_overlap_are_said_to_overlap_by_what_the_service_answers(
 
 def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(open_page: Any, server: str) -> None:
     page = open_page("?benches=2", failing=True)
-    text_of(page, "#first-contact p", "Not one pair of benches touches before.")
+    text_of(page, "#first-contact p", "No pair of benches touches before.")
     words = httpx.get(f"{server}/clearance?benches=2").json()["detail"]
     words = words.replace("benches must", "“Benches” must", 1).replace(", got 2", "; it is 2.")
     text_of(page, "#clearance .reading", words)

@@ -1,4 +1,4 @@
-"""What a person may say besides the numbers: benches one by one, passages, the time of day; and a plan on paper."""
+"""Inputs in addition to the numbers: benches one by one, passages, the time of day; and a printed plan."""
 
 from __future__ import annotations
 

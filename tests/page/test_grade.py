@@ -76,7 +76,7 @@ def test_typed_answers_are_graded_and_cleared(page: Any) -> None:
     expect(boxes).to_have_count(2)
     expect(boxes.nth(0)).to_contain_text("Only the pose with the head on the circle was checked")
     expect(boxes.nth(1).locator(".value")).to_have_text("✓right")
-    expect(boxes.nth(1)).to_contain_text("As far as its digits go: 7 of them.")
+    expect(boxes.nth(1)).to_contain_text("Graded to its significant digits: 7.")
     page.get_by_role("button", name="Clear", exact=True).click()
     expect(boxes).to_have_count(0)
 

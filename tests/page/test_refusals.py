@@ -1,4 +1,4 @@
-"""Refusals of the real service as the page tells them: sentences in both languages, with its labels and its units."""
+"""Refusals of the real service on the page: sentences in both languages, with its labels and its units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Between the page and the service: refusals, slow answers, superseded questions, loss and return, safety, weight."""
+"""The page and the states of the service: refusals, slow answers, superseded questions, loss, safety, weight."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(visit: Any)
         page.locator(f"#{name}-error", has_text=words).wait_for()
         box = "#minimum-pitch" if name == "turning_diameter" else "#first-contact"
         label = page.locator(f"label[for={name}]").inner_text()
-        page.locator(box, has_text=f"There is one as soon as “{label}” is right.").wait_for()
+        page.locator(box, has_text=f"An answer appears as soon as “{label}” is right.").wait_for()
         assert page.locator("body").inner_text().count(words) == 1
         assert page.locator(f"#{name}").get_attribute("aria-invalid") == "true"
         page.get_by_role("button", name="Reset all").click()

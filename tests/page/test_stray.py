@@ -83,10 +83,10 @@ def test_a_margin_and_a_stray_are_said_together_and_play_counts(visit: Any, serv
 def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: str) -> None:
     # The shortest turn takes seconds, and what follows it is not asked.
     page = open_page("?path=turn&benches=20&stray=0.03", without="**/shortest-turn*")
-    shows(page, "#first-contact[data-outcome=clear]", "Stays clear: nothing can touch", "Not one pair of benches can")
+    shows(page, "#first-contact[data-outcome=clear]", "Stays clear: nothing can touch", "No pair of benches can")
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
     free = polite.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
-    shows(page, "#tolerance", f"{int(10_000 * free) / 100:.2f} cm", "On the stretch that is danced, everybody may be")
+    shows(page, "#tolerance", f"{int(10_000 * free) / 100:.2f} cm", "In this part of the dance everybody may be")
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()
     assert download.value.suggested_filename == "first-contact.svg"

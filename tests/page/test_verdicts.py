@@ -1,4 +1,4 @@
-"""What the page says of a dance: it passes in green, fails in red or amber; and the words of a margin."""
+"""Verdicts on the page: green for a pass, red or amber for a failure; and the words for a margin."""
 
 from __future__ import annotations
 

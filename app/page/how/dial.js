@@ -1,10 +1,10 @@
-/** A number in a sentence that is dragged: a slider for the mouse, for fingers and for the keyboard. */
+/** A number in a sentence to drag: a slider for the mouse, for fingers and for the keyboard. */
 
 import { make } from "../elements.js";
 
-/** A drag over this many pixels goes through the whole range; with Shift over this many times more. */
+/** Length of a drag through the whole range [px], and its factor with Shift. */
 const [REACH, FINE] = [280, 10];
-/** Steps of the keys beside the arrows. */
+/** Steps of other keys than the arrows. */
 const LEAP = 10;
 const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: LEAP, PageDown: -LEAP };
 
@@ -12,7 +12,7 @@ export class Dial {
   element = make("span", { className: "dial", role: "slider", tabindex: 0 });
   #drag = null;
 
-  /** plan: {value, min, max, step, decimals, unit(value) -> what stands behind the number}; changed() after each change */
+  /** plan: {value, min, max, step, decimals, unit(value) -> text after the number}; changed() after each change */
   constructor(plan, changed) {
     Object.assign(this, { plan, changed, value: plan.value });
     const listen = (...pairs) => pairs.forEach(([name, act]) => this.element.addEventListener(name, (event) => act(event)));
@@ -20,7 +20,7 @@ export class Dial {
     listen(["pointermove", (event) => this.#move(event)], ["lostpointercapture", () => (this.#drag = null)]);
   }
 
-  /** Set the number to the nearest one that the slider can stand at. */
+  /** Set the number to the nearest step of the slider. */
   set(value) {
     const { min, max, step, decimals } = this.plan;
     const near = Number((min + Math.round((value - min) / step) * step).toFixed(decimals));
@@ -36,7 +36,7 @@ export class Dial {
     return `${value.toFixed(this.plan.decimals)} ${this.plan.unit()}`;
   }
 
-  /** label: what a screen reader calls it; by default the one that it has */
+  /** label: name for a screen reader; default: unchanged */
   show(label = this.element.getAttribute("aria-label")) {
     const { min, max } = this.plan;
     const words = this.words();

@@ -1,11 +1,11 @@
-/** Pictures in metres and charts, as SVG: what the service answers, put on the screen. */
+/** Pictures in metres and charts of the service's answers, as SVG. */
 
 import { addGround } from "../dance.js";
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
 /** Length of a straight piece of a drawn spiral [rad]. */
 const PIECE = 0.05;
-/** Edges of a chart [px]: left, right, top, bottom; about how far apart ticks stand [px]. */
+/** Margins of a chart [px]: left, right, top, bottom; approximate distance of ticks [px]. */
 const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 14, 42];
 const TICKS = { x: 90, y: 48 };
 
@@ -19,7 +19,7 @@ function shape(tag, attributes = {}, ...children) {
 
 const joined = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
 
-/** What pictures and charts share: a part of a drawing, with shapes at the places that `at` gives. */
+/** Common part of pictures and charts: a part of a drawing, with shapes at the places that `at` gives. */
 class Sheet {
   /** box: {left, top, width, height} in the drawing [px] */
   constructor(svg, { left = 0, top = 0, width, height }) {
@@ -28,10 +28,10 @@ class Sheet {
     this.layer = this.part([left, top, width, height], [0, 0]);
   }
 
-  /** A drawing in the drawing, which cuts off what lies outside of it; corner: its own place of its upper left corner. */
+  /** A nested drawing that clips its content; corner: coordinates of its upper left corner. */
   part([x, y, width, height], corner) {
     const part = this.add("svg", { x, y, width, height, viewBox: [...corner, width, height].join(" ") });
-    // The size that the page gives its icons does not hold here.
+    // The size of the page's icons does not apply here.
     Object.assign(part.style, { width: `${width}px`, height: `${height}px` });
     return part;
   }
@@ -62,7 +62,7 @@ class Sheet {
 }
 
 export class Picture extends Sheet {
-  /** x, y: the middle [m]; span: how much is seen of the narrower side [m] */
+  /** x, y: the middle [m]; span: visible length of the narrower side [m] */
   constructor(svg, box, { x, y, span }) {
     super(svg, box);
     Object.assign(this, { x, y, scale: Math.min(this.width, this.height) / span });
@@ -123,7 +123,7 @@ export class Picture extends Sheet {
   }
 }
 
-/** Round numbers in a range, at most so many. */
+/** Round numbers in a range, with a largest count. */
 function ticks([low, high], most) {
   const rough = (high - low) / Math.max(most, 1);
   const power = 10 ** Math.floor(Math.log10(rough));
@@ -165,7 +165,7 @@ export class Chart extends Sheet {
     return this.x[0] + ((px - this.left - LEFT) / (this.width - LEFT - RIGHT)) * (this.x[1] - this.x[0]);
   }
 
-  /** A line up through the whole chart at x. */
+  /** A vertical line through the whole chart at x. */
   up(x, className) {
     this.line([[x, this.y[0]], [x, this.y[1]]], className);
   }

@@ -1,4 +1,4 @@
-/** A figure with its sentences: their numbers are dragged, the service answers, the figure is drawn. */
+/** A figure with its sentences: a person drags their numbers, the service answers, and the figure is drawn. */
 
 import { Problem, Superseded } from "../api.js";
 import { make } from "../elements.js";
@@ -10,7 +10,7 @@ const NAMES = /\{(\w+)(?:=([\d.]+))?\}/;
 const EVERY_THIRD = 3;
 const TALL = 0.62;
 const [LOWEST, HIGHEST] = [300, 440];
-/** A narrower page is still being laid out [px]. */
+/** Least width of a page after its layout [px]. */
 const NARROWEST = 160;
 
 export class Figure {
@@ -46,7 +46,7 @@ export class Figure {
     return element;
   }
 
-  /** Write all sentences again, in the language of the page. */
+  /** Write all sentences in the language of the page. */
   translate() {
     const { id } = this.section;
     for (const [element, part] of this.#texts) element.replaceChildren(...this.#sentence(this.word(`${id}_${part}`)));
@@ -78,7 +78,7 @@ export class Figure {
     return button;
   }
 
-  /** Ask the service about the numbers as they stand now. */
+  /** Ask the service about the present numbers. */
   async change() {
     const values = Object.fromEntries(Object.entries(this.dials).map(([name, { value }]) => [name, value]));
     const { id } = this.section;
@@ -97,26 +97,26 @@ export class Figure {
     this.#tell();
   }
 
-  /** Ask for what takes longer and makes the drawing better, if there is anything. */
+  /** Ask for the slower part that refines the drawing, if there is one. */
   async refine() {
     await this.plan.refine?.((call, how) => this.service.ask(`${this.section.id} ${call} in full`, call, how));
     this.draw();
   }
 
-  /** Say that the service is lost, as long as there are seconds until the next try. */
+  /** Say that the service is lost. words: text for that, or nothing when it is back */
   lost(words) {
     this.missed = words;
     this.#tell();
   }
 
-  /** What went wrong, under the drawing, which then is older than the numbers. */
+  /** Show the error below the drawing, which is then older than the numbers. */
   #tell() {
     const waits = this.missed && this.figure.getAttribute("aria-busy") === "true";
     this.note.textContent = waits ? this.missed : this.#refused ? this.#refusal() : "";
     this.figure.classList.toggle("stale", Boolean(this.#refused || waits));
   }
 
-  /** The service's words, after those of the figure about what they mean here. */
+  /** The service's words, after the figure's explanation. */
   #refusal() {
     const { textContent } = refusalWords(this.#refused);
     return this.plan.refused ? `${this.word(this.plan.refused)} ${textContent}` : textContent;
@@ -138,7 +138,7 @@ export class Figure {
     }
   }
 
-  /** Dragging in the drawing moves the numbers too. */
+  /** Let drags in the drawing change the numbers too. */
   #pulled() {
     const { svg, plan } = this;
     if (!plan.pull) return;

@@ -49,9 +49,9 @@ onClick("#lost button", () => service.retry());
 
 const given = address.searchParams.get("lang");
 translate(["en", "zh"].includes(given) ? given : undefined);
-// The sections have their texts only now, so the browser could not scroll to the one that the address names.
+// The sections get their texts only now, so the browser could not scroll to the section in the address.
 const named = figures.find(({ section }) => `#${section.id}` === location.hash);
 named?.section.scrollIntoView();
-// The figure that is looked at comes first; one at a time leaves the service free for who drags.
+// The visible figure comes first; one question at a time leaves the service free for a drag.
 for (const figure of [...new Set([named ?? figures[0], ...figures])]) await figure.change();
 for (const figure of figures) await figure.refine();

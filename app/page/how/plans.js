@@ -1,14 +1,14 @@
-/** The five figures: what each asks the service, how it draws the answer, and the numbers that its sentences show. */
+/** The five figures: the question of each to the service, the drawing of the answer, and the numbers in its sentences. */
 
 import { staircase } from "../charts.js";
 import { benchName } from "../text.js";
 import { Chart, Picture } from "./draw.js";
 
-/** The contest's benches, and how many of them are drawn, or are judged where only the first ones meet [1]. */
+/** Number of the contest's benches, of drawn ones, and of judged ones if only the first ones meet [1]. */
 const DRAGON = { overhang: 0.275, width: 0.3 };
 const [SHOWN, JUDGED] = [60, 40];
 const START_TURNS = 16;
-/** A drawing this wide [px] has room for two parts beside each other; otherwise the second stands below. */
+/** Least width of a drawing with two parts side by side [px]; in a narrower one the second part is below. */
 const WIDE = 600;
 const MM = 1000;
 const CM = 100;
@@ -21,7 +21,7 @@ async function poseAt(ask, path, time, dragon) {
   return { x: x[0], y: y[0], speed: speed[0] };
 }
 
-/** All benches of a pose, the last one first, and then the ones that matter, in their colours. */
+/** All benches of a pose, the last one first, and then the important ones in their colours. */
 function drawDragon(picture, pose, dragon, pair) {
   for (let k = pose.x.length - 2; k >= 0; k--) picture.bench(pose, k, dragon, k ? "bench" : "bench head");
   pair.forEach((bench, k) => picture.bench(pose, bench, dragon, `bench ${["first", "second"][k]}`));
@@ -61,7 +61,7 @@ const chord = {
   }),
 };
 
-/** The staircase as the service knows it by now: a first look, then with its jumps. */
+/** The staircase: a first view, and later with its jumps. */
 let scan = null;
 const SAMPLES = 200;
 
@@ -112,7 +112,7 @@ function drawStairs(chart) {
   for (const { pitch, radius } of scan.jumps) chart.line([[pitch[0], radius[0]], [pitch[1], radius[1]]], "jump");
 }
 
-/** Where the true gap is drawn around the step [s], and at how many instants. */
+/** Interval around the step in which the true gap is drawn [s], and number of instants. */
 const [BEFORE, AFTER, POINTS] = [0.1, 0.55, 53];
 
 const step = {
@@ -141,7 +141,7 @@ const step = {
     chart.area([[start, range.y[0]], [start, top], [stop, top], [stop, range.y[0]]], `span ${way}`);
     chart.across(0, "zero");
     chart.line(points, "curve");
-    // The lowest curve through both gaps whose second derivative nowhere exceeds the service's bound.
+    // The lowest curve through both gaps with a second derivative up to the service's bound.
     const sag = 0.5 * MM * proof.certificate.bound * (stop - start) ** 2;
     const lowest = (u) => [start + u * (stop - start), low + (high - low) * u - sag * u * (1 - u)];
     if (way !== "bad") chart.line(Array.from({ length: 41 }, (_, k) => lowest(k / 40)), `arch ${way}`);

@@ -48,7 +48,7 @@ export const WORDS = {
     "螺距加大，龙头一般能盘得更深，但并不平滑。比较 {pitch=0.4503} 与 {pitch=0.4504}：只多十分之一毫米，龙头却多进了 17 cm。螺距较小时，一个板角恰好碰到另一节板凳；较大时恰好擦过，下一次碰撞要晚得多。",
   ],
   staircase_more: [
-    "So no pitch near here lets the head stop at 4.5 m, on the edge of the turning circle. Whoever halves an interval of pitches until that radius is 4.5 m looks for something that does not exist. The service asks another question: at which pitch does the least gap on the whole way to the circle just reach zero? The answer is {least}, and every larger pitch is proven to be free as well.",
+    "So no pitch near here lets the head stop at 4.5 m, on the edge of the turning circle. A search that halves an interval of pitches until that radius is 4.5 m looks for something that does not exist. The service asks another question: at which pitch does the least gap on the whole way to the circle just reach zero? The answer is {least}, and every larger pitch is proven to be free as well.",
     "因此在这附近，没有哪个螺距能让龙头正好停在 4.5 m 处，即调头空间的边界上。若对螺距二分，想凑出 4.5 m 这个半径，找的就是并不存在的东西。服务换了一个问法：螺距为多少时，到达调头空间之前全程的最小间距恰好为零？答案是 {least}，并且已证明更大的螺距也都可行。",
   ],
   staircase_dial_pitch: ["Pitch of the spiral", "螺线的螺距"],
@@ -56,7 +56,7 @@ export const WORDS = {
 
   step_title: ["Steps that are proofs", "每一步都是证明"],
   step_lead: [
-    "Say that we know how far the nearest benches are apart at {time}, and again {length} later. May they have touched in between? A gap cannot turn round at will: its second derivative is bounded, here by {bound}. So between the two instants it stays above the sagging curve.",
+    "Suppose that we know how far the nearest benches are apart at {time}, and again {length} later. May they have touched in between? A gap cannot change its direction at will: its second derivative is bounded, here by {bound}. So between the two instants it stays above the sagging curve.",
     "假设已知 {time} 时最近两节板凳的间距，也知道再过 {length} 时的间距。这中间它们会不会碰过？间距不能随意掉头：它的二阶导数有界，此处不超过 {bound}。因此在两个时刻之间，间距总在那条下垂的曲线之上。",
   ],
   step_verdict: ["{said}", "{said}"],
@@ -77,7 +77,7 @@ export const WORDS = {
     "这个区间内有两节板凳相碰，在 {time} s。在此之前，各步证明没有相碰。",
   ],
   step_more: [
-    "In this way the service walks through the dance: in long steps where benches are far apart, in short ones where they are near. First contact of the contest's dance, at {contact}, takes {all} steps. No contact is stepped over, however short it is.",
+    "In this way the service walks through the dance: in long steps where benches are far apart, in short ones where they are near. First contact of the contest's dance, at {contact}, takes {all} steps. No contact is missed, not even a very short one.",
     "服务就这样走完整场舞：板凳相距远时步子长，离得近时步子短。赛题中的首次碰撞在 {contact}，只需 {all} 步。无论碰撞多么短暂，都不会被跨过去。",
   ],
   step_dial_time: ["Start of the interval", "区间起点"],
@@ -95,7 +95,7 @@ export const WORDS = {
   graze_touch: ["two benches touch at {time} s, and then overlap by up to {depth} mm.", "{time} s 时两节板凳相碰，随后重叠最多达 {depth} mm。"],
   graze_free: ["nothing touches in the figure; first contact comes at {time} s.", "图中没有相碰；首次碰撞在 {time} s。"],
   graze_more: [
-    "Look every {step=0.4}, and this graze is found; but a pitch of {pitch=0.45033} hides it again, and so on without end. Nor does it help to halve an interval between “apart” and “overlapping”: benches that overlap may come apart and overlap again. A step that is a proof leaves no time between two looks.",
+    "Look every {step=0.4}, and this graze is found; but a pitch of {pitch=0.45033} hides it again, and so on for any interval. Nor does it help to halve an interval between “apart” and “overlapping”: benches that overlap may come apart and overlap again. A step that is a proof leaves no time between two looks.",
     "改为每隔 {step=0.4} 看一眼，这次擦碰就会被发现；但螺距换成 {pitch=0.45033}，它又躲了过去，如此没有尽头。在“分开”与“重叠”之间二分也无济于事：重叠的板凳会分开，然后再次重叠。而作为证明的步子，两眼之间不留任何空隙。",
   ],
   graze_dial_step: ["Time between two looks", "两次查看的间隔"],
@@ -118,7 +118,7 @@ export const WORDS = {
     "从 {time} s 起可能相碰。虚线画出了相碰的方式：在全队的某个姿态中，这两节板凳确实相碰。",
   ],
   stray_more: [
-    "At a pitch of {pitch} people may stray by {low}, but not by {high}. The first number is proven by the same steps, taken for bands instead of benches. The second is no estimate but an exhibit: a place for every handle, with every chord kept, in which two benches overlap. A wider spiral buys room: at {pitch=0.70} people may stray more than twice as far as at {pitch=0.55}.",
+    "At a pitch of {pitch} people may stray by {low}, but not by {high}. The first number is proven by the same steps, taken for bands instead of benches. The second is not an estimate but an example: a place for every handle, with every chord kept, in which two benches overlap. A wider spiral buys room: at {pitch=0.70} people may stray more than twice as far as at {pitch=0.55}.",
     "螺距为 {pitch} 时，每人可以偏离 {low}，但不能达到 {high}。第一个数由同样的步子证明，只是以色带代替板凳。第二个数不是估计，而是实例：给出每个把手的位置，所有孔距保持不变，而其中两节板凳重叠。螺线越宽，余地越大：螺距 {pitch=0.70} 时可偏离的距离是 {pitch=0.55} 时的两倍多。",
   ],
   stray_dial_stray: ["How far every handle may stray", "每个把手可偏离的距离"],
@@ -126,7 +126,7 @@ export const WORDS = {
   stray_alt: ["The two benches that come nearest, with the bands that they may cover", "最接近的两节板凳，以及它们可能到达的色带"],
 
   end: [
-    "These five ideas are in every “How it is known” of the dance. There each answer names its bracket and its proof, and four engines that share no code judge each first contact.",
+    "These five ideas are in every “How it is known” of the dance. There each answer shows its bracket and its proof, and four engines that share no code judge each first contact.",
     "舞龙画面中的每个“依据”都来自这五个想法。那里的每个答案都给出所在的区间和证明，每次首次碰撞还由四种互不共用代码的引擎判定。",
   ],
 };

@@ -153,7 +153,7 @@ export const WHOLE = [
   [/^The service failed on this request; its log has the reason\.$/, null, "服务在处理这一请求时出错，原因见其日志"],
   [/^(\d+) .+ computations are running, the limit: try again in (.+) s\.$/, null, "服务正忙（已有 {1} 个计算），请 {2} s 后再试"],
   [/^(\d+) of your .+ computations are running, the limit for one client: try again in (.+) s\.$/, null, "您已有 {1} 个计算在进行，请 {2} s 后再试"],
-  [/^Jobs and uploads need the token of this service.*$/, "Jobs and uploads need the token of this service: give it below, at “This service asks for a token?”", "该服务的任务与上传需要令牌：请在下方“服务要求令牌？”处填写"],
+  [/^Jobs and uploads need the token of this service.*$/, "Jobs and uploads need the token of this service: give it below, at “Does this service need a token?”", "该服务的任务与上传需要令牌：请在下方“服务要求令牌？”处填写"],
   [/^This service has no token.*$/, "This service has no token, so it lists no jobs", "该服务未设令牌，因此不列出任务"],
   [/^This service takes no jobs.*$/, null, "该服务不接受任务"],
   [/^(\d+) of your jobs are not finished, the limit.*$/, null, "您有 {1} 个任务未完成，已达上限：请等待或取消一个"],

@@ -23,7 +23,7 @@ SECONDS = 300  # longest conversion [s]; the largest takes about 10
 
 
 def by_libreoffice(sheets: Sheets) -> bytes:
-    """What XlsxWriter writes, read and written again by LibreOffice."""
+    """A workbook from XlsxWriter, read and written again by LibreOffice."""
     with TemporaryDirectory() as folder:
         file = Path(folder) / "given.xlsx"
         file.write_bytes(by_xlsxwriter(sheets))

@@ -1,4 +1,4 @@
-"""What students hand in, right and with one error each: computed in plain steps, without the grader's models."""
+"""Students' results, right ones and some with one error each, computed in plain steps without the grader's models."""
 
 from __future__ import annotations
 

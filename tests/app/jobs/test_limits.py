@@ -1,4 +1,4 @@
-"""What bounds the jobs of a service: each limit is refused in plain words, and holds where others begin."""
+"""Limits of the jobs of a service: each is refused in plain words, and they hold together."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The calls about jobs, at the real service: the answer is that of the call itself, and whoever waits is told."""
+"""The calls about jobs on the real service: the result equals the direct answer, and waiting clients get events."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Jobs outlive the death of any process that has to do with them."""
+"""Jobs survive the death of any process of the service."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the store keeps of jobs, and how they move from state to state."""
+"""The store of jobs: its content, and the transitions between states."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""POST /sweeps at the real service: the table has the bytes of an undisturbed sweep, whatever happens on the way."""
+"""POST /sweeps on the real service: the table has the bytes of an undisturbed sweep after any disturbance."""
 
 from __future__ import annotations
 

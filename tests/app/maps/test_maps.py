@@ -1,4 +1,4 @@
-"""Maps read and written: what goes out comes in, foreign files are understood, hostile ones refused at once."""
+"""Maps: written files read back unchanged, files of other programs are understood, hostile ones refused at once."""
 
 from __future__ import annotations
 

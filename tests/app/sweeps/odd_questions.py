@@ -1,4 +1,4 @@
-"""Questions of a sweep that are quick, and of which some designs fail, or kill the process that answers them."""
+"""Quick questions for sweeps, with designs that fail or kill the process that answers them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A sweep as one call of Python."""
+"""A sweep as one call in Python."""
 
 from __future__ import annotations
 

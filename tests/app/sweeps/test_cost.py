@@ -1,4 +1,4 @@
-"""What a design of a sweep costs beside the bare search."""
+"""Cost of a design in a sweep, compared with the bare search."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs of a sweep: parts and nothing else is remembered, and whoever is killed, the table is the same."""
+"""Runs of a sweep: the state is in the parts alone, and the table is the same after any kill."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is dismissed on coils in closed form stands as far away as said."""
+"""Bounds in closed form on coils: benches are as far apart as stated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Four engines on the whole dragon around a contact: they agree with what is found, and with nothing that is forged."""
+"""Four engines on the whole dragon around a contact: they confirm found contacts, and no forged ones."""
 
 from __future__ import annotations
 

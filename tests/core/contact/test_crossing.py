@@ -1,4 +1,4 @@
-"""A path that crosses itself: the head that comes back to the body meets it as benches meet anywhere else."""
+"""A path that crosses itself: a contact of the returning head with the body is found like any other."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Benches in decimals: the model of the kernels, contacts within a nanometre of a graze, and where doubles must do."""
+"""Benches in decimals: the model of the kernels, contacts within a nanometre of a graze, and cases left to doubles."""
 
 from __future__ import annotations
 

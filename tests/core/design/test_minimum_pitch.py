@@ -42,7 +42,7 @@ FOLDING = Dragon(14, 2.21, 1.47, 0.06, 0.12)
 
 
 def is_feasible(dragon: Dragon, pitch: float, radius: float, turns: float, margin: float) -> bool:
-    """Does first_contact() let the head reach the circle?"""
+    """True if the head reaches the circle by first_contact()."""
     if pitch * turns <= radius:
         return False
     try:

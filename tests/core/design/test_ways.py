@@ -1,4 +1,4 @@
-"""Ways to the circle: what is said of a pitch against dense samples of its way."""
+"""Ways to the circle: the statement on a pitch against dense samples of its way."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a chain folds, and who stood where before."""
+"""Folds of a chain, and the earlier places of handles."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ends a loop before it is done."""
+"""Early ends of a loop."""
 
 from __future__ import annotations
 

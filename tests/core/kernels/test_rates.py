@@ -1,4 +1,4 @@
-"""How fast handles are: their rates and the slopes of these."""
+"""Rates of handles, and the slopes of the rates."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scenes and intervals of head travel: what is bounded holds at every instant between."""
+"""Scenes and intervals of head travel: bounds hold at every instant in between."""
 
 from __future__ import annotations
 

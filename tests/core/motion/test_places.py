@@ -1,4 +1,4 @@
-"""Where handles are along the path, and when they pass a place."""
+"""Places of handles along the path, and times at which they pass a place."""
 
 from __future__ import annotations
 

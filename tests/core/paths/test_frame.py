@@ -1,4 +1,4 @@
-"""Frame: a spiral elsewhere gives what the standard one gives, moved; the mirror is made here by complex numbers."""
+"""Frame: a moved spiral gives the moved results of the standard one; the mirror image is made by complex numbers."""
 
 from __future__ import annotations
 

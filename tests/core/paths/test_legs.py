@@ -1,4 +1,4 @@
-"""A path drawn by points: smooth everywhere, through its points, straight where it is told to be."""
+"""A path through points: smooth everywhere, contains its points, and is straight on straight legs."""
 
 from __future__ import annotations
 

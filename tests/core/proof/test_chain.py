@@ -1,4 +1,4 @@
-"""Chains in ball arithmetic on a spiral: what they enclose, and what they do not prove."""
+"""Chains in ball arithmetic on a spiral: their enclosures, and the limits of their proofs."""
 
 from __future__ import annotations
 

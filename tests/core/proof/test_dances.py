@@ -1,4 +1,4 @@
-"""Proofs with a margin, of clear runs, and on routes: what holds is proven and checked, what does not is refused."""
+"""Proofs with a margin, of clear runs, and on routes: true claims are proven and checked, false ones refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Certificates of a spiral that lies elsewhere are those of the standard one; passages are no part of a proof."""
+"""Certificates of a moved spiral equal those of the standard one; passages are not part of a proof."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Proofs of minimum pitches that a fold limits: what holds is proven and checked, what does not is refused."""
+"""Proofs of minimum pitches that a fold limits: true claims are proven and checked, false ones refused."""
 
 from __future__ import annotations
 

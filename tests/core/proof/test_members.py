@@ -1,4 +1,4 @@
-"""The members of a certificate: what is malformed is refused by its name."""
+"""The members of a certificate: a malformed one is refused by its name."""
 
 from __future__ import annotations
 

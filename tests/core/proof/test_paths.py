@@ -1,4 +1,4 @@
-"""Paths in certificates: what is written reads back as the same path, and what cannot be proven is refused."""
+"""Paths in certificates: a written path reads back unchanged, and paths without a proof are refused."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contacts by chance: against probabilities solved without sampling, and what a sample must not depend on."""
+"""Contact probability: against probabilities solved without sampling, and independence of samples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every question with a stray: its known answers, what it says, and nothing changed by a stray of 0."""
+"""Every question with a stray: known answers, messages, and no change by a stray of 0."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far people may stray: brackets around what is known, a shown contact above, none of a million poses below."""
+"""Tolerance: brackets around known values, a shown contact above, no contact in a million poses below."""
 
 from __future__ import annotations
 

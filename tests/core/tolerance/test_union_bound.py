@@ -1,4 +1,4 @@
-"""The bound without samples: its first order and what that leaves out, against chains drawn at random."""
+"""The bound without samples: its first order and the remainder, against chains drawn at random."""
 
 from __future__ import annotations
 

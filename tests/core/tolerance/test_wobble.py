@@ -1,4 +1,4 @@
-"""The model of how people wobble: what it refuses, and how far a bench follows its holes."""
+"""The model of wobbling people: its refusals, and the motion of a bench with its holes."""
 
 from __future__ import annotations
 
