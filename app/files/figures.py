@@ -76,7 +76,7 @@ def pitch_scan_figure(
     margin: float = 0.0,
     format: str = "svg",
 ) -> bytes:
-    """Figure 8: radius of the head at first contact against the pitch, with jumps as gaps and the minimum pitch marked.
+    """Figure 8: radius of the head at first contact against the pitch, jumps left blank, minimum pitch marked.
 
     scan, least: the result of scan_near_minimum(); the rest: its arguments
     """

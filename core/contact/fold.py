@@ -102,7 +102,7 @@ def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
 # Towards the fold handles move as the square root of the remaining travel. So a part whose bound is too low is divided
 # where a quarter of it remains: each side has about half of the motion. Its bound holds for both.
 def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
-    """Bound on the clearance from a travel to the fold [m], as far as it is below the margin; None: not known.
+    """A bound: from a travel to the fold no two benches come nearer than this, or than the margin [m]; None: not known.
 
     The way is divided into at most FOLD_STRETCHES parts, until the bound exceeds the margin.
     """
@@ -138,7 +138,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 #     max(D_a, D_b) + (o + w / 2) turn.
 # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
 #
-# Rounding. Stretches meet at the same computed theta, so that they leave no gap; the first one begins before its
+# Rounding. Stretches meet at the same computed theta, so that nothing is left out; the first one begins before its
 # travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
 # covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (rounding.py).
 # Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
@@ -149,7 +149,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
 # that can be the least.
 def least_left(search: Search, travel: float, theta: float) -> float:
-    """Bound on the clearance from a travel until the head is at theta [m]: no gap is below both it and the margin.
+    """A bound: from a travel until the head is at theta no two benches come nearer than this, or than the margin [m].
 
     It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
     sizes; -FREE if a bench without a place in rows[0] could come near one that leads a pair.

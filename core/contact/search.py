@@ -71,8 +71,8 @@ class Search:
         of edges at rest [m], on routes only. With edges, every pair is a bench and an edge: edge e has the bench number
         room + 1 + e
     scene: the same benches on the current path; probe: an interval of it to examine single pairs
-    clear_radius: no pair whose inner bench leads at this radius of a spiral, or further out, comes within the margin
-    [m] rings.clear_place, rings.end_place: see clear_places(); if they are known, there is room only for the leading
+    clear_radius: on a spiral no pair whose inner bench leads at this radius [m], or further out, is within the margin
+    rings.clear_place, rings.end_place: see clear_places(); if they are known, there is room only for the leading
         benches, as on a spiral
     work: remaining work of its marches, see WORK_BUDGET, within the budget of the whole question. After a stop of that
         budget, every function that examines benches raises Halted
@@ -238,8 +238,8 @@ class Search:
         tolerance: half width of the bracket around a contact [m], 0: any instant of it is enough; dips: True finds
             grazes also with tolerance 0
         opening: True if nothing before the start is proven clear, so all pairs are followed until the body repeats
-        itself The march begins earlier and ends later by the rounding of travels, so that its claims on computed
-        travels and times hold for the true ones.
+        The march begins earlier and ends later by the rounding of travels, so that its claims on computed travels and
+        times hold for the true ones.
         """
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding

@@ -112,7 +112,7 @@ class MinimumPitch(Shown):
 class _PitchSearch:
     """Search for the pitches with ways free of contact, from the widest spiral down.
 
-    scanned_from, scan_step: pitch below which single pitches were tried, and their distance [m]; None without a scan
+    scanned_from, scan_step: pitch below which single pitches were tried, and step between them [m]; None without a scan
     """
 
     def __init__(self, ways: Ways) -> None:

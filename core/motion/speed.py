@@ -169,9 +169,8 @@ def maximum_head_speed(
 
     speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
     All speeds are proportional to the head speed, so this is the limit divided by the highest rate. A dance with
-    passages
-    becomes faster or slower as a whole: their speeds keep their ratio to the head speed, and the times that end them
-    the ratio to its inverse.
+    passages becomes faster or slower as a whole: their speeds keep their ratio to the head speed, and the times that
+    end them the ratio to its inverse.
     raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)

@@ -40,7 +40,7 @@ class Legs(Route):
     start: distance of the head from the beginning at time 0 [m]
     raises: InvalidValue naming the point or the leg; TooMuchWork
 
-    A run of curved legs is one smooth curve that leaves and enters the straight legs beside it in their direction.
+    Consecutive curved legs are one smooth curve that leaves and enters the straight legs beside it in their direction.
 
     >>> [type(piece).__name__ for piece in Legs([(0, 0), (20, 0), (20, 20)], [0, 1]).pieces]
     ['Line', 'Arc', 'Line']
