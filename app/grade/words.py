@@ -1,4 +1,4 @@
-"""What the grader and the comparison with the paper say, in English and in Chinese, with the terms of the contest."""
+"""Texts of the grader and of the comparison with the paper, in English and in Chinese, with the contest's terms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Can the dragon dance this path here?"""
+"""The question check: the verdict on a dance in its venue."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from core import Outcome
 
 
 class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
-    """Can this dragon dance this path here?"""
+    """Verdict on a dance: dragon, path, venue and limits."""
 
     speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; null: no limit", None)
     details: bool = Field(
@@ -43,7 +43,7 @@ class LeastClearance(Answer):
 
 
 class Nearest(Answer):
-    """How near the benches come to the edges of one area."""
+    """Smallest distance between the benches and the edges of one area."""
 
     distance: float = measure("m", "Smallest distance found; 0 at the first touch")
     at_least: float | None = measure("m", "Proven lower bound; null: the search gave up before proving one")
@@ -147,7 +147,7 @@ class Origin(Answer):
 
 
 class Report(Answer):
-    """Can the dragon dance this path here? The dance stops at a contact or a fold."""
+    """Verdict on the dance, which stops at a contact or a fold."""
 
     verdict: core.Judgement = Field(
         description="passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven"
@@ -189,7 +189,7 @@ class Report(Answer):
 
 
 def check(asked: CheckRequest, terms: Terms) -> Report:
-    """Can the dragon dance this path here? First contact, least clearance, venue, speed, sharpest bend."""
+    """Verdict on a dance in its venue: first contact, least clearance, venue, speed, sharpest bend."""
     dance = asked.to_dance(terms.settings.checked_benches_max)
     place = asked.to_place(dance.dragon)
     ask = core.check if asked.details else core.quick_check

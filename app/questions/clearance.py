@@ -1,4 +1,4 @@
-"""How near do two benches come over time?"""
+"""The question clearance: the smallest distance of two benches over time."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ SECONDS_PER_CELL = 3e-6
 
 
 class ClearanceQuery(TimeRange, DanceQuery):
-    """How near do two benches come over time?"""
+    """Smallest distance of two benches over time, on a spiral."""
 
 
 class ClearanceRequest(TimedDance):
-    """How near do two benches come over time, on any path?"""
+    """Smallest distance of two benches over time, on any path."""
 
 
 class ClearanceTable(Answer):

@@ -1,4 +1,4 @@
-"""When do two benches first touch, or come nearer than a margin?"""
+"""The question collision_time: first contact, or the first time that benches are nearer than a margin."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ JUDGED_MOST = 2_000
 
 
 class Contact(Strays):
-    """What counts as a contact, and how independent engines check it."""
+    """Definition of a contact, and its check by independent engines."""
 
     margin: Margin = 0.0
     cross_check: CrossCheck = "dragon"
 
 
 class CollisionQuery(Contact, DanceQuery):
-    """When do two benches first touch, or come nearer than a margin?"""
+    """First time that two benches touch, or are nearer than a margin, on a spiral."""
 
 
 class CollisionRequest(Contact, SpanFields, DanceFields, strict=True):
-    """When do two benches first touch, or come nearer than a margin, on any path?"""
+    """First time that two benches touch, or are nearer than a margin, on any path."""
 
 
 class Certificate(Answer):
-    """How the answer is known."""
+    """Evidence for the answer."""
 
     method: str = Field(description="The claim and its proof, in sentences")
     steps: int = Field(description="Number of proven steps")
@@ -50,7 +50,7 @@ class Certificate(Answer):
 
 
 class CollisionTime(Answer):
-    """When two benches that share no handle first come nearer than the margin, or touch if it is 0."""
+    """First time that two benches that share no handle are nearer than the margin, or touch if it is 0."""
 
     outcome: Outcome = Field(
         description="How the search ended; contact: two benches come nearer than the margin, or touch if it is 0"
@@ -91,7 +91,7 @@ class CollisionTime(Answer):
 
 
 def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:
-    """When two benches that share no handle first touch or come nearer than a margin, and how that is known."""
+    """First time that two benches that share no handle touch or are nearer than a margin, with the evidence."""
     dance, start, stop = asked.to_dance(asked.most_benches(terms.settings)), 0.0, None
     if isinstance(asked, CollisionRequest):
         start, stop = dance.begin if asked.start is None else asked.start, asked.stop

@@ -1,4 +1,4 @@
-"""How likely is it that benches touch when people wobble?"""
+"""The question contact_probability: the probability of a contact when people wobble."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Correlation = Annotated[float, Field(gt=0, le=1e9)]
 
 
 class Wobbling(Wire):
-    """How people wobble, and how many dances are drawn."""
+    """Model of wobbling people, and number of dances to draw."""
 
     lateral: Spread = measure("m", "Standard deviation of where a person wants to stand, across the path", 0.01)
     forward: Spread = measure("m", "The same along the path", 0.01)
@@ -53,15 +53,15 @@ class Wobbling(Wire):
 
 
 class ContactProbabilityQuery(Wobbling, CircleQuery):
-    """How likely is it that benches touch on the way to a turning circle?"""
+    """Probability of a contact on the way to a turning circle."""
 
 
 class ContactProbabilityRequest(Wobbling, SpanOrCircle, DanceFields, strict=True):
-    """How likely is it that benches touch when people wobble in any dance?"""
+    """Probability of a contact when people wobble, in any dance."""
 
 
 class ContactProbability(Answer):
-    """How likely it is that two benches that share no handle touch at one of some instants."""
+    """Probability that two benches that share no handle touch at one of some instants."""
 
     probability: float = Field(description="Share of the samples in which two benches touch")
     limits: tuple[float, float] = Field(description="Limits of the probability of the model, after Clopper and Pearson")
@@ -103,7 +103,7 @@ class ContactProbability(Answer):
 
 
 def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, terms: Terms) -> ContactProbability:
-    """How likely it is that two benches touch when people wobble, from dances drawn at random, and limits of that."""
+    """Probability that two benches touch when people wobble, from dances drawn at random, with its limits."""
     settings = terms.settings
     check_limit("samples", "samples", asked.samples, settings.samples_max, "fewer samples already tell a probability")
     dance, model = asked.to_dance(settings.checked_benches_max), asked.to_model()

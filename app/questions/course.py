@@ -1,4 +1,4 @@
-"""Where does the path run, and where is it too tight?"""
+"""The question course: the points of a path, and its bends that are too tight."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SECONDS = 0.02
 
 
 class CourseRequest(DragonFields, strict=True):
-    """Where does this path run, and where is it too tight for this dragon?"""
+    """Points of a path, and its bends that are too tight for a dragon."""
 
     path: AnyPath = Field(
         default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}

@@ -1,4 +1,4 @@
-"""Which ground do benches sweep?"""
+"""The question envelope: the ground that benches sweep."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class EnvelopeRequest(WholeSpan, DanceFields, strict=True):
 
 
 class SweepProof(Answer):
-    """How the envelope is known."""
+    """Proven bounds of the envelope."""
 
     method: str = Field(description="The claim and its proof, in sentences")
     cells: int = Field(description="Number of stretches of the path, each with a bound on the motion")

@@ -100,7 +100,7 @@ def contact_figure(asked: ContactQuery | ContactFigureRequest, terms: Terms, for
 
 
 def pitch_scan_figure(asked: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
-    """Where the head stands at first contact, against the pitch: jumps as jumps, the minimum pitch marked."""
+    """Radius of the head at first contact, against the pitch, with its jumps and the minimum pitch."""
     from app.files import figures
 
     dragon = asked.to_dragon(min(terms.settings.drawn_benches_max, asked.most_benches(terms.settings)))

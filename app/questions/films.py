@@ -20,7 +20,7 @@ SECONDS_PER_MEGAPIXEL = {MP4_TYPE: 0.012, GIF_TYPE: 0.04}
 
 
 class FilmFields(Wire):
-    """What a film shows, and how it looks."""
+    """Content and form of a film."""
 
     start: Instant | None = measure(
         "s", "First instant; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None

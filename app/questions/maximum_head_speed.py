@@ -1,4 +1,4 @@
-"""How fast may the head dance?"""
+"""The question maximum_head_speed: the highest head speed that keeps a limit."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Limit(Wire):
 
 
 class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
-    """How fast may the head dance through a turn?"""
+    """Highest head speed through a turn that keeps a limit."""
 
     def to_dance(self, benches_max: int) -> core.Dance:
         """raises: TooLarge, InvalidValue"""
@@ -26,7 +26,7 @@ class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
 
 
 class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
-    """How fast may the head dance, on any path?"""
+    """Highest head speed that keeps a limit, on any path."""
 
     path: AnyPath = Field(
         default_factory=lambda: TurnPath(kind="turn"),

@@ -1,4 +1,4 @@
-"""How tight may the spiral be?"""
+"""The question minimum_pitch: the smallest pitch such that every larger one reaches the circle."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
 
 
 class PitchFields(Strays, Circle):
-    """How tight may the spiral be?"""
+    """Smallest pitch such that every larger one reaches the circle."""
 
     cross_check: CrossCheck = "dragon"
 
 
 class MinimumPitchQuery(PitchFields, UniformDragon):
-    """How tight may the spiral be?"""
+    """Smallest pitch such that every larger one reaches the circle."""
 
 
 class MinimumPitchRequest(PitchFields, DragonFields, strict=True):
-    """How tight may the spiral be, for any dragon?"""
+    """Smallest pitch such that every larger one reaches the circle, for any dragon."""
 
 
 class MinimumPitch(Answer):

@@ -1,4 +1,4 @@
-"""Which of these benches overlap?"""
+"""The question overlaps: overlapping benches at one instant."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class BenchPose(Wire, strict=True):
 
 
 class OverlapsRequest(Wire, strict=True):
-    """Which of these benches overlap?"""
+    """Overlapping pairs of benches."""
 
     benches: list[BenchPose] = Field(min_length=1, fail_fast=True, description="The benches, in order")
     margin: Margin = 0.0
@@ -82,7 +82,7 @@ class OverlapsAnswer(Answer):
 
 
 def overlaps(asked: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
-    """Which benches overlap or are nearer than a margin, how deep and where, according to four engines."""
+    """Benches that overlap or are nearer than a margin, with depth and place, according to four engines."""
     poses, lengths, widths = asked.to_poses(terms.settings.poses_max)
     return _judged(poses, lengths, widths, terms, margin=asked.margin, chained=asked.chained)
 

@@ -1,4 +1,4 @@
-"""Where does the head stand at first contact, against the pitch?"""
+"""The question pitch_scan: radius of the head at first contact, against the pitch."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class PitchScanTable(Answer):
 
 
 def pitch_scan(asked: PitchScanQuery | PitchScanRequest, terms: Terms) -> Columns:
-    """Where the head stands at first contact, against the pitch, around the minimum pitch."""
+    """Radius of the head at first contact, against the pitch, around the minimum pitch."""
     dragon = asked.to_dragon(min(terms.settings.scanned_benches_max, asked.most_benches(terms.settings)))
     scan, least = scan_near_minimum(
         dragon,

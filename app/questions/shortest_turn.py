@@ -1,4 +1,4 @@
-"""How deep inside its circle may a turn begin?"""
+"""The question shortest_turn: the deepest entry of a turn inside its circle."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class ShortestTurnFields(Strays, TurnCircle):
 
 
 class ShortestTurnQuery(ShortestTurnFields, UniformDragon):
-    """How deep inside its circle may a turn begin?"""
+    """Deepest entry of a turn inside its circle."""
 
 
 class ShortestTurnRequest(ShortestTurnFields, DragonFields, strict=True):
-    """How deep inside its circle may a turn begin, for any dragon?"""
+    """Deepest entry of a turn inside its circle, for any dragon."""
 
 
 class ShortestTurn(Turn):

@@ -1,4 +1,4 @@
-"""How far may people stray before benches touch?"""
+"""The question tolerance: the largest proven stray of people without a contact."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class CircleQuery(DanceQuery):
 
 
 class SizeErrors(Wire):
-    """How well sizes are known, on the way to a turning circle."""
+    """Errors of sizes, on the way to a turning circle."""
 
     length_error: SizeError = measure("m", "Every bench is at most so much longer or shorter, from hole to hole", 0.0)
     pitch_error: SizeError = measure("m", "The pitch of the painted spiral is at most so much larger or smaller", 0.0)
 
 
 class ToleranceQuery(SizeErrors, CircleQuery):
-    """How far may people stray on the way to a turning circle?"""
+    """Largest proven stray on the way to a turning circle."""
 
 
 class SpanOrCircle(SpanFields):
@@ -43,7 +43,7 @@ class SpanOrCircle(SpanFields):
 
 
 class ToleranceRequest(SizeErrors, SpanOrCircle, PlacedDance, strict=True):
-    """How far may people stray in any dance, between each other and to a venue?"""
+    """Largest proven stray in any dance, for contacts of benches and with a venue."""
 
 
 class Shown(Answer):
@@ -59,14 +59,14 @@ class Shown(Answer):
 
 
 class StrayProof(Answer):
-    """How the safe stray is known."""
+    """Evidence for the safe stray."""
 
     method: str = Field(description="The claim and its proof, in sentences")
     steps: int = Field(description="Number of steps taken")
 
 
 class Tolerance(Answer):
-    """How far every hole may be from its place at any time without any contact."""
+    """Largest distance of every hole from its place, at any time, without any contact."""
 
     stray: float = measure(
         "m", "Proven safe: while no hole is further from its place, nothing touches; 0: no stray is known to be safe"
@@ -102,7 +102,7 @@ class Tolerance(Answer):
 
 
 def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
-    """How far people may stray at any time before benches touch, and a pose that shows where they do."""
+    """Largest proven stray of people without a contact, and a pose that touches with a slightly larger one."""
     dance, budget = asked.to_dance(terms.settings.checked_benches_max), terms.budget
     venue = asked.to_place(dance.dragon).venue if isinstance(asked, ToleranceRequest) else None
     start, stop = span_asked(asked, dance)

@@ -1,4 +1,4 @@
-"""How far may people stray, against the pitch?"""
+"""The question tolerance_curve: tolerance to strays, against the pitch."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class CurveFields(WayToCircle):
 
 
 class ToleranceCurveQuery(CurveFields, UniformDragon):
-    """How far people may stray, against the pitch."""
+    """Tolerance to strays, against the pitch."""
 
 
 class ToleranceCurveRequest(CurveFields, DragonFields, strict=True):
-    """How far people may stray, against the pitch, of any dragon."""
+    """Tolerance to strays, against the pitch, of any dragon."""
 
 
 class ToleranceCurve(Answer):
@@ -64,7 +64,7 @@ class ToleranceCurve(Answer):
 
 
 def tolerance_curve(asked: ToleranceCurveQuery | ToleranceCurveRequest, terms: Terms) -> Columns:
-    """How far people may stray on the way to a turning circle, against the pitch of the spiral."""
+    """Tolerance to strays on the way to a turning circle, against the pitch of the spiral."""
     dragon = asked.to_dragon(terms.settings.checked_benches_max)
     try:
         curve = core.tolerance_curve(

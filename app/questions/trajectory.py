@@ -1,4 +1,4 @@
-"""Where is every handle at every instant, and how fast?"""
+"""The question trajectory: positions and speeds of every handle at every instant."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from app.wire.models import JSON, Answer, measure
 
 
 class TrajectoryRequest(TimedDance):
-    """Where every handle is at every instant, and how fast."""
+    """Positions and speeds of every handle at every instant."""
 
     decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; null: full precision")
 

@@ -1,4 +1,4 @@
-"""How does the dance turn between two coils?"""
+"""The question turn: two arcs between two coils."""
 
 from __future__ import annotations
 

@@ -89,7 +89,7 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
 def grade(
     request: Request, data: Annotated[bytes, Depends(file_body(TYPES))], wanted: Annotated[GradeQuery, Query()]
 ) -> Response:
-    """What is right in a workbook of the contest, and which known error made the rest wrong."""
+    """Right and wrong cells of a contest workbook, and the known error that explains the wrong ones."""
     given = {name: text for name in UNITS if (text := getattr(wanted, name)) is not None}
     if not data and not given:
         detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."

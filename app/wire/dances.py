@@ -99,7 +99,7 @@ class BenchByBench(Wire, strict=True):
 
 
 class Strays(Wire):
-    """How far every hole may be from its place, by people and by the play of its pin."""
+    """Largest distance of every hole from its place, by people and by the play of its pin."""
 
     stray: float = measure(
         "m", "How far each person may be from their place; the margin grows by what benches may then move", 0.0,

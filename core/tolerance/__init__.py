@@ -1,1 +1,1 @@
-"""How far people may stray."""
+"""Tolerance to strays of people."""

@@ -86,7 +86,7 @@ class ContactProbability(Shown):
 
     @property
     def method(self) -> str:
-        """How the probability is known, in sentences."""
+        """Evidence for the probability, in sentences."""
         told = (
             f"In {self.contacts} of {self.samples} dances drawn from the model two benches that share no handle touch "
             f"at one of {self.instants} instants {said(self.step)} s apart; what happens between two of them is not "

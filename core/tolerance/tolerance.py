@@ -49,7 +49,7 @@ class StrayProof(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Tolerance(Shown):
-    """How far people may stray.
+    """Tolerance of a dance to strays of people.
 
     stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: no stray is
         known to be safe, for instance because benches touch without any

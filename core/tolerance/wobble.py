@@ -22,7 +22,7 @@ SIZE_PART, PITCH_PART = 0.1, 0.1
 
 @dataclass(frozen=True, slots=True)
 class Wobble(Shown):
-    """How people wobble. At two steps a second, a correlation time of 5 s is ten steps.
+    """Model of wobbling people. At two steps a second, a correlation time of 5 s is ten steps.
 
     lateral, forward: displacement that a person wants, across the path and along it [m]: normal numbers with these
         standard deviations, so that one step in twenty is further than twice the deviation. Chords are rigid: of the

@@ -87,7 +87,7 @@ def test_sags_are_those_of_the_handles() -> None:
 
 
 def overlapping(a: Floats, b: Floats) -> Floats:
-    """Do two rectangles (N, 4, 2) overlap: is there no side of either that parts them?"""
+    """True for two rectangles (N, 4, 2) that overlap, so that no side of either separates them."""
     parted = np.zeros(len(a), dtype=bool)
     for sides in (a, b):
         for k in (0, 1):
