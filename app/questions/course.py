@@ -43,12 +43,12 @@ class TightBend(Answer):
 class Course(Answer):
     """A path as it is drawn, whether or not it can be danced."""
 
-    s: list[float] = measure("m", "Distance along the path of P points, 0 where the head is at time 0")
+    s: list[float] = measure("m", "Arc length along the path of P points, 0 where the head is at time 0")
     x: list[float] = measure("m", "P entries")
     y: list[float] = measure("m", "P entries")
     length: float = measure("m", "Length of the path")
     knots: list[float] = measure(
-        "m", "Distance along the path of each waypoint, of a rounded corner the middle; empty for other paths"
+        "m", "Arc length along the path of each waypoint, of a rounded corner the middle; empty for other paths"
     )
     bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
 

@@ -52,7 +52,7 @@ class PlanRequest(Marked):
 
 
 def plan(asked: PlanRequest, terms: Terms) -> bytes:
-    """The dance on paper as PDF: a map true to scale, who stands where, the points to paint and the times."""
+    """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
     from app.files.fonts import families
     from app.plan.ground import ground_of
     from app.plan.plan import Plan, plan_pdf
