@@ -24,6 +24,8 @@ matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 # One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads.
 DRAWING = threading.Lock()
 PNG_DPI = 120
+# The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
+SQUARE_MOST = 2.0
 # Width of the part of a venue drawn around the dragon, as a fraction of the dragon's extent [1].
 AROUND = 0.6
 
@@ -60,6 +62,15 @@ def draw_venue(axes: Axes, venue: Venue | None) -> None:
         x, y = max(area.rings[0], key=lambda point: point[0] + point[1])
         axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True, parse_math=False)
     axes.autoscale_view()
+
+
+def with_square(venue: Venue | None, low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """The corners (2,) [m] of what is drawn of a dance in its square: all of the square, unless that is much larger."""
+    if venue is None:
+        return low, high
+    square = np.array(venue.square.rings[0])
+    least, most = np.minimum(low, square.min(axis=0)), np.maximum(high, square.max(axis=0))
+    return (least, most) if (most - least <= SQUARE_MOST * (high - low)).all() else (low, high)
 
 
 def look_around(figure: Figure, axes: Axes, handles: Floats) -> None:

@@ -27,7 +27,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
-from app.files.drawing import draw_venue
+from app.files.drawing import draw_venue, with_square
 from app.files.fonts import families
 from app.files.shooting import MP4_TYPE, Shooting
 from app.files.tables import Language
@@ -121,7 +121,7 @@ class Stage:
             handles = trajectory(dance, sampled).position.reshape(-1, 2)
             draw_dance(self.axes, dance.path, handles, np.empty((0, 4, 2)))
             draw_venue(self.axes, venue)
-            self._look(handles, shooting)
+            self._look(*with_square(venue, handles.min(axis=0), handles.max(axis=0)), shooting)
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
@@ -132,9 +132,8 @@ class Stage:
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
 
-    def _look(self, handles: Floats, shooting: Shooting) -> None:
-        """Show all handles, in a scale that is equal in x and y and fills the frame."""
-        low, high = handles.min(axis=0), handles.max(axis=0)
+    def _look(self, low: Floats, high: Floats, shooting: Shooting) -> None:
+        """Show all between two corners, in a scale that is equal in x and y and fills the frame."""
         middle, half = 0.5 * (low + high), 0.5 * (1.0 + 2.0 * AROUND) * (high - low) + 1.0
         shape = shooting.width / shooting.height
         tall = max(float(half[1]), float(half[0]) / shape)

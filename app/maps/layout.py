@@ -22,10 +22,13 @@ from app.wire.models import Coordinates
 from app.wire.paths import POINTS_MAX, AnyPath
 from core import InvalidValue, Route, Spiral, Venue
 from core.errors import said
+from core.shown import counted
 from core.values import NAME_MAX, NOT_PLAIN, Floats
 
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
+# So many things of which something was assumed are named.
+NAMED = 5
 # Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
 # A map narrower than this is in degrees, if its numbers allow it: 22 km in degrees, only 0.2 m in metres [degrees].
@@ -95,6 +98,7 @@ class Reading:
 
     def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say) -> None:
         self.drawing, self.say, self.notes = drawing, say, list[str]()
+        self.assumed = dict[float, list[str]]()
         self.features = [_closed(one) for one in drawing.features if one.role != MARK]
         if not self.features:
             raise InvalidValue("file", "file must hold a polygon, a line or a point, got none of these")
@@ -133,13 +137,13 @@ class Reading:
             raise InvalidValue("file", "file must have finite coordinates")
         degrees = self.drawing.degrees if units is None else units == "degrees"
         if degrees is None:
-            low, high = points.min(axis=0), points.max(axis=0)
-            degrees = bool((np.abs(points) <= (180.0, 90.0)).all() and (high - low).max() < DEGREES_ACROSS)
+            degrees = bool(np.ptp(points, axis=0).max() < DEGREES_ACROSS and (np.abs(points) <= 180.0).all())
         if not degrees:
             self.notes.append(self.say("Coordinates are in metres.", "坐标以米为单位。"))
             return
         if (np.abs(points) > (180.0, 90.0)).any():
-            raise InvalidValue("file", "file must have longitudes within 180 and latitudes within 90 degrees")
+            seems = ", but longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
+            raise InvalidValue("file", f"file must have longitudes within 180 and latitudes within 90 degrees{seems}")
         near = float(points[0, 0])
         self.features = [one.placed(tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features]
         middle = next((one.rings for one in self.features if one.role == SQUARE), None)
@@ -175,6 +179,10 @@ class Reading:
     def _things(self, square: Feature | None, others: list[Feature]) -> list[dict[str, Any]]:
         """The square and the obstacles as GeoJSON features."""
         obstacles = [self._obstacle(one) for one in others]
+        for radius, without in self.assumed.items():
+            listed = ", ".join(without[:NAMED]) + (", …" if len(without) > NAMED else "")
+            english = f"{counted(len(without), 'thing')} without a radius, taken as {radius:g} m: {listed}."
+            self.notes.append(self.say(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。"))
         if square is None and not obstacles:
             return []
         if square is None:
@@ -202,12 +210,7 @@ class Reading:
         radius = one.radius
         if radius is None or not 0.0 < radius < math.inf:
             radius = POINT_RADIUS if one.shape == "point" else LINE_RADIUS
-            self.notes.append(
-                self.say(
-                    f"{name}: no radius, taken as {radius:g} m.",
-                    f"{name}：没有给出半径，取 {radius:g} m。",
-                )
-            )
+            self.assumed.setdefault(radius, []).append(name)
         return replace(one, radius=radius)
 
     def _path(self, line: Feature) -> Mapping[str, Any]:

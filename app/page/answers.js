@@ -213,10 +213,12 @@ export function showEnd(box, answer, time, asked) {
 /** detail: the service's message; null if it is shown elsewhere; names: of the fields beside which it is shown */
 export function showRefusal(box, title, detail, names) {
   show(box, say(title), say("unanswered"), []);
-  const listed = names.map((name) => say("quoted", { name: say(name) })).join(say("and"));
   if (detail) box.append(make("p", refusalWords(detail)));
-  else box.append(paragraph(names.length ? say("mend", { names: listed }) : say("told")));
+  else box.append(paragraph(names.length ? mendWords(names) : say("told")));
 }
+
+/** What is to be mended before there is an answer. names: of fields */
+export const mendWords = (names) => say("mend", { names: names.map((name) => say("quoted", { name: say(name) })).join(say("and")) });
 
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, asked) {

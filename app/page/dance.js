@@ -212,10 +212,9 @@ export class Dance {
   /** The path of the head, {x, y}, as sampled by the service, or null; around: further points [x, y] to be shown. */
   setPath(path, around = []) {
     this.#path = null;
-    if (!path) return;
-    [this.#path, this.#points] = [smooth(path), path];
-    const { x, y } = path;
-    const [xs, ys] = [[...x, ...around.map((point) => point[0])], [...y, ...around.map((point) => point[1])]];
+    if (path) [this.#path, this.#points] = [smooth(path), path];
+    const [xs, ys] = [[...(path?.x ?? []), ...around.map((point) => point[0])], [...(path?.y ?? []), ...around.map((point) => point[1])]];
+    if (!xs.length) return;
     this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
 

@@ -86,7 +86,7 @@ export class Drawn {
     if (empty) {
       // Without a question there is no answer to wait for.
       for (const box of $$("main [aria-busy=true]")) box.setAttribute("aria-busy", false);
-      this.picture.setPath(null);
+      this.picture.setPath(null, this.around());
       this.picture.scene.pose = null;
       this.judgement.refuse(null, null, 0);
     }
@@ -99,12 +99,16 @@ export class Drawn {
     if (dance?.kind !== "route" || !this.#isRoute || refusals.has("contact")) return;
     if (!dance.failures.includes(this.#failure)) this.#failure = null;
     this.judgement.show(dance, course);
+    this.form.offer(dance);
   }
 
   /** Show that the service refused the dance, with a better reason if one is known. */
   refused() {
     const refusal = this.questions.refusals.get("contact") ?? this.questions.refusals.get("course");
-    if (this.#isRoute && refusal) this.judgement.refuse(refusal.message, this.questions.course, Number(this.state.get("benches")));
+    if (!this.#isRoute || !refusal) return;
+    const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
+    if (fields.length) this.judgement.wait(fields);
+    else this.judgement.refuse(refusal.message, this.questions.course, Number(this.state.get("benches")));
   }
 
   /** Move the benches at fault into view once, after a pose is shown. */

@@ -10,7 +10,9 @@ const REMEMBERED = 50;
 /** Time between two checks of an unfinished job [ms]. */
 const LOOK = 1_000;
 /** Endings of file names, by media type. */
-const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv" };
+const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf" };
+/** Names of the jobs that Keep starts. */
+const NAMES = { films: "keepFilm", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
 const UNFINISHED = ["accepted", "running"];
 const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
 
@@ -167,7 +169,7 @@ const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {}
 const isTable = (status) => status.processID === "sweep" && resultOf(status).type === "application/json";
 
 function what(process, spec) {
-  if (process !== "sweep") return process === "films" ? say("keepFilm") : process;
+  if (process !== "sweep") return process in NAMES ? say(NAMES[process]) : process;
   if (!spec) return say("sweep");
   const names = Object.keys(spec.over).map((name) => say(name));
   return say("sweepOver", { question: say(`sweep_${spec.question}`), names: names.join(say("and")) });

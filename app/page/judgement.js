@@ -1,5 +1,6 @@
 /** The verdict on the drawn dance, and each failure in order of time with a button that shows it. */
 
+import { mendWords } from "./answers.js";
 import { $, make } from "./elements.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
 
@@ -24,6 +25,12 @@ function words({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) 
   return say(`fail_${kind}`, values);
 }
 
+/** Radius of a bend that is too tight, and the one needed, with as many digits as it takes to tell them apart. */
+export function radiiOf({ radius, least_radius: least }) {
+  const digits = [2, 3, 4, 5].find((count) => radius.toFixed(count) !== least.toFixed(count)) ?? DECIMALS;
+  return { radius: radius.toFixed(digits), least: least.toFixed(digits) };
+}
+
 export class Judgement {
   /** seek(failure): shows the dance at its time; look(point): moves the picture there */
   constructor(box, seek, look) {
@@ -36,18 +43,22 @@ export class Judgement {
     const rows = dance.failures.map((failure) => this.#row([`${failure.time.toFixed(DECIMALS)} s`, failure.clock].filter(Boolean).join(" · "), words(failure, dance), () => this.seek(failure)));
     const { length } = course ?? {};
     const lines = [length === undefined ? "" : say("pathLength", { length: length.toFixed(2), time: (dance.end - dance.begin).toFixed(1) })];
-    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows);
+    this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent);
+  }
+
+  /** No verdict until these fields are mended, beside which the reason stands. */
+  wait(fields) {
+    this.#fill("", "", say("unanswered"), [mendWords(fields)], []);
   }
 
   /** Show why there is no verdict: no drawing yet, bends that are too tight, or the service's refusal. */
   refuse(message, course, benches) {
     const bends = course?.bends ?? [];
-    const said = ({ radius, least_radius: least, bench }) =>
-      say("tightBend", { radius: radius.toFixed(2), least: least.toFixed(2), bench: benchName(bench, benches) });
-    const rows = bends.map((bend) => this.#row(say("show"), said(bend), () => this.look(bend.points[Math.floor(bend.points.length / 2)])));
+    const said = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
+    const rows = bends.map(({ points }, k) => this.#row(say("show"), said[k], () => this.look(points[Math.floor(points.length / 2)])));
     const drawn = message === null;
     const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [refusalWords(message)];
-    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows);
+    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, said[0] ?? lines[0]?.textContent);
   }
 
   #row(button, text, act) {
@@ -56,13 +67,15 @@ export class Judgement {
     return make("li", {}, go, " ", make("span", { textContent: text }));
   }
 
-  #fill(outcome, mark, value, lines, rows) {
+  /** first: the first of the rows in words */
+  #fill(outcome, mark, value, lines, rows, first = "") {
     const sign = make("span", { className: "mark", "aria-hidden": "true", textContent: mark });
     this.box.dataset.outcome = outcome;
     // On a phone the verdict also appears below the picture.
-    Object.assign($("#verdict"), { hidden: false, textContent: [mark, value, rows[0] ? `· ${rows[0].textContent}` : ""].join(" ") });
+    Object.assign($("#verdict"), { hidden: false, textContent: [mark, value, first && `· ${first}`].join(" ") });
     const said = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);
-    this.box.replaceChildren(make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...said, ...(rows.length ? [list] : []));
+    const old = make("p", { className: "old", textContent: say("old") });
+    this.box.replaceChildren(old, make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...said, ...(rows.length ? [list] : []));
   }
 }

@@ -4,6 +4,7 @@ import { Problem, Superseded } from "./api.js";
 import { $, make, onClick } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { isPlain } from "./questions.js";
+import { FOR_CLIENTS } from "./refusals.js";
 import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
 import { language, refusalWords, say } from "./text.js";
 
@@ -130,14 +131,16 @@ export class Keep {
     if (!this.questions.dance) return;
     try {
       if (item.job) return await this.#begin(item, form);
-      this.announce(say("making", { name: say(item.key) }));
+      this.announce(say("making", { name: say(item.key) }), true);
       const blob = item.ask ? await this.#asked(this[item.ask](form), form) : await this.#picture();
       const link = make("a", { href: URL.createObjectURL(blob), download: named(item.file, form) });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
       this.announce(say("saved", { name: link.download }));
     } catch (error) {
-      this.#told(error);
+      // What takes too long for one answer is made as a job.
+      if (error instanceof Problem && FOR_CLIENTS.test(error.message)) this.#begin(item, form).catch((refused) => this.#told(refused));
+      else this.#told(error);
     }
   }
 
@@ -160,7 +163,7 @@ export class Keep {
 
   trajectory() {
     const { begin, end } = this.questions.dance;
-    return { path: "trajectory", body: this.questions.body({ times: { start: begin, stop: end, step: CSV_STEP } }) };
+    return { path: "trajectory", body: this.questions.body({ times: { start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP } }) };
   }
 
   async #picture() {
@@ -180,15 +183,15 @@ export class Keep {
   instant(form) {
     const { begin, end } = this.questions.dance;
     const time = Math.min(Math.max(this.state.get("time") ?? end, begin), end);
-    return this.#figure("trajectory", form, { body: this.questions.body({ time }) });
+    return this.#figure("trajectory", form, { body: this.questions.placed({ time }) });
   }
 
   contact(form) {
     const { kind, query, numbers, end } = this.questions.dance;
     // The figure of a contact shows everybody in their place: with a stray, the figure of the last shown instant replaces it.
-    if (strayOf(query) > 0) return this.#figure("trajectory", form, { body: this.questions.body({ time: end }) });
+    if (strayOf(query) > 0) return this.#figure("trajectory", form, { body: this.questions.placed({ time: end }) });
     const { stray, hole, pin, ...flat } = query;
-    return this.#figure("contact", form, kind === "spiral" && isPlain(this.questions.dance) ? { query: flat } : { body: this.questions.body({ margin: numbers.margin }) });
+    return this.#figure("contact", form, kind === "spiral" && isPlain(this.questions.dance) ? { query: flat } : { body: this.questions.placed({ margin: numbers.margin }) });
   }
 
   stairs(form) {
@@ -197,7 +200,7 @@ export class Keep {
 
   film() {
     const { begin, end } = this.questions.dance;
-    return { path: "films", body: this.questions.body({ start: begin, stop: end, language: language() }) };
+    return { path: "films", body: this.questions.placed({ start: begin, stop: end, language: language() }) };
   }
 
   ground() {
@@ -235,7 +238,7 @@ export class Keep {
 
   clearance() {
     const { begin, end } = this.questions.dance;
-    return { path: "clearance", body: this.questions.body({ times: { start: begin, stop: end, step: CSV_STEP } }) };
+    return { path: "clearance", body: this.questions.body({ times: { start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP } }) };
   }
 
   paperAsked() {

@@ -133,7 +133,9 @@ function showTable(pose) {
   table.show(pose);
   const fold = nearFold(pose);
   const last = fold !== null && pose.time === questions.dance.end;
-  $("#table-time").textContent = say(last ? "tableAtFold" : "tableAt", { time: (last ? fold : pose.time).toFixed(6) });
+  const clock = state.get("start_clock");
+  const time = (last ? fold : pose.time).toFixed(6);
+  $("#table-time").textContent = say(last ? "tableAtFold" : "tableAt", { time }) + (clock ? ` · ${timeOfDay(pose.time, clock)}` : "");
   $("#table-fold").hidden = fold === null;
   $("#table-fold").textContent = fold === null ? "" : say("nearFold", { time: fold.toFixed(6) });
 }
@@ -202,13 +204,15 @@ const SHOW = {
     });
   },
   speeds() {
-    const { answer, dance: of } = questions.answers.speeds;
-    const [low, high] = spanOf(answer.speed);
-    dance.scene.speeds = [low, Math.min(high, FAST * of.numbers.top_speed)];
+    const { speeds, fastest } = questions.answers;
+    const [low, high] = spanOf(speeds.answer.speed); // of some instants, which may miss the highest speed of all
+    const most = fastest?.dance === speeds.dance ? fastest.answer.highest_speed.speed : high;
+    dance.scene.speeds = [low, Math.min(Math.max(high, most), FAST * speeds.dance.numbers.top_speed)];
     if (dance.scene.pose) showPose(dance.scene.pose);
   },
   fastest() {
     const { answer, dance: of } = questions.answers.fastest;
+    if (questions.answers.speeds) SHOW.speeds();
     answers.showHighestSpeed($("#highest-speed"), answer.highest_speed, of.numbers);
     if (of !== questions.dance) return;
     // At rest the engines check the whole dragon; while a slider is dragged, only the pair.

@@ -10,13 +10,13 @@ const CORNERS = ["top-right", "bottom-right", "top-left"];
 
 let said = 0;
 
-/** Show a message; it disappears by itself, or on a click. */
-export function announce(words) {
+/** Show a message; it disappears by itself, or on a click. stays: only the next message replaces it */
+export function announce(words, stays = false) {
   const box = $("#status");
   const end = () => (box.textContent = "");
   Object.assign(box, { textContent: words, onclick: end });
   clearTimeout(said);
-  said = setTimeout(end, Math.max(SAID, LETTER * words.length));
+  if (!stays) said = setTimeout(end, Math.max(SAID, LETTER * words.length));
 }
 
 /**

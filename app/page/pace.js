@@ -9,8 +9,8 @@ const CLOCK = /^([01]\d|2[0-3]):[0-5]\d(:[0-5]\d)?$/;
 const NUMBER = /^-?\d+([.,]\d+)?$/;
 /** End of a passage: a place [m] or a time [s]. */
 const ENDS = { m: "until_s", s: "until_time" };
-/** The first added passage: a pause of ten seconds after this many metres or seconds. */
-const FIRST = 20;
+/** Duration of an added pause, and of an added passage [s]. */
+const [PAUSE, LONG] = [10, 20];
 
 const read = (text) => (NUMBER.test(text.trim()) ? Number(text.trim().replace(",", ".")) : text.trim());
 
@@ -39,13 +39,20 @@ export function clockIn(text) {
 
 /** Time at which the head has travelled this far since time 0 [s]. */
 export function timeAfter(distance, speed, passages) {
-  let [time, gone] = [0, 0];
-  for (const { speed: own, until_s: place, until_time: until } of passages) {
-    const stop = until ?? time + (place - gone) / own;
-    if (!(gone + own * (stop - time) < distance)) return time + (distance - gone) / own;
-    [time, gone] = [stop, place ?? gone + own * (stop - time)];
+  const { time, gone, speed: own } = beginsOf(passages, speed).findLast(({ gone }) => gone < distance);
+  return time + (distance - gone) / own;
+}
+
+/** Time [s], way of the head since time 0 [m] and speed [m/s] where each passage begins, and what comes after them. */
+function beginsOf(passages, after) {
+  const begins = [{ time: 0, gone: 0 }];
+  for (const { speed, until_s: place, until_time: until } of passages) {
+    const { time, gone } = Object.assign(begins.at(-1), { speed });
+    const stop = until ?? time + (place - gone) / speed;
+    begins.push({ time: stop, gone: place ?? gone + speed * (stop - time) });
   }
-  return time + (distance - gone) / speed;
+  Object.assign(begins.at(-1), { speed: after });
+  return begins;
 }
 
 /** The time of day at a time of the dance [s], down to the whole second; clock: that at time 0, such as 19:30 */
@@ -64,10 +71,14 @@ export class Pace {
     this.title = make("summary");
     this.list = make("ol");
     this.error = make("p", { className: "error", hidden: true });
-    this.add = make("button", { type: "button", id: "passage-add", "data-text": "passageAdd" });
-    this.add.addEventListener("click", () => this.#add());
+    const adds = [false, true].map((isPause) => {
+      const key = isPause ? "pauseAdd" : "passageAdd";
+      const add = make("button", { type: "button", id: key, "data-text": key });
+      add.addEventListener("click", () => this.#add(isPause));
+      return add;
+    });
     const help = make("p", { className: "hint", "data-text": "passagesHelp" });
-    const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, this.add);
+    const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
     this.clock = make("input", { id: "start_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error" });
     this.clock.addEventListener("change", () => this.#start());
     this.wrong = make("p", { id: "clock-error", className: "error", hidden: true, "data-text": "clockWrong" });
@@ -82,10 +93,13 @@ export class Pace {
     return this.#rows.map(({ speed, until, unit }) => `${read(speed.value)}@${read(until.value)}${unit.value}`);
   }
 
-  #add() {
-    const last = passagesIn(this.state.get("passages")).at(-1);
-    const time = Number(last?.until_time ?? last?.until_s ?? FIRST) + FIRST / 2;
-    this.state.set({ passages: [...this.#typed, `0@${time}s`].join("_") });
+  /** A passage after the last one, or a pause at the instant shown if that comes later. */
+  #add(isPause) {
+    const last = Math.round(beginsOf(passagesIn(this.state.get("passages")), 0).at(-1).time) || 0;
+    const until = Math.round((isPause && this.state.get("time")) || last + LONG);
+    const begun = Math.max(until, last);
+    const added = [...(begun > last ? [`${this.state.get("head_speed")}@${begun}s`] : []), ...(isPause ? [`0@${begun + PAUSE}s`] : [])];
+    this.state.set({ passages: [...this.#typed, ...added].join("_") });
     this.#rows.at(-1).until.focus();
   }
 

@@ -139,6 +139,12 @@ export class Questions {
     return { dragon, path, ...pace, ...more };
   }
 
+  /** Body of a request about the dance shown, in the square that is drawn. */
+  placed(more) {
+    const venue = this.dance.kind === "route" && venueOf(this.dance.drawing);
+    return this.body({ ...more, ...(venue && { venue }) });
+  }
+
   /** Body of /check: a spiral is danced to its end. */
   checkBody(asked) {
     const contact = Object.fromEntries(CONTACT.map((name) => [name, asked.numbers[name]]));
@@ -167,8 +173,7 @@ export class Questions {
 
   /** Errors in the numbers: name -> the service's message. */
   errors() {
-    const all = ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []);
-    return new Map(all.map((error) => [nameOf(error), error.detail]));
+    return new Map(ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []).map((error) => [nameOf(error), error.detail]));
   }
 
   async #askContact(asked) {
@@ -246,10 +251,7 @@ export class Questions {
   /** The request for the tolerance on the way to the circle, or in the shown part of a turn. */
   toleranceOf() {
     const kind = this.state.get("path");
-    if (kind === "route") {
-      const venue = venueOf(this.dance.drawing);
-      return { asked: { benches: this.dance.numbers.benches }, body: this.body(venue ? { venue } : {}) };
-    }
+    if (kind === "route") return { asked: { benches: this.dance.numbers.benches }, body: this.placed({}) };
     const query = this.state.texts([...MOTION, "turning_diameter", ...(kind === "turn" ? TURN : [])]);
     const asking = this.#asking(kind, query);
     const { benches, turning_diameter } = asking.numbers;
@@ -302,8 +304,7 @@ export class Questions {
   /** The request for a clearance: a query on a spiral, where more benches are allowed; a body on other paths. */
   #clearanceOf(dance, start, stop, step) {
     if (dance.kind !== "spiral" || !isPlain(dance)) return { body: this.body({ times: { start, stop, step } }) };
-    const { query } = dance;
-    return { query: { ...Object.fromEntries(MOTION.map((name) => [name, query[name]])), start, stop, step } };
+    return { query: { ...Object.fromEntries(MOTION.map((name) => [name, dance.query[name]])), start, stop, step } };
   }
 
   #startTrack(dance) {
@@ -315,8 +316,7 @@ export class Questions {
 
   async #keep(kind, path, question, dance = null) {
     const answer = await this.#answer(kind, path, question);
-    const outdated = dance && dance !== this.dance;
-    if (answer && !outdated) this.#accepted(kind, { answer, ...question, dance });
+    if (answer && (!dance || dance === this.dance)) this.#accepted(kind, { answer, ...question, dance });
   }
 
   #accepted(kind, kept) {

@@ -9,7 +9,7 @@ const UNITS = { m: "metres", cm: "centimetres", "m/s": "metres per second", s: "
 /** An example of a number in each unit, for fields without a default. */
 const EXAMPLES = { m: "0.55", cm: "2", "m/s": "1.5", s: "300", turns: "16" };
 /** Advice for clients of the service, which the page leaves out. */
-const FOR_CLIENTS = /\.? Ask for it as a job, which may take longer: .*$/s;
+export const FOR_CLIENTS = /\.? Ask for it as a job, which may take longer: .*$/s;
 
 const fieldOf = (name) => FIELDS.find((field) => field.name === name);
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
@@ -17,9 +17,10 @@ const bench = (k, say) => (Number(k) ? say("body", { k }) : say("theHead"));
 
 /** A text with the groups of a pattern filled in. */
 function filled(text, found, say) {
-  return text.replace(/\{(\d)(\+1|[bwu])?\}/g, (_, k, how) => {
+  return text.replace(/\{(\d)(\+1|[bwur])?\}/g, (_, k, how) => {
     const word = found[k];
     if (how === "+1") return Number(word) + 1;
+    if (how === "r") return Number(Number(word).toFixed(3));
     if (how === "b") return bench(word, say);
     if (how === "u") return word ? `（单位 ${Object.keys(UNITS).find((unit) => UNITS[unit] === word)}），例如 ${found[2]}` : "";
     return how === "w" ? (WORDS[word] ?? word) : word;

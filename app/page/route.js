@@ -48,6 +48,7 @@ export class RouteForm {
       field("speedLimit", this.limit, "m/s"),
       (this.cornerLine = field("cornerRadius", this.corner, "m")),
       field("pathBegin", this.begin, "m"),
+      (this.later = make("p", { className: "hint", hidden: true }, make("span"), " ", make("button", { type: "button" }))),
       make("p", { className: "line" }, said("span", "origin"), ...this.origin, make("span", { className: "unit", textContent: "°" })),
       make("details", { id: "points" }, this.pointsTitle, table),
       make("details", { id: "things", open: true }, this.thingsTitle, this.list, said("p", "thingsHelp", { className: "hint" })),
@@ -60,6 +61,15 @@ export class RouteForm {
 
   #take(changes, kind = null) {
     this.steps.take({ ...this.#drawing, ...changes }, kind);
+  }
+
+  /** Offer to begin at time 0 where a dance begins later, as the dragon does not yet fit. dance: as judged */
+  offer({ begin, numbers, said: { passages } }) {
+    const [words, button] = this.later.children;
+    const place = Math.ceil(10 * (this.#drawing.begin + numbers.head_speed * begin)) / 10;
+    this.later.hidden = !(begin > 0) || passages.length > 0;
+    words.textContent = say("beginsLater", { time: begin.toFixed(2) });
+    Object.assign(button, { textContent: say("beginThere", { place }), onclick: () => this.#take({ begin: place }) });
   }
 
   /** Set the place of x = y = 0 on earth when both of its numbers are given, or none. */

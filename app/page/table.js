@@ -76,6 +76,7 @@ export class Table {
       const numbers = [x[k], y[k], speed[k]].map((one) => one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1"));
       const texts = [`${k} · ${handleName(k, x.length - 1)}`, ...numbers];
       texts.forEach((text, cell) => (shown.cells[cell].textContent = text));
+      shown.cells[0].title = texts[0];
       shown.className = k === this.#handle ? "chosen" : "";
     }
   }

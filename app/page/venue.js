@@ -1,7 +1,8 @@
 /** Layers of a drawing on the picture: the square and its obstacles, bends that are too tight, benches at fault. */
 
 import { isWhole } from "./drawing.js";
-import { benchName, say } from "./text.js";
+import { radiiOf } from "./judgement.js";
+import { say } from "./text.js";
 
 const BEND_WIDTH = 7;
 const FAULT_WIDTH = 4;
@@ -49,7 +50,7 @@ function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
   const places = [away, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
   const isInside = ([dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
   const isFree = ([dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
-  const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : places[0]);
+  const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : (places.find(isInside) ?? places[0]));
   if (place) {
     taken.push([atX + place[0], atY + place[1], width]);
     context.strokeText(text, ...place);
@@ -86,11 +87,10 @@ export function layers(dance, get) {
       label(pen, dance.view, thing.name, labelled(thing), colour, colours, names);
       if (failure?.area === thing.name && isWhole(thing)) pen.stroke(outline(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
     }
-    for (const { points, radius, least_radius: least, bench } of shown.course?.bends ?? []) {
+    for (const { points, ...bend } of shown.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);
-      const words = { radius: radius.toFixed(2), least: least.toFixed(2), bench: benchName(bench, shown.benches) };
-      label(pen, dance.view, say("tightHere", words), middle, colours.head, colours, names, RING + 6);
+      label(pen, dance.view, say("tightHere", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);
     }
     const { pose } = dance.scene;
     if (!failure || !pose || Math.abs(pose.time - failure.time) > SAME_TIME) return;

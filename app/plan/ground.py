@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from app.files.drawing import with_square
 from app.maps.features import inner_point
 from app.maps.marks import line_of
 from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
@@ -28,8 +29,6 @@ TICK, BESIDE, ARROWS = 1.1, 2.6, 45.0
 SMALLEST = 3.4
 # Type of numbers at marks, of names, of benches, and of coordinates along the frame [pt].
 MARK_TYPE, NAME_TYPE, BENCH_TYPE, COORDINATE_TYPE = 5.5, 7.0, 5.0, 5.0
-# The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
-SQUARE_MOST = 2.0
 # Numbers that are multiples of this are placed first, because not all of them may have room.
 ROUND = 4
 
@@ -66,12 +65,7 @@ def scale_for(ground: Ground, name: PaperName) -> Scale:
     """The scale at which the whole ground fits on the paper. raises: InvalidValue"""
     rings = np.concatenate([rings[0] for rings in ground.clear])
     low, high = rings.min(axis=0), rings.max(axis=0)
-    if ground.venue is not None:
-        square = np.array(ground.venue.square.rings[0])
-        least, most = np.minimum(low, square.min(axis=0)), np.maximum(high, square.max(axis=0))
-        if ((most - least) <= SQUARE_MOST * (high - low)).all():
-            low, high = least, most
-    return scale_of(name, low, high)
+    return scale_of(name, *with_square(ground.venue, low, high))
 
 
 def draw_ground(sheet: Sheet, ground: Ground, scale: Scale, *, numbers: bool) -> Rectangle:
@@ -137,6 +131,20 @@ def _draw_venue(sheet: Sheet, ground: Ground, scale: Scale, frame: Rectangle) ->
         look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.6}} if wide else {}
         sheet.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, scale.paper.room, **look)
         sheet.take(np.array([left, low, right, high]))
+    if ground.venue:
+        square, beside = ground.venue.square, 0.5 * sheet.width(ground.venue.square.name, NAME_TYPE) + 1.5
+        places = _inside(scale.on_paper(np.array(square.rings[0])), beside)
+        sheet.label(square.name, NAME_TYPE, places, scale.paper.room)
+
+
+def _inside(ring: Floats, beside: float) -> list[tuple[float, float]]:
+    """Places for a word of that half width inside a closed ring: at the middle of each side, the longest side first."""
+    along = np.diff(ring, axis=0)
+    area = float((ring[:-1, 0] * ring[1:, 1] - ring[1:, 0] * ring[:-1, 1]).sum())
+    inwards = np.sign(area) * np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
+    places = ring[:-1] + 0.5 * along + inwards * (beside * np.abs(inwards[:, :1]) + 2.5 * np.abs(inwards[:, 1:]))
+    found: list[tuple[float, float]] = [tuple(places[k].tolist()) for k in np.argsort(-np.hypot(*along.T))]
+    return found
 
 
 def _draw_arrows(sheet: Sheet, line: Floats) -> None:

@@ -18,6 +18,7 @@ from app.wire.models import measure
 from core import Dance, FailureKind, Judgement
 from core.errors import said
 from core.shapes.engines import widened
+from core.shown import counted
 
 PDF_TYPE = "application/pdf"
 # Excess of the swept ground on paper [m]: 0.05 mm at 1:200.
@@ -99,13 +100,20 @@ def _facts(
 ) -> list[str]:
     """The dance in lines of the title block."""
     dragon = dance.dragon
-    length, speed = float(dragon.chords.sum()), said(dance.head_speed)
+    length = float(dragon.chords.sum())
+    moving = sorted({one.speed for one in dance.passages if one.speed > 0.0} | {dance.head_speed})
+    english, chinese = (to.join(said(one) for one in sorted({moving[0], moving[-1]})) for to in (" to ", " 至 "))
+    pauses = sum(one.speed == 0.0 for one in dance.passages)
+    if pauses:
+        english, chinese = f"{english} m/s with {counted(pauses, 'pause')}", f"{chinese} m/s，停顿 {pauses} 次"
+    else:
+        english, chinese = f"{english} m/s", f"{chinese} m/s"
     return [
         say(
             f"{dragon.benches} benches, {length:.1f} m from head to tail",
             f"{dragon.benches} 节板凳，全长 {length:.1f} m",
         ),
-        say(f"head at {speed} m/s, margin {said(margin)} m", f"龙头速度 {speed} m/s，间距 {said(margin)} m"),
+        say(f"head at {english}, margin {said(margin)} m", f"龙头速度 {chinese}，间距 {said(margin)} m"),
         say(f"from {words(start)} to {words(stop)}", f"时间 {words(start)} 至 {words(stop)}"),
     ]
 

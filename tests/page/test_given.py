@@ -91,7 +91,7 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page
     page = open_page("?benches=30&time=50", failing=True)
     page.locator("#passages summary").click()
     for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
-        page.locator("#passage-add").click()
+        page.locator("#passageAdd").click()
         row = page.locator("#passages li").nth(k)
         row.locator("select").select_option(unit)
         for field, value in zip(row.locator("input").all(), (until, speed), strict=True):
@@ -113,6 +113,15 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page
     expect(page.locator("#clock-error")).to_be_visible()
     page.locator("#passages li").nth(1).locator("select").select_option("m")
     expect(page.locator("#passages .error")).to_contain_text("“until, in seconds” must be given.")
+
+
+def test_a_pause_lies_at_the_instant_shown(visit: Any) -> None:
+    page = visit("?benches=30&time=50")
+    page.locator("#passages summary").click()
+    page.locator("#pauseAdd").click()
+    page.wait_for_url("**passages=1@50s_0@60s*")
+    page.locator("#passageAdd").click()
+    page.wait_for_url("**passages=1@50s_0@60s_1@80s*")
 
 
 def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open_page: Any, server: str) -> None:
@@ -145,7 +154,7 @@ def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(open_pa
     assert serious(page) == []
     page.locator("#one-by-one summary").tap()
     page.locator("#passages summary").tap()
-    page.locator("#passage-add").tap()
+    page.locator("#passageAdd").tap()
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
     assert "undefined" not in page.locator("body").inner_text()
     page.locator("[data-preset=eight]").tap()

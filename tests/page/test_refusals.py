@@ -84,6 +84,8 @@ FILES = (
     b"AutoCAD Binary DXF\r\n",
     b'{"type":"FeatureCollection","features":[]}',
     b'{"type":"LineString","coordinates":[[100,20],[150,30]]}',
+    b'{"type":"LineString","coordinates":[[29.11,119.64],[29.12,119.65]]}',
+    b"a = [1,\n\nb = 2",
     b'{"type":"Polygon","coordinates":[[[0,0],[5,5],[5,0],[0,5],[0,0]]]}',
     b'{"path":{"kind":"waypoints","points":[[0,0]]}}',
 )
