@@ -240,7 +240,7 @@ def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open
 
 
 def test_everything_can_be_kept_from_the_page(open_page: Any, settled: Any, server: str) -> None:
-    page = open_page("?benches=20&pitch=0.5&start_turns=7")
+    page = open_page("?benches=20&pitch=0.5&start_turns=7&turning_diameter=4")
     settled(page)
     kept = {}
     for name in (
