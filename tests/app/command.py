@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import gc
 import json
 import os
 import select
@@ -23,7 +24,10 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from pkgutil import walk_packages
 from typing import Any, TextIO
+
+from app.extras import MODULES
 
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 ENVIRONMENT = {
@@ -31,6 +35,11 @@ ENVIRONMENT = {
 }
 ROOT = Path(__file__).parents[2]
 PATIENCE = 300.0  # [s]: only against a test that would hang
+# Modules that the command imports at their first use: those of the extras, and parts of matplotlib.
+USED = ("dxf", "figures", "proof", "sweep", "xlsx")
+LAZY = ("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg")
+# Modules of other programs, and the compiled loops.
+NEVER = ("app.service", "app.jobs", "app.sweeps.worker", "app.sweeps.cluster", "core.kernels.")
 WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
 # The command for a shell: it hands what it is given to the process that forks, and ends with the exit code of the run.
 SCRIPT = """#!{python} -IS
@@ -92,12 +101,17 @@ def bin_folder() -> Path:
 def main() -> None:
     """Fork for each request, until standard input ends, which means that the parent is gone."""
     commands, core = import_module("app.command.main"), import_module("core")
-    for room in set(commands.ROOMS.values()):
-        import_module(f"app.command.{room}")
-    import_module("core.shapes.engines")
+    for name in {name for extra in USED for name in MODULES[extra]} | set(LAZY):
+        import_module(name)
+    for package in ("core", "app"):
+        for room in walk_packages([str(ROOT / package)], f"{package}."):
+            if not room.name.startswith(NEVER):
+                import_module(room.name)
     for name in core.__all__:
         getattr(core, name)
     _build(import_module("pydantic").BaseModel)
+    gc.collect()
+    gc.freeze()  # The collector of a run leaves the imported modules alone.
     sys.modules["__main__"].__package__ = None  # click names the program by its script, not by `python -m`
     with socket.socket(fileno=int(sys.argv[1])) as door:
         while sys.stdin not in select.select([door, sys.stdin], [], [])[0]:

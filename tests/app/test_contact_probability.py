@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -13,16 +11,15 @@ import numpy as np
 import pytest
 
 import core
+from tests.app.command import run
 
-ROOT = Path(__file__).parent.parent.parent
 MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
 ASKED = {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, "start": 395.0, "stop": 405.0}
 
 
 def told(*options: str, wrong: bool = False) -> str:
     """What the command prints, on standard error if it refuses."""
-    run = [str(Path(sys.executable).parent / "bench-dragon"), "contact-probability", *options]
-    done = subprocess.run(run, capture_output=True, text=True, cwd=ROOT)
+    done = run("contact-probability", *options)
     assert done.returncode == (2 if wrong else 0), done.stderr
     return done.stderr if wrong else done.stdout
 

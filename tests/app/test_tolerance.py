@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import httpx
@@ -25,8 +22,8 @@ from core import (
     uncertain_tolerance,
 )
 from core.tolerance.curve import time_on_circle
+from tests.app.command import run
 
-ROOT = Path(__file__).parent.parent.parent
 SMALL = {"benches": 40, "start_turns": 9}
 SQUARE = {"type": "Polygon", "coordinates": [[[-15, -15], [15, -15], [15, 15], [-15, 15], [-15, -15]]]}
 
@@ -182,6 +179,7 @@ def test_an_answer_says_which_stray_it_allows_for(client: httpx.Client) -> None:
 
 def test_the_command_prints_the_json_of_the_service(client: httpx.Client) -> None:
     options = ["--benches", "40", "--start-turns", "9", "--pitch", "0.6"]
-    run = [str(Path(sys.executable).parent / "bench-dragon"), "tolerance", *options, "--json"]
-    told = subprocess.run(run, capture_output=True, text=True, cwd=ROOT, check=True).stdout
-    assert json.loads(told) == client.get("/tolerance", params=SMALL | {"pitch": 0.6}).json()
+    assert (
+        json.loads(run("tolerance", *options, "--json").stdout)
+        == client.get("/tolerance", params=SMALL | {"pitch": 0.6}).json()
+    )
