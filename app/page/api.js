@@ -1,5 +1,7 @@
 /** The service: only the newest question of a kind gets an answer, and a lost service is tried until it is back. */
 
+import { pending } from "./pending.js";
+
 /**
  * A superseded question may still answer for this long [ms], or for twice the time of the last one, up to a maximum: so
  * a dragged slider also gets answers from a busy service.
@@ -89,6 +91,8 @@ export class Service {
     const type = file ? "application/octet-stream" : body && "application/json";
     const headers = { Accept: accept, ...(type && { "Content-Type": type }), ...more };
     const options = { method: type ? "POST" : "GET", headers, body: file ?? (body && JSON.stringify(body)), ...how };
+    const asked = Symbol(channel);
+    pending(asked, true);
     this.tell.busy(channel, true);
     try {
       const answer = await this.#channels.get(channel).ask((signal) => this.#patiently(url, options, signal));
@@ -97,6 +101,8 @@ export class Service {
     } catch (error) {
       if (!(error instanceof Superseded)) this.tell.busy(channel, false);
       throw error;
+    } finally {
+      pending(asked, false);
     }
   }
 

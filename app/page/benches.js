@@ -1,6 +1,7 @@
 /** Benches measured one by one: a table that is typed, pasted, dropped or opened, in the service's format. */
 
 import { $, make } from "./elements.js";
+import { Pause } from "./pending.js";
 import { nameBenches, refusalWords, say } from "./text.js";
 
 /** A typed table counts after this pause [ms]. */
@@ -67,13 +68,10 @@ export class BenchTable {
   }
 
   #listen() {
-    let typing = 0;
-    this.text.addEventListener("input", () => {
-      clearTimeout(typing);
-      typing = setTimeout(() => this.#take(this.text.value), TYPING);
-    });
+    const typing = new Pause("csv");
+    this.text.addEventListener("input", () => typing.begin(TYPING, () => this.#take(this.text.value)));
     this.text.addEventListener("change", () => {
-      clearTimeout(typing);
+      typing.end();
       this.#take(this.text.value);
     });
     this.file.addEventListener("change", async () => {

@@ -4,6 +4,7 @@
  */
 
 import { $$, make, onClick } from "./elements.js";
+import { Pause } from "./pending.js";
 import { FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
 
@@ -66,11 +67,8 @@ export class Controls {
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
       error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
-    let typing = 0;
-    row.text.addEventListener("input", (event) => {
-      clearTimeout(typing);
-      typing = setTimeout(change, TYPING, event);
-    });
+    const typing = new Pause(name);
+    row.text.addEventListener("input", (event) => typing.begin(TYPING, () => change(event)));
     row.text.addEventListener("change", change);
     row.slider.addEventListener("input", change);
     row.reset.addEventListener("click", () => this.state.reset([name]));

@@ -1,6 +1,7 @@
 /** The clock of the dance: plays, steps, scrubs, and stops at first contact. */
 
 import { $, onClick } from "./elements.js";
+import { pending } from "./pending.js";
 import { RATES } from "./state.js";
 import { say } from "./text.js";
 
@@ -10,6 +11,7 @@ const EXACT_EVERY = 250;
 const STEP_EVERY = 500;
 /** Longest frame time that counts [ms], so that the dance does not jump after a slow frame. */
 const FRAME_MAX = 100;
+const MOTION = Symbol("motion");
 
 export class Player {
   #playing = false;
@@ -67,6 +69,7 @@ export class Player {
     if (begin >= end) return;
     if (this.state.get("time") === null) this.seek(begin);
     this.#playing = true;
+    pending(MOTION, true);
     this.translate();
     this.#tick(performance.now(), performance.now());
   }
@@ -98,6 +101,7 @@ export class Player {
 
   #stop() {
     this.#playing = false;
+    pending(MOTION, false);
     cancelAnimationFrame(this.#frame);
     this.translate();
     this.update();

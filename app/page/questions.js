@@ -3,6 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { timeAfter } from "./pace.js";
+import { Pause } from "./pending.js";
 import { CONTACT, DRAGON, FIELDS, SAID, TURN, numbersOf } from "./state.js";
 import { Track } from "./track.js";
 
@@ -57,7 +58,7 @@ export class Questions {
   answers = {};
   /** channel -> Problem */
   refusals = new Map();
-  #rest = 0;
+  #rest = new Pause("questions");
   #asked = new Map();
   /** Charts near the view; the slow questions of other charts are not asked. */
   #near = new Set();
@@ -73,8 +74,7 @@ export class Questions {
 
   /** Ask everything that depends on the numbers of the state. */
   refresh() {
-    clearTimeout(this.#rest);
-    this.#rest = setTimeout(() => this.#atRest(), REST);
+    this.#rest.begin(REST, () => this.#atRest());
     const kind = this.state.get("path");
     if (kind === "route") return this.#refreshDrawn();
     const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
@@ -200,7 +200,7 @@ export class Questions {
     this.dance = { ...dance, track: null };
     this.tell("dance");
     if (dance.kind !== "route") this.#askPath();
-    if (!this.#rest) this.#askDance();
+    if (!this.#rest.lasts) this.#askDance();
   }
 
   /** The path from behind the tail to the end, sampled as the way of a single bench's head. */
@@ -223,7 +223,6 @@ export class Questions {
   }
 
   #atRest() {
-    this.#rest = 0;
     this.#askDance();
     if (this.state.get("path") === "route") return;
     if (!this.#whole) {
@@ -245,7 +244,7 @@ export class Questions {
   /** Ask from now on for this chart too: scan or curve. */
   near(kind) {
     this.#near.add(kind);
-    if (!this.#rest) this.#atRest();
+    if (!this.#rest.lasts) this.#atRest();
   }
 
   /** The request for the tolerance on the way to the circle, or in the shown part of a turn. */

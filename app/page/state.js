@@ -3,6 +3,7 @@
 import { benchesOf } from "./benches.js";
 import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
 import { clockIn, passagesIn } from "./pace.js";
+import { Pause } from "./pending.js";
 
 /**
  * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
@@ -73,7 +74,7 @@ const READ = {
 export class State {
   #values = { ...DEFAULTS };
   #listeners = [];
-  #writing = 0;
+  #writing = new Pause("address");
   /** True if the whole dance is in the address. */
   fits = true;
 
@@ -82,8 +83,7 @@ export class State {
     // The browser's back and forward buttons.
     addEventListener("popstate", () => {
       const before = this.#values;
-      clearTimeout(this.#writing);
-      this.#writing = 0;
+      this.#writing.end();
       this.#read();
       this.#tell(Object.keys(DEFAULTS).filter((name) => JSON.stringify(before[name]) !== JSON.stringify(this.#values[name])));
     });
@@ -134,7 +134,7 @@ export class State {
     if (!names.length) return;
     Object.assign(this.#values, changes);
     // Browsers refuse more than a few changes of the address per second.
-    if (write) this.#writing ||= setTimeout(() => this.write(), 300);
+    if (write && !this.#writing.lasts) this.#writing.begin(300, () => this.write());
     this.#tell(names);
   }
 
@@ -161,8 +161,7 @@ export class State {
   }
 
   write() {
-    clearTimeout(this.#writing);
-    this.#writing = 0;
+    this.#writing.end();
     const query = new URLSearchParams();
     const { drawing, csv, ...others } = this.#values;
     for (const [name, value] of Object.entries(others)) {

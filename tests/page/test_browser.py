@@ -31,7 +31,8 @@ def bare(folder: Path) -> dict[str, str]:
     """An environment that names no browser."""
     unset = ("CHROME", "CI", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
     kept = {name: value for name, value in os.environ.items() if name not in unset}
-    return {**kept, "HOME": str(folder), "PATH": str(folder)}
+    # Plugins of pytest that these tests do not use would take two seconds to load.
+    return {**kept, "HOME": str(folder), "PATH": str(folder), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
 
 
 def test_the_chosen_one_comes_first_then_the_path_then_usual_places_then_a_download(

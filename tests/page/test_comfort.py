@@ -13,6 +13,7 @@ from playwright.sync_api import expect
 
 from tests.app.jobs.service import wait_for
 from tests.page import polite
+from tests.page.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
@@ -54,7 +55,7 @@ def box(page: Any, selector: str) -> Any:
 
 
 def test_on_a_phone_the_picture_stays_in_sight_of_what_is_dragged_and_fingers_have_room(
-    open_page: Any, settled: Any
+    open_page: Any,
 ) -> None:
     page = open_page("?benches=20", **TOUCH)
     settled(page)
@@ -102,9 +103,8 @@ def test_a_bare_address_opens_in_motion_and_the_wheel_scrolls_until_the_picture_
     shows(still, "#play", "Play")
 
 
-def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(open_page: Any, settled: Any) -> None:
-    page = open_page("?time=0&view=8.8,0,40")
-    settled(page)
+def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit: Any) -> None:
+    page = visit("?time=0&view=8.8,0,40")
     metres, pixels = page.evaluate(
         "import('/page/dance.js').then(({ scaleBar }) => [4e-3, 40, 41, 2e4].map((scale) => scaleBar(scale)))"
         ".then((all) => [all.map((one) => one.metres), all.map((one) => one.pixels)])"
@@ -128,12 +128,12 @@ def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(open_p
     middle = canvas.bounding_box()
     x = 1.474395 - (wanted[0] - middle["x"] - middle["width"] / 2) / 40
     y = 2.110665 + (wanted[1] - middle["y"] - middle["height"] / 2) / 40
-    page.goto(f"{page.url.split('?')[0]}?view={x},{y},40")
+    visit(f"?view={x},{y},40")
     page.locator("#inset:not([data-corner=top-right])").wait_for()
 
 
 def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wanted(
-    open_page: Any, settled: Any, server: str
+    open_page: Any, server: str
 ) -> None:
     page = open_page("?path=turn&benches=20")
     settled(page)
@@ -160,11 +160,14 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     asked = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
     shortest = polite.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
     shows(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
+    settled(page)
     page.get_by_role("button", name="Begin the turn there").click()
     assert float(page.locator("#entry_radius").input_value()) == shortest["entry_bracket"][1]
+    settled(page)
     page.get_by_role("button", name="Dance at this speed").click()
     assert float(page.locator("#head_speed").input_value()) == pytest.approx(fastest["head_speed"], abs=1e-6)
     shows(page, "#first-contact .value", "Nothing touches")
+    settled(page)
     page.get_by_role("button", name="Dance the spiral of this pitch").click()
     page.locator("[data-path=spiral][aria-pressed=true]").wait_for()
     least = polite.get(f"{server}/minimum-pitch", params={"benches": 20}).json()
@@ -221,7 +224,7 @@ def test_in_chinese_proofs_and_refusals_are_chinese(visit: Any, server: str) -> 
     assert [words for words in english if "[" in words or ", got" in words.partition("here")[0]] == []
 
 
-def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open_page: Any, settled: Any) -> None:
+def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open_page: Any) -> None:
     page = open_page("?benches=20", color_scheme="dark")
     settled(page)
     page.emulate_media(media="print", color_scheme="dark")
@@ -239,9 +242,9 @@ def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open
     assert page.locator("#canvas").evaluate(ground) == page.locator("body").evaluate(ground) == "rgb(255, 255, 255)"
 
 
-def test_everything_can_be_kept_from_the_page(open_page: Any, settled: Any, server: str) -> None:
-    page = open_page("?benches=20&pitch=0.5&start_turns=7&turning_diameter=4")
-    settled(page)
+def test_everything_can_be_kept_from_the_page(open_page: Any, server: str) -> None:
+    page = open_page("?benches=9&pitch=0.5&start_turns=8")
+    reached(page.locator("#keep"))
     kept = {}
     for name in (
         "Ground that benches sweep, GeoJSON",
@@ -265,7 +268,7 @@ def test_everything_can_be_kept_from_the_page(open_page: Any, settled: Any, serv
         choice.select_option(option.get_attribute("value"))
         commands.append(page.locator("#curl").inner_text())
     assert len(set(commands)) == len(commands)
-    assert commands[-1].startswith("bench-dragon prove collision-time --benches 20 ")
+    assert commands[-1].startswith("bench-dragon prove collision-time --benches 9 ")
     assert all(command.startswith(f"curl '{server}/") for command in commands[:-1])
     page.get_by_role("button", name="Film of the dance, GIF").click()
     row = page.locator("#jobs li", has_text="Film of the dance")

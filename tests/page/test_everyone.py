@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from tests.page.axe import serious
+from tests.page.pending import settled
 
 PHONE = {"width": 390, "height": 844}
 
@@ -28,7 +29,7 @@ def test_chinese_is_the_first_language_of_a_chinese_browser_with_the_terms_of_th
     assert page.locator("html").get_attribute("lang") == "zh-Hans"
 
 
-def test_the_language_is_switched_on_the_page_and_stays_in_the_address(open_page: Any, settled: Any) -> None:
+def test_the_language_is_switched_on_the_page_and_stays_in_the_address(open_page: Any) -> None:
     page = open_page()
     settled(page)
     page.get_by_role("button", name="中文").click()
@@ -51,7 +52,7 @@ def test_no_text_is_missing_in_either_language(visit: Any) -> None:
         assert "undefined" not in page.locator("body").inner_text()
 
 
-def test_the_page_is_used_by_keyboard_alone(open_page: Any, settled: Any) -> None:
+def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
     page = open_page("?time=100&benches=20")
     settled(page)
     page.keyboard.press("Tab")
@@ -84,7 +85,7 @@ def test_the_page_is_used_by_keyboard_alone(open_page: Any, settled: Any) -> Non
     page.locator("#scan .reading", has_text="0.5 m").wait_for()
 
 
-def test_nothing_is_cut_off_at_390_pixels(open_page: Any, settled: Any) -> None:
+def test_nothing_is_cut_off_at_390_pixels(open_page: Any) -> None:
     page = open_page("?stray=0.02", viewport=PHONE, locale="zh-CN", has_touch=True, is_mobile=True)
     settled(page)
     outside = """(width) => [...document.querySelectorAll("button, input, select, h1, h2, h3, .value")]
@@ -99,7 +100,7 @@ def test_nothing_is_cut_off_at_390_pixels(open_page: Any, settled: Any) -> None:
     page.locator("#play", has_text="❚❚").wait_for()
 
 
-def test_reduced_motion_moves_in_steps(open_page: Any, settled: Any) -> None:
+def test_reduced_motion_moves_in_steps(open_page: Any) -> None:
     page = open_page("?time=0&rate=1", reduced_motion="reduce")
     settled(page)
     page.locator("#play").click()
@@ -132,6 +133,7 @@ def test_axe_finds_nothing_serious_in_light_or_dark(
     refused = "pitch=55" in query
     page = open_page(query, failing=refused, color_scheme="light", **options)
     page.locator("#pitch-error").wait_for() if refused else look_at(page, "curve", "scan")
+    settled(page)
     for summary in page.locator("summary:visible").all():
         summary.click()
     assert serious(page) == []

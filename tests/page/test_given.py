@@ -13,6 +13,7 @@ from playwright.sync_api import expect
 from app.wire.benches import bench_table
 from tests.page import polite
 from tests.page.axe import serious
+from tests.page.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16&benches=8"
@@ -21,7 +22,6 @@ TABLE = (
 )
 PASSAGES = [{"speed": 0.5, "until_s": 20}, {"speed": 0, "until_time": 100}, {"speed": 1.5, "until_s": 60}]
 SPIRAL = {"kind": "spiral", "pitch": 0.55, "start_turns": 16}
-IN_MOTION = 0.6  # [s] more than the page waits before it writes its address
 A3_WIDE = 420 / 25.4 * 72  # [points]
 
 
@@ -45,14 +45,14 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(
     answer = page.locator("#first-contact .value")
     expect(answer).to_contain_text(contact_of(server, dragon={"csv": TABLE}))
     page.locator("#rows tr", has_text="2 · body 2 (Wu)").wait_for()
-    expect(page.locator("#stage[aria-busy=true]")).to_have_count(0)
+    settled(page)
     wide = picture(page)
     # One bench narrower: its chord, and so the whole pose, stays; the picture does not.
     put(page, TABLE.replace("1.8,0.7", "1.8,0.2"))
     page.wait_for_url("**csv=*0.2,0.2*")
-    expect(page.locator("#first-contact[aria-busy=true]")).to_have_count(0)
-    page.wait_for_timeout(300)
+    settled(page)
     assert not alike(wide, picture(page))
+    reached(page.locator("#keep"))
     with page.expect_download() as download:
         page.locator("[data-keep=keepTrajectory][data-form=CSV]").click()
     assert Path(download.value.path()).read_text().splitlines()[2].endswith(",Li")
@@ -137,6 +137,7 @@ def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open
     failure = polite.post(f"{server}/check", json=body).raise_for_status().json()["failures"][0]
     button = page.locator(".failures button").first
     expect(button).to_have_text(f"{failure['time']:.6f} s · {failure['clock']}")
+    reached(page.locator("#keep"))
     with page.expect_download() as download:
         page.locator("[data-keep=keepPlan][data-form=A3]").click()
     plan = Path(download.value.path()).read_bytes()
@@ -148,7 +149,7 @@ def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open
 def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(open_page: Any) -> None:
     page = open_page("?path=route", viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
     page.locator("#invite h3").wait_for()
-    page.wait_for_timeout(1000 * IN_MOTION)
+    settled(page)
     expect(page.locator("[aria-busy=true]:visible")).to_have_count(0)
     expect(page.locator("#old")).to_be_hidden()
     assert serious(page) == []

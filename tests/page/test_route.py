@@ -12,6 +12,7 @@ from playwright.sync_api import expect
 
 from tests.page import polite
 from tests.page.axe import serious
+from tests.page.pending import reached, settled
 
 ROOT = Path(__file__).parents[2]
 PHONE = {"width": 390, "height": 844}
@@ -21,7 +22,6 @@ VILLAGE = (
     "&things=a.square..-70,-11_-20,-11_-20,-15_20,-15_20,15_15,15_15,65_9,65_9,15_-20,15_-20,-5_-70,-5"
     "~c.well.1!5.6!5,-6!5~b.stage..-17,1!5_-6,1!5_-6,9!5_-17,9!5~w.fence.0!2.10!5,3!5_18,4"
 )
-IN_MOTION = 0.6  # [s] more than the page waits before it writes its address
 
 
 def verdict(page: Any, words: str) -> None:
@@ -29,9 +29,9 @@ def verdict(page: Any, words: str) -> None:
 
 
 def points(page: Any) -> list[list[float]]:
-    """The points of the path as the page shares them, once it has written its address."""
-    text = page.evaluate(f"""new Promise((resolve) => setTimeout(() => resolve(
-        new URLSearchParams(location.search).get("route")), {1000 * IN_MOTION}))""")
+    """The points of the path as the page shares them, once it has written its address and drawn the path."""
+    settled(page, "address", "course")
+    text = page.evaluate("new URLSearchParams(location.search).get('route')")
     return [[float(one) for one in point.lstrip("*").split(",")] for point in (text or "").split("_") if point]
 
 
@@ -91,12 +91,14 @@ def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page: Any)
     assert "Point 3 of 8" in page.evaluate("document.activeElement.getAttribute('aria-label')")
     page.keyboard.press("Delete")
     assert len(points(page)) == 7
+    settled(page)
     # A tap on the path divides it, and one beside it goes on from its end; the list has fields for both.
     first, second = (page.locator(".knot").nth(k).bounding_box() for k in (0, 1))
     page.mouse.click((first["x"] + second["x"]) / 2 + 11, (first["y"] + second["y"]) / 2 + 11)
     page.locator(".knot").nth(7).wait_for()
     drawn = points(page)
     assert drawn[0][0] < drawn[1][0] < drawn[2][0]
+    settled(page)
     last = page.locator(".knot").last.bounding_box()
     page.mouse.click(last["x"] + 11, last["y"] - 60)
     page.locator(".knot").nth(8).wait_for()
@@ -124,11 +126,11 @@ def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
     rows.first.get_by_role("button").click()
     page.wait_for_url(f"**time={told[0]['time']}**")
     page.locator("#clock", has_text=f"{told[0]['time']:.6f}").wait_for()
-    expect(page.locator("#stage[aria-busy=true]")).to_have_count(0)
+    settled(page)
     marked = picture(page)
     page.locator("#on").click()
     page.locator("#back").click()
-    page.wait_for_timeout(300)
+    settled(page)
     assert alike(marked, picture(page))
     page.locator("#things li").nth(1).get_by_role("button").last.click()
     page.locator(".failures li", has_text="touches well").wait_for(state="detached")
@@ -164,6 +166,7 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page: An
     verdict(page, "Can be danced")
     page.locator("#zoom-out").click()
     page.locator("#edit").click()
+    settled(page)
     canvas = page.locator("#canvas").bounding_box()
     left, top, right, low = (canvas["x"] + 120, canvas["y"] + 60, canvas["x"] + canvas["width"] - 30, canvas["y"] + 480)
 
@@ -188,6 +191,7 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page: An
     assert len(kept[0]["geometry"]["coordinates"][0]) == 5
     page.locator("#things li").nth(1).get_by_role("button").first.click()
     page.locator(".knot").focus()
+    settled(page)
     canvas = page.locator("#canvas").bounding_box()
     path = page.locator("#canvas")
     assert path.is_visible()
@@ -207,7 +211,7 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page: An
 def test_an_address_of_before_opens_the_same_dance(open_page: Any, query: str, text: str) -> None:
     page = open_page(query)
     page.locator("#first-contact .value", has_text=text).wait_for()
-    page.wait_for_timeout(1000 * IN_MOTION)
+    settled(page, "address")
     for part in query.strip("?").split("&"):
         assert part in page.url
     assert not page.locator("#route").is_visible()
@@ -216,7 +220,7 @@ def test_an_address_of_before_opens_the_same_dance(open_page: Any, query: str, t
 def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(open_page: Any, tmp_path: Path) -> None:
     page = open_page(VILLAGE)
     verdict(page, "Cannot be danced")
-    page.wait_for_timeout(1000 * IN_MOTION)
+    settled(page, "address")
     body, address = saved(page), page.url
     page.goto(address)
     verdict(page, "Cannot be danced")
@@ -253,6 +257,7 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page: An
     assert body["margin"] == 0.5
     assert body["path"]["start"] == 45.0
     assert [one["properties"]["name"] for one in body["venue"]["features"]][:3] == ["square", "well", "stage"]
+    reached(page.locator("#keep"))
     with page.expect_download() as download:
         page.locator("[data-keep=keepMap][data-form=GeoJSON]").click()
     drawn = json.loads(Path(download.value.path()).read_text())
@@ -274,6 +279,7 @@ def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(open_page: Any, 
     page.locator("#rows tr.chosen", has_text="2 · body 2").wait_for()
     page.locator("#table-time", has_text="60").wait_for()
     assert re.search(r"'\S+/check'.*\"kind\":\"waypoints\"", page.locator("#curl").inner_text())
+    reached(page.locator("#keep"))
     with page.expect_download() as download:
         page.locator("[data-keep=keepTrajectory][data-form=CSV]").click()
     assert Path(download.value.path()).read_text().startswith("time,handle,x,y,speed")
@@ -299,6 +305,6 @@ def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(open_page: Any)
     assert after[2][1] > before[2][1]
     page.locator("#verdict", has_text="可以表演").wait_for()
     assert after[:2] + after[3:] == before[:2] + before[3:]
-    expect(page.locator("[aria-busy=true]")).to_have_count(0)
+    settled(page)
     assert serious(page) == []
     assert "undefined" not in page.locator("body").inner_text()

@@ -13,6 +13,8 @@ from typing import Any
 import httpx
 import pytest
 
+from tests.page.pending import settled
+
 ROOT = Path(__file__).parents[2]
 OWN_MAX, ALL_MAX = 150_000, 1_600_000  # [bytes] over the wire
 FIRST_MAX = 2_000  # [ms] from the request for the page to first contact shown
@@ -47,11 +49,11 @@ def stopped(process: subprocess.Popen[bytes]) -> None:
 
 
 def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
-    open_page: Any, settled: Any, picture: Any, alike: Any, port: int
+    open_page: Any, picture: Any, alike: Any, port: int
 ) -> None:
     process = started(port)
     try:
-        page = open_page(base=f"http://127.0.0.1:{port}", failing=True)
+        page = open_page("?benches=20", base=f"http://127.0.0.1:{port}", failing=True)
         settled(page)
         answer = page.locator("#first-contact .value").inner_text()
         before = picture(page)
@@ -62,7 +64,7 @@ def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
         assert alike(picture(page), before)
         process = started(port)
         page.locator("#lost").wait_for(state="hidden")
-        wanted = httpx.get(f"http://127.0.0.1:{port}/collision-time?pitch=0.5").json()["time"]
+        wanted = httpx.get(f"http://127.0.0.1:{port}/collision-time?pitch=0.5&benches=20").json()["time"]
         page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
         settled(page)
     finally:
@@ -196,8 +198,7 @@ def test_a_wait_of_more_than_half_a_second_shows_its_progress(visit: Any) -> Non
     box = page.locator("#minimum-pitch[aria-busy=true]")
     box.wait_for()
     assert box.evaluate("box => getComputedStyle(box, '::after').animationDelay") == "0.5s, 0.5s"
-    while box.evaluate("box => Number(getComputedStyle(box, '::after').opacity)") == 0:
-        page.wait_for_timeout(50)
+    page.wait_for_function("box => getComputedStyle(box, '::after').opacity > 0", arg=box.element_handle())
 
 
 def opacity(page: Any, place: str) -> float:
@@ -207,7 +208,7 @@ def opacity(page: Any, place: str) -> float:
 OLD = ("#first-contact .value", "#run-end .value", "#canvas", "#clearance .plot", "#rows")
 
 
-def test_old_answers_turn_pale_while_new_ones_are_computed(visit: Any, settled: Any, server: str) -> None:
+def test_old_answers_turn_pale_while_new_ones_are_computed(visit: Any, server: str) -> None:
     page = visit()
     assert {place: opacity(page, place) for place in OLD} == dict.fromkeys(OLD, 1.0)
     page.route("**/collision-time*", lambda route: None)
@@ -256,7 +257,7 @@ def test_the_policy_lets_the_page_load_from_its_service_alone(visit: Any, server
     assert page.evaluate("document.querySelectorAll('script:not([src]), style, [style*=url], [onclick]').length") == 0
 
 
-def loaded(browser: Any, settled: Any, server: str) -> tuple[dict[str, int], float]:
+def loaded(browser: Any, server: str) -> tuple[dict[str, int], float]:
     """What goes to a browser that has nothing yet, as it counts it [bytes]; time of first contact [ms]."""
     context = browser.new_context(viewport={"width": 1440, "height": 900}, locale="en-GB")
     page = context.new_page()
@@ -274,9 +275,9 @@ def loaded(browser: Any, settled: Any, server: str) -> tuple[dict[str, int], flo
     return {f"{urls[one]} {one}": weight for one, weight in weights.items()}, shown
 
 
-def test_the_page_is_light_and_quick(browser: Any, settled: Any, server: str) -> None:
+def test_the_page_is_light_and_quick(browser: Any, server: str) -> None:
     for _ in range(LOADS):
-        weights, shown = loaded(browser, settled, server)
+        weights, shown = loaded(browser, server)
         files = [one for one in weights if ("/page/" in one and "uplot" not in one) or "?time=end" in one]
         assert len(files) > 1
         assert sum(weights[one] for one in files) < OWN_MAX

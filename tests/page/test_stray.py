@@ -11,6 +11,7 @@ import numpy as np
 from playwright.sync_api import expect
 
 from tests.page import polite
+from tests.page.pending import settled
 
 SURE = ("Contact at", "Nothing touches", "touch at", "meet at", "时碰撞", "无碰撞")
 CHORD, OVERHANG, WIDTH, STRAY = 1.65, 0.275, 0.3, 0.05
@@ -107,9 +108,7 @@ def test_the_curve_shows_the_tolerance_of_the_dance_and_a_click_sets_its_pitch(
     assert page.locator("#curve .now").bounding_box()["x"] > before + 100
 
 
-def test_the_ground_of_the_benches_is_drawn_only_with_a_stray(
-    visit: Any, settled: Any, picture: Any, alike: Any
-) -> None:
+def test_the_ground_of_the_benches_is_drawn_only_with_a_stray(visit: Any, picture: Any, alike: Any) -> None:
     page = visit("?benches=20&time=0&view=8,0,200")
     expect(page.locator("#halo")).to_be_hidden()
     before = picture(page)

@@ -12,6 +12,7 @@ from playwright.sync_api import expect
 from tests.app.jobs.service import SHORT, Service, wait_for
 from tests.page import polite
 from tests.page.axe import serious
+from tests.page.pending import reached
 
 PHONE = {"width": 390, "height": 844}
 WIDE = {"width": 1440, "height": 900}
@@ -120,7 +121,7 @@ def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page
 
 
 def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service) -> None:
-    page = open_page(base=base(service), failing=True)
+    page = open_page("?benches=12", base=base(service), failing=True)
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("width", 0.2, 0.3, 11))
     expect(page.locator("#sweep-error")).to_have_text(
         "A sweep may have at most 100 designs here, and this one has 121."
@@ -130,10 +131,10 @@ def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service
 
 
 def test_who_has_the_token_sees_all_jobs(open_page: Any, tmp_path_factory: pytest.TempPathFactory) -> None:
-    with Service(tmp_path_factory.mktemp("token"), token=TOKEN) as guarded:
+    with Service(tmp_path_factory.mktemp("token"), token=TOKEN, sweep_processes=1) as guarded:
         guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
         address = guarded.post(SHORT)
-        page = open_page(base=base(guarded), failing=True)
+        page = open_page("?benches=12", base=base(guarded), failing=True)
         ask(page, "collision_time", ("pitch", 0.5, 0.6, 3))
         expect(page.locator("#sweep-error")).to_contain_text("Jobs and uploads need the token of this service")
         expect(page.locator("#no-jobs")).to_be_visible()
@@ -172,6 +173,7 @@ def test_everyone_can_use_it(open_page: Any, service: Service) -> None:
 def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service) -> None:
     page = open_page("?path=route&benches=3&route=-5,0_6,0", base=base(service))
     page.locator("#judgement .value", has_text="Can be danced").wait_for()
+    reached(page.locator("#keep"))
     page.get_by_role("button", name="Film of the dance, GIF").click()
     row = page.locator("#jobs li[data-state=successful]", has_text="Film of the dance")
     with page.expect_download() as download:

@@ -1,0 +1,35 @@
+"""Until a page of the product is at rest: it names in one attribute what it has begun and will end by itself."""
+
+from __future__ import annotations
+
+from typing import Any
+
+# Nothing of these kinds is pending for some frames: what comes into sight is asked for a frame later.
+QUIET = """async (kinds) => {
+  const root = document.documentElement;
+  const isQuiet = () => root.dataset.pending?.split(" ").some((one) => one && (kinds?.includes(one) ?? true)) === false;
+  const changed = () => new Promise((resolve) => new MutationObserver((_, observer) => {
+    observer.disconnect();
+    resolve();
+  }).observe(root, { attributes: true }));
+  for (let frames = 0; frames < 4; frames++) {
+    while (!isQuiet()) {
+      await changed();
+      frames = 0;
+    }
+    await new Promise(requestAnimationFrame);
+  }
+  return true;
+}"""
+
+
+def settled(page: Any, *kinds: str) -> None:
+    """Return when nothing, or nothing of these kinds, is pending: names of the page's channels and pauses."""
+    page.wait_for_function(QUIET, arg=list(kinds) or None)
+
+
+def reached(place: Any) -> Any:
+    """This place, as a person scrolls to it: the charts on the way are drawn, and nothing moves any more."""
+    place.scroll_into_view_if_needed()
+    settled(place.page)
+    return place
