@@ -112,7 +112,8 @@ export class Questions {
   #refreshDrawn() {
     const asked = this.drawn();
     const { drawing } = asked;
-    if (!drawing.path && drawing.points.length < 2) return;
+    // Where nothing is drawn nothing stays in sight: what comes next is asked anew, also what was there before.
+    if (!drawing.path && drawing.points.length < 2) return this.#asked.clear();
     const { dragon, path } = this.body({}, asked);
     if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);
     if (!this.#isNew("contact", this.checkBody(asked))) return;

@@ -27,16 +27,19 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-WIDE = {"width": 1440, "height": 900}
+WIDE: Any = {"width": 1440, "height": 900}
 HOME = "?time=end"
 TIMEOUT = 30_000  # [ms]; no test waits this long for what is coming
 
 # Chromium smooths the same edge now this way, now that: so many pixels of two equal pictures may differ [1].
 PIXELS_UNLIKE = 1e-3
 
-# From one address of the page to another as by the browser's back button.
+# From one address of the page to another as by the browser's back button; nothing moves or is drawn any more.
 GO = """(query) => {
-  for (const one of document.querySelectorAll("details[open]")) one.open = false;
+  if (document.querySelector("#play").textContent.startsWith("❚❚")) document.querySelector("#play").click();
+  if (document.querySelector("#edit[aria-pressed=true]"))
+    for (const button of ["[data-tool=path]", "#edit"]) document.querySelector(button).click();
+  for (const one of document.querySelectorAll("details")) one.open = one.id === "things";
   document.activeElement.blur();
   scrollTo(0, 0);
   return new Promise((resolve) => {
@@ -155,6 +158,8 @@ def visit(watched: Callable[..., Watched], kept: dict[str, Watched], server: str
         one, page = kept[key], kept[key].page
         one.failing |= failing
         pages.add(key)
+        if page.viewport_size != options.get("viewport", WIDE):
+            page.set_viewport_size(options.get("viewport", WIDE))
         go(page, query)
         return page
 

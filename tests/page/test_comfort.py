@@ -160,12 +160,13 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     asked = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
     shortest = polite.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
     shows(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
-    settled(page)
-    page.get_by_role("button", name="Begin the turn there").click()
-    assert float(page.locator("#entry_radius").input_value()) == shortest["entry_bracket"][1]
+    # Boxes that are drawn anew under the mouse take no click; and another entry has another speed.
     settled(page)
     page.get_by_role("button", name="Dance at this speed").click()
     assert float(page.locator("#head_speed").input_value()) == pytest.approx(fastest["head_speed"], abs=1e-6)
+    settled(page)
+    page.get_by_role("button", name="Begin the turn there").click()
+    assert float(page.locator("#entry_radius").input_value()) == shortest["entry_bracket"][1]
     shows(page, "#first-contact .value", "Nothing touches")
     settled(page)
     page.get_by_role("button", name="Dance the spiral of this pitch").click()
@@ -243,7 +244,7 @@ def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open
 
 
 def test_everything_can_be_kept_from_the_page(open_page: Any, server: str) -> None:
-    page = open_page("?benches=9&pitch=0.5&start_turns=8")
+    page = open_page("?benches=9&pitch=0.5&start_turns=10")
     reached(page.locator("#keep"))
     kept = {}
     for name in (

@@ -295,11 +295,10 @@ def test_rows_stay_in_motion_so_that_none_is_replaced_under_the_mouse(visit: Any
     assert row.evaluate("row => row.isConnected")
     row.evaluate("row => row.cells[1].click()")
     text_of(page, "#rows tr.chosen", "5 · body 5")
-    page.locator("#play").click()
 
 
-def test_two_thousand_benches_are_drawn_and_listed(visit: Any, server: str) -> None:
-    page = visit("?benches=2000&time=0")
+def test_two_thousand_benches_are_drawn_and_listed(open_page: Any, server: str) -> None:
+    page = open_page("?benches=2000&time=0")
     text_of(page, "#table-time", "0.000000")
     page.locator("#rows").press("ArrowUp")
     page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")

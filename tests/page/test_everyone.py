@@ -29,9 +29,8 @@ def test_chinese_is_the_first_language_of_a_chinese_browser_with_the_terms_of_th
     assert page.locator("html").get_attribute("lang") == "zh-Hans"
 
 
-def test_the_language_is_switched_on_the_page_and_stays_in_the_address(open_page: Any) -> None:
-    page = open_page()
-    settled(page)
+def test_the_language_is_switched_on_the_page_and_stays_in_the_address(visit: Any) -> None:
+    page = visit()
     page.get_by_role("button", name="中文").click()
     page.locator("h1", has_text="板凳龙").wait_for()
     page.locator("#minimum-pitch", has_text="最小螺距").wait_for()
@@ -85,8 +84,8 @@ def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:
     page.locator("#scan .reading", has_text="0.5 m").wait_for()
 
 
-def test_nothing_is_cut_off_at_390_pixels(open_page: Any) -> None:
-    page = open_page("?stray=0.02", viewport=PHONE, locale="zh-CN", has_touch=True, is_mobile=True)
+def test_nothing_is_cut_off_at_390_pixels(visit: Any) -> None:
+    page = visit("?stray=0.02", viewport=PHONE, locale="zh-CN", has_touch=True, is_mobile=True)
     settled(page)
     outside = """(width) => [...document.querySelectorAll("button, input, select, h1, h2, h3, .value")]
       .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1)

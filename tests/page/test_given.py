@@ -87,8 +87,8 @@ def test_the_page_reads_the_sizes_of_a_table_as_the_service_does(visit: Any, tab
     assert read == found
 
 
-def test_passages_and_the_time_of_day_change_every_time_and_are_shared(open_page: Any, server: str) -> None:
-    page = open_page("?benches=30&time=50", failing=True)
+def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: Any, server: str) -> None:
+    page = visit("?benches=30&time=50", failing=True)
     page.locator("#passages summary").click()
     for k, (until, unit, speed) in enumerate([("20", "m", "0.5"), ("100", "s", "0"), ("60", "m", "1.5")]):
         page.locator("#passageAdd").click()
@@ -124,8 +124,8 @@ def test_a_pause_lies_at_the_instant_shown(visit: Any) -> None:
     page.wait_for_url("**passages=1@50s_0@60s_1@80s*")
 
 
-def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open_page: Any, server: str) -> None:
-    page = open_page(f"{S_CURVE}&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
+def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit: Any, server: str) -> None:
+    page = visit(f"{S_CURVE}&limit=0.9&passages=0.5@20m_0@100s&start_clock=19:30")
     body = {
         "path": {"kind": "waypoints", "straight": [0, 5]},
         "head_speed": 1,
@@ -146,8 +146,8 @@ def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(open
     assert max(map(float, sides[0])) == pytest.approx(A3_WIDE, abs=1)
 
 
-def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(open_page: Any) -> None:
-    page = open_page("?path=route", viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
+def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(visit: Any) -> None:
+    page = visit("?path=route", viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
     page.locator("#invite h3").wait_for()
     settled(page)
     expect(page.locator("[aria-busy=true]:visible")).to_have_count(0)

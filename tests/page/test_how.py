@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -25,21 +26,25 @@ def dial(page: Any, section: str, name: str) -> Any:
     return page.locator(f"#{section}").get_by_role("slider", name=name)
 
 
-@pytest.fixture
-def opened(open_page: Any) -> Any:
-    """opened(query, **options): the page, once all its figures are drawn to the end."""
-
-    def drawn(query: str = "how?lang=en", **options: Any) -> Any:
-        page = open_page(query, **options)
-        settled(page)
-        expect(page.locator("#staircase .jump").first).to_be_attached()
-        return page
-
-    return drawn
+def drawn(page: Any) -> Any:
+    """The page, once all its figures are drawn to the end."""
+    settled(page)
+    expect(page.locator("#staircase .jump").first).to_be_attached()
+    return page
 
 
-def test_dragged_numbers_get_the_answers_of_the_service(opened: Any, server: str) -> None:
-    page = opened()
+@pytest.fixture(scope="module")
+def kept(watched: Any, server: str) -> Iterator[Any]:
+    """A page, and what it complains of, for tests of which none minds the numbers that another one has set."""
+    one = watched("how?lang=en", server, "")
+    drawn(one.page)
+    yield one
+    one.page.close()
+    one.check()
+
+
+def test_dragged_numbers_get_the_answers_of_the_service(kept: Any, server: str) -> None:
+    page = kept.page
     length = dial(page, "chord", "Chord of the head bench")
     length.scroll_into_view_if_needed()
     box = length.bounding_box()
@@ -66,10 +71,12 @@ def test_dragged_numbers_get_the_answers_of_the_service(opened: Any, server: str
     page.mouse.up()
     assert float(length.get_attribute("aria-valuenow")) > 2.01
     expect(page.locator("#chord .verdict")).not_to_contain_text(place)
+    settled(page)
+    kept.check()
 
 
-def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(opened: Any, server: str) -> None:
-    page = opened(failing=True)
+def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(kept: Any, server: str) -> None:
+    page, kept.failing = kept.page, True
     dial(page, "staircase", "Pitch of the spiral").press("ArrowUp")
     contact = said(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
     head, bench = contact["benches"]
@@ -102,8 +109,8 @@ def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(opened: Any, 
     expect(page.locator("#chord .note")).to_contain_text("2.34509 turns")
 
 
-def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(opened: Any) -> None:
-    page = opened("how", locale="zh-CN", color_scheme="dark", **PHONE)
+def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(open_page: Any) -> None:
+    page = drawn(open_page("how", locale="zh-CN", color_scheme="dark", **PHONE))
     expect(page.locator("h1")).to_have_text("原理")
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["viewport"]["width"]
     expect(page.locator("#step .verdict")).to_contain_text("服务一步就证明了它")
@@ -117,8 +124,8 @@ def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(opened: Any) -> Non
     assert serious(page) == []
 
 
-def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(opened: Any) -> None:
-    page = opened(failing=True)
+def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(kept: Any) -> None:
+    page, kept.failing = kept.page, True
     page.route("**/*", lambda route: route.abort())
     dial(page, "chord", "Chord of the head bench").press("ArrowUp")
     expect(page.locator("#chord .note")).to_contain_text("the figure is older than your numbers")

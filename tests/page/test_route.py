@@ -74,8 +74,8 @@ def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_ba
     page.locator("#first-contact .value", has_text="Contact at").wait_for()
 
 
-def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page: Any) -> None:
-    page = open_page(S_CURVE)
+def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> None:
+    page = visit(S_CURVE)
     verdict(page, "Can be danced")
     page.locator("#edit").click()
     before = points(page)
@@ -111,9 +111,9 @@ def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(open_page: Any)
 
 
 def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
-    open_page: Any, picture: Any, alike: Any, server: str
+    visit: Any, picture: Any, alike: Any, server: str
 ) -> None:
-    page = open_page(VILLAGE)
+    page = visit(VILLAGE)
     verdict(page, "Cannot be danced")
     page.locator("#run-end[aria-busy=false]").wait_for()
     body = saved(page)
@@ -161,8 +161,8 @@ def saved(page: Any) -> Any:
     return json.loads(Path(download.value.path()).read_text())
 
 
-def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page: Any) -> None:
-    page = open_page(S_CURVE)
+def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit: Any) -> None:
+    page = visit(S_CURVE)
     verdict(page, "Can be danced")
     page.locator("#zoom-out").click()
     page.locator("#edit").click()
@@ -201,6 +201,21 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(open_page: An
 
 
 @pytest.mark.parametrize(
+    ("query", "place"), [(S_CURVE, "#judgement"), ("?benches=20&time=end", "#first-contact")], ids=["drawn", "spiral"]
+)
+def test_a_dance_is_back_after_a_look_at_an_empty_square(
+    visit: Any, picture: Any, alike: Any, query: str, place: str
+) -> None:
+    page = visit(query)
+    shown, words = picture(page), page.locator(place).inner_text()
+    visit("?path=route")
+    assert not alike(picture(page), shown)
+    visit(query)
+    assert page.locator(place).inner_text() == words
+    assert alike(picture(page), shown)
+
+
+@pytest.mark.parametrize(
     ("query", "text"),
     [
         ("?pitch=0.5&benches=100&margin=0.02&time=100", "Nearer than 0.02 m at"),
@@ -217,8 +232,8 @@ def test_an_address_of_before_opens_the_same_dance(open_page: Any, query: str, t
     assert not page.locator("#route").is_visible()
 
 
-def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(open_page: Any, tmp_path: Path) -> None:
-    page = open_page(VILLAGE)
+def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(visit: Any, tmp_path: Path) -> None:
+    page = visit(VILLAGE)
     verdict(page, "Cannot be danced")
     settled(page, "address")
     body, address = saved(page), page.url
@@ -238,8 +253,8 @@ def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(open_pag
     page.locator("#points summary", has_text="900").wait_for()
 
 
-def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page: Any, tmp_path: Path) -> None:
-    page = open_page(S_CURVE)
+def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit: Any, tmp_path: Path) -> None:
+    page = visit(S_CURVE)
     verdict(page, "Can be danced")
     drop = """([name, text]) => {
       const data = new DataTransfer();
@@ -273,8 +288,8 @@ def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(open_page: An
     assert ">119.64" in Path(download.value.path()).read_text()
 
 
-def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(open_page: Any, server: str) -> None:
-    page = open_page(S_CURVE + "&time=60&handle=2&rate=1")
+def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(visit: Any, server: str) -> None:
+    page = visit(S_CURVE + "&time=60&handle=2&rate=1")
     verdict(page, "Can be danced")
     page.locator("#rows tr.chosen", has_text="2 · body 2").wait_for()
     page.locator("#table-time", has_text="60").wait_for()
@@ -288,8 +303,8 @@ def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(open_page: Any, 
     page.locator("#play").click()
 
 
-def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(open_page: Any) -> None:
-    page = open_page(S_CURVE, viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
+def test_a_finger_drags_points_on_a_phone_and_nothing_is_cut_off(visit: Any) -> None:
+    page = visit(S_CURVE, viewport=PHONE, has_touch=True, is_mobile=True, locale="zh-CN")
     verdict(page, "可以表演")
     page.locator("#edit").tap()
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]

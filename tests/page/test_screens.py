@@ -50,9 +50,8 @@ def answered(page: Any, query: str) -> None:
 
 
 @pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
-def test_on_a_phone_a_finger_hits_every_control(open_page: Any, visit: Any, query: str) -> None:
-    # Who draws leaves the page drawing.
-    page = (open_page if query == VILLAGE else visit)(query, **PHONE)
+def test_on_a_phone_a_finger_hits_every_control(visit: Any, query: str) -> None:
+    page = visit(query, **PHONE)
     answered(page, query)
     page.evaluate("document.querySelectorAll('details').forEach((one) => (one.open = true))")
     if query != DANCES["nothing drawn"]:
@@ -70,8 +69,8 @@ def test_on_a_phone_a_finger_hits_every_control(open_page: Any, visit: Any, quer
 
 
 @pytest.mark.parametrize("query", DANCES.values(), ids=list(DANCES))
-def test_nothing_scrolls_inside(open_page: Any, query: str) -> None:
-    page = open_page(query)
+def test_nothing_scrolls_inside(visit: Any, query: str) -> None:
+    page = visit(query)
     answered(page, query)
     page.evaluate("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
     for width, height in ((1440, 900), (1920, 1080)):
@@ -84,9 +83,8 @@ def test_nothing_scrolls_inside(open_page: Any, query: str) -> None:
         assert canvas["y"] + canvas["height"] <= height
 
 
-def test_the_words_of_a_failure_stand_below_a_time_of_day_that_takes_their_room(open_page: Any) -> None:
-    page = open_page(VILLAGE)
-    settled(page)
+def test_the_words_of_a_failure_stand_below_a_time_of_day_that_takes_their_room(visit: Any) -> None:
+    page = visit(VILLAGE)
     row = page.locator(".failures li").nth(1)
     words, button = row.locator("span").bounding_box(), row.locator("button").bounding_box()
     assert words["width"] > 150
