@@ -9,7 +9,7 @@ import httpx
 
 BUSY = 503
 # Longest that the service may be busy [s].
-PATIENCE = 30.0
+PATIENCE = 60.0
 
 
 def get(url: str, **how: Any) -> httpx.Response:

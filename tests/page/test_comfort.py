@@ -7,7 +7,6 @@ import re
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
@@ -83,7 +82,7 @@ def test_a_bare_address_opens_in_motion_and_the_wheel_scrolls_until_the_picture_
     page = open_page("")
     shows(page, "#play", "Pause")
     expect(page.locator("#clock")).to_have_text(re.compile(r"^[1-9]"))
-    time = httpx.get(f"{server}/collision-time").json()["time"]
+    time = polite.get(f"{server}/collision-time").json()["time"]
     expect(page.locator("#contact-mark")).to_have_attribute("title", f"First contact, at {time:.6f} s")
     page.locator("#play").click()
     slider, mark = box(page, "#time"), box(page, "#contact-mark")
@@ -208,7 +207,7 @@ def test_in_chinese_proofs_and_refusals_are_chinese(visit: Any, server: str) -> 
         assert "证明" in proof
         assert not ENGLISH.search(proof)
     methods = [
-        httpx.get(f"{server}/collision-time", params=query).json()["certificate"]["method"]
+        polite.get(f"{server}/collision-time", params=query).json()["certificate"]["method"]
         for query in ({}, {"pitch": 0.3}, {"pitch": 2, "start_turns": 8, "benches": 9}, {"benches": 2})
     ]
     turn = {"path": {"kind": "turn", "pitch": 1.7}, "start": -10, "stop": 10, "dragon": {"benches": 5}}

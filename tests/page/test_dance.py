@@ -9,7 +9,6 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
@@ -54,7 +53,7 @@ TRACK = """async ([times, step]) => {
 
 
 def collision_time(server: str, **query: Any) -> Any:
-    return httpx.get(f"{server}/collision-time", params=query).raise_for_status().json()
+    return polite.get(f"{server}/collision-time", params=query).raise_for_status().json()
 
 
 def text_of(page: Any, selector: str, wanted: str) -> None:
@@ -184,7 +183,7 @@ def test_the_dance_plays_to_the_contact_and_stops_there(visit: Any, server: str)
 def test_motion_between_samples_is_true_to_a_millimetre(visit: Any, server: str) -> None:
     times = [0.1, 57.33, 299.9, 411.77]
     drawn = visit().evaluate(TRACK, [times, 0.5])
-    table = httpx.post(f"{server}/trajectory", json={"times": times}).json()
+    table = polite.post(f"{server}/trajectory", json={"times": times}).json()
     for k, rows in enumerate(drawn):
         for row, axis in zip(rows, "xy", strict=True):
             assert row == pytest.approx(table[axis][k], abs=SMOOTH_TOLERANCE)
@@ -267,7 +266,7 @@ def test_benches_that_overlap_are_said_to_overlap_by_what_the_service_answers(
 def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(visit: Any, server: str) -> None:
     page = visit("?benches=2", failing=True)
     text_of(page, "#first-contact p", "No pair of benches touches before.")
-    words = httpx.get(f"{server}/clearance?benches=2").json()["detail"]
+    words = polite.get(f"{server}/clearance?benches=2").json()["detail"]
     words = words.replace("benches must", "“Benches” must", 1).replace(", got 2", "; it is 2.")
     text_of(page, "#clearance .reading", words)
 
@@ -302,7 +301,7 @@ def test_two_thousand_benches_are_drawn_and_listed(open_page: Any, server: str) 
     text_of(page, "#table-time", "0.000000")
     page.locator("#rows").press("ArrowUp")
     page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
-    last = httpx.post(f"{server}/trajectory", json={"dragon": {"benches": 2000}, "times": [0]}).json()["x"][0][-1]
+    last = polite.post(f"{server}/trajectory", json={"dragon": {"benches": 2000}, "times": [0]}).json()["x"][0][-1]
     text_of(page, "#rows tr[data-handle='2000']", f"{last:.6f}")
 
 
@@ -343,8 +342,8 @@ def test_the_commands_give_what_the_page_shows(visit: Any, server: str) -> None:
     page = visit("?pitch=0.5")
     text_of(page, "#curl", "pitch=0.5")
     get, post = (shlex.split(line) for line in page.locator("#curl").inner_text().splitlines())
-    assert httpx.get(get[1]).json() == collision_time(server, pitch=0.5)
-    table = httpx.post(post[1], content=post[-1], headers=dict([post[3].split(": ")])).raise_for_status().json()
+    assert polite.get(get[1]).json() == collision_time(server, pitch=0.5)
+    table = polite.post(post[1], content=post[-1], headers=dict([post[3].split(": ")])).raise_for_status().json()
     assert len(table["x"][0]) == 224
 
 

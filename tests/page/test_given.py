@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
@@ -32,7 +31,7 @@ def put(page: Any, table: str) -> None:
 
 def contact_of(server: str, **asked: Any) -> str:
     """When the service finds first contact, as the page writes it."""
-    found = httpx.post(f"{server}/collision-time", json={"path": SPIRAL, **asked}).raise_for_status().json()
+    found = polite.post(f"{server}/collision-time", json={"path": SPIRAL, **asked}).raise_for_status().json()
     return f"{found['time'] if found['time'] is not None else found['end']['time']:.6f} s"
 
 

@@ -34,7 +34,7 @@ def drawn(page: Any) -> Any:
 
 
 @pytest.fixture(scope="module")
-def kept(watched: Any, server: str) -> Iterator[Any]:
+def figures(watched: Any, server: str) -> Iterator[Any]:
     """A page, and what it complains of, for tests of which none minds the numbers that another one has set."""
     one = watched("how?lang=en", server, "")
     drawn(one.page)
@@ -43,8 +43,8 @@ def kept(watched: Any, server: str) -> Iterator[Any]:
     one.check()
 
 
-def test_dragged_numbers_get_the_answers_of_the_service(kept: Any, server: str) -> None:
-    page = kept.page
+def test_dragged_numbers_get_the_answers_of_the_service(figures: Any, server: str) -> None:
+    page = figures.page
     length = dial(page, "chord", "Chord of the head bench")
     length.scroll_into_view_if_needed()
     box = length.bounding_box()
@@ -72,11 +72,11 @@ def test_dragged_numbers_get_the_answers_of_the_service(kept: Any, server: str) 
     assert float(length.get_attribute("aria-valuenow")) > 2.01
     expect(page.locator("#chord .verdict")).not_to_contain_text(place)
     settled(page)
-    kept.check()
+    figures.check()
 
 
-def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(kept: Any, server: str) -> None:
-    page, kept.failing = kept.page, True
+def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(open_page: Any, server: str) -> None:
+    page = drawn(open_page("how?lang=en", failing=True))
     dial(page, "staircase", "Pitch of the spiral").press("ArrowUp")
     contact = said(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
     head, bench = contact["benches"]
@@ -124,8 +124,8 @@ def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(open_page: Any) -> 
     assert serious(page) == []
 
 
-def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(kept: Any) -> None:
-    page, kept.failing = kept.page, True
+def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(figures: Any) -> None:
+    page, figures.failing = figures.page, True
     page.route("**/*", lambda route: route.abort())
     dial(page, "chord", "Chord of the head bench").press("ArrowUp")
     expect(page.locator("#chord .note")).to_contain_text("the figure is older than your numbers")

@@ -91,14 +91,12 @@ def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> 
     assert "Point 3 of 8" in page.evaluate("document.activeElement.getAttribute('aria-label')")
     page.keyboard.press("Delete")
     assert len(points(page)) == 7
-    settled(page)
     # A tap on the path divides it, and one beside it goes on from its end; the list has fields for both.
     first, second = (page.locator(".knot").nth(k).bounding_box() for k in (0, 1))
     page.mouse.click((first["x"] + second["x"]) / 2 + 11, (first["y"] + second["y"]) / 2 + 11)
     page.locator(".knot").nth(7).wait_for()
     drawn = points(page)
     assert drawn[0][0] < drawn[1][0] < drawn[2][0]
-    settled(page)
     last = page.locator(".knot").last.bounding_box()
     page.mouse.click(last["x"] + 11, last["y"] - 60)
     page.locator(".knot").nth(8).wait_for()

@@ -6,7 +6,6 @@ import math
 import shlex
 from typing import Any
 
-import httpx
 import numpy as np
 from playwright.sync_api import expect
 
@@ -67,7 +66,7 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
     shows(page, "#tolerance", f"每人随时都可离位 {safe}", "已证明的步")
     assert not [word for word in SURE if word in page.locator("#first-contact").inner_text()]
     get = shlex.split(page.locator("#curl").inner_text().splitlines()[0])
-    assert httpx.get(get[1]).json() == contact
+    assert polite.get(get[1]).json() == contact
 
 
 def test_a_margin_and_a_stray_are_said_together_and_play_counts(visit: Any, server: str) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import expect
 
@@ -68,7 +67,7 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
     page.locator("#jobs li[data-state=successful]").wait_for()
     page.locator("#map canvas").hover(position=middle(page))
     query = {"pitch": 0.55, "width": 0.25, "benches": 40, "margin": 0.05, "cross_check": "none"}
-    answer = httpx.get(f"{base(service)}/collision-time", params=query).json()
+    answer = polite.get(f"{base(service)}/collision-time", params=query).json()
     reading = page.locator("#map .reading")
     expect(reading).to_have_text(f"Pitch [m] 0.55, Width [m] 0.25: first contact [s] {answer['time']:.6g}")
     assert len(drawn(page)) > 10
