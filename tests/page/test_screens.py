@@ -44,7 +44,7 @@ def answered(page: Any, query: str) -> None:
     if query == DANCES["nothing drawn"]:
         page.locator("#invite").wait_for()
         return
-    page.locator("#judgement .value, #first-contact .value").first.wait_for()
+    page.locator("#judgement .value:visible, #first-contact .value:visible").first.wait_for()
     if query == VILLAGE:
         page.locator("#edit").click()
 
