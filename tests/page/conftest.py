@@ -15,6 +15,7 @@ import pytest
 from matplotlib.image import imread
 from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize, expect, sync_playwright
 
+from tests.app.serving import serving
 from tests.page.browser import found
 from tests.page.pending import settled
 
@@ -30,6 +31,9 @@ ARGUMENTS = [
 WIDE: Any = {"width": 1440, "height": 900}
 HOME, EASY = "?time=end", "?benches=5&time=end"
 TIMEOUT = 60_000  # [ms]; no test waits this long for what is coming, however busy the machine
+
+# Longest computation of one answer [s]: on a busy machine the ten seconds of the default are soon over.
+DEADLINE = 50.0
 
 # Chromium smooths the same edge now this way, now that: so many pixels of two equal pictures may differ [1].
 PIXELS_UNLIKE = 1e-3
@@ -64,6 +68,13 @@ def browser() -> Iterator[Browser]:
         browser = playwright.chromium.launch(executable_path=found(), args=ARGUMENTS, timeout=TIMEOUT)
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="session")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Base URL of the real service of these tests, which is patient."""
+    with serving(tmp_path_factory.mktemp("page") / "server.log", deadline_seconds=DEADLINE) as service:
+        yield service.url
 
 
 @dataclass

@@ -22,7 +22,9 @@ MARGINS = {"left": 64, "right": 16, "top": 12, "bottom": 44}
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(tmp_path_factory.mktemp("page"), sweep_processes=1, sweep_designs_max=100) as service:
+    with Service(
+        tmp_path_factory.mktemp("page"), sweep_processes=1, sweep_designs_max=100, deadline_seconds=50
+    ) as service:
         yield service
 
 
@@ -130,7 +132,7 @@ def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service
 
 
 def test_who_has_the_token_sees_all_jobs(open_page: Any, tmp_path_factory: pytest.TempPathFactory) -> None:
-    with Service(tmp_path_factory.mktemp("token"), token=TOKEN, sweep_processes=1) as guarded:
+    with Service(tmp_path_factory.mktemp("token"), token=TOKEN, sweep_processes=1, deadline_seconds=50) as guarded:
         guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
         address = guarded.post(SHORT)
         page = open_page("?benches=12", base=base(guarded), failing=True)
