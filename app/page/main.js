@@ -206,7 +206,7 @@ const SHOW = {
   speeds() {
     const { speeds, fastest } = questions.answers;
     const [low, high] = spanOf(speeds.answer.speed); // of some instants, which may miss the highest speed of all
-    const most = fastest?.dance === speeds.dance ? fastest.answer.highest_speed.speed : high;
+    const most = (fastest?.dance === speeds.dance && fastest.answer.highest_speed?.speed) || high; // none in a run to a fold
     dance.scene.speeds = [low, Math.min(Math.max(high, most), FAST * speeds.dance.numbers.top_speed)];
     if (dance.scene.pose) showPose(dance.scene.pose);
   },
