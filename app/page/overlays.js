@@ -43,7 +43,7 @@ export function markContact({ time, outcome }, begin, end) {
   const mark = $("#contact-mark");
   mark.hidden = !outcome.startsWith("contact");
   if (mark.hidden) return;
-  mark.style.setProperty("--share", end > begin ? (time - begin) / (end - begin) : 1);
+  mark.style.setProperty("--share", end > begin ? (time - begin) / (end - begin) : 0);
   mark.title = say("contactMark", { time: time.toFixed(6) });
   mark.setAttribute("aria-label", mark.title);
 }
