@@ -124,6 +124,14 @@ def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(open_page: Any) -> 
     assert serious(page) == []
 
 
+def test_a_wide_screen_has_one_column_too(figures: Any) -> None:
+    page = figures.page
+    page.set_viewport_size({"width": 1920, "height": 1080})
+    parts = page.locator(".article > :is(h1, p, section)")
+    assert parts.count() > len(SECTIONS)
+    assert len(set(parts.evaluate_all("all => all.map((one) => one.getBoundingClientRect().left)"))) == 1
+
+
 def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(figures: Any) -> None:
     page, figures.failing = figures.page, True
     page.route("**/*", lambda route: route.abort())

@@ -153,6 +153,24 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page: A
         assert page.locator("#things li").count() == 2
 
 
+def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answer(open_page: Any) -> None:
+    page = open_page(S_CURVE)
+    verdict(page, "Can be danced")
+    page.locator("#tolerance .value").wait_for()
+    page.route("**/check", lambda route: None)
+    page.locator("#edit").click()
+    page.locator(".knot").nth(2).focus()
+    page.keyboard.press("Shift+ArrowUp")
+    for box in ("#judgement", "#tolerance"):
+        pale = "box => getComputedStyle(document.querySelector(`${box} > .value`)).opacity < 0.7"
+        page.wait_for_function(pale, arg=box)
+        assert page.locator(f"{box} > .old").is_visible()
+    page.unroute("**/check")
+    page.keyboard.press("Shift+ArrowDown")
+    page.wait_for_function("getComputedStyle(document.querySelector('#judgement > .value')).opacity == 1")
+    assert page.locator("#judgement > .old").is_hidden()
+
+
 def saved(page: Any) -> Any:
     with page.expect_download() as download:
         page.locator("#save").click()

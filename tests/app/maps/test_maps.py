@@ -191,6 +191,17 @@ def test_points_alone_get_a_square_around_them_and_a_radius_that_is_said() -> No
     assert rings(found)[0].min(axis=0).tolist() == [-20.0, -20.0]
     assert [area.name for area in found.venue.obstacles] == ["obstacle 1", "obstacle 2"]
     assert any("2 things without a radius, taken as 0.5 m" in note for note in found.notes)
+    # They stay points with a radius, for a request and for whoever moves them.
+    assert found.geometry is not None
+    thing = found.geometry["features"][2]
+    assert thing["geometry"] == {"type": "Point", "coordinates": [300.0, 40.0]}
+    assert thing["properties"] == {"name": "obstacle 2", "radius": 0.5}
+
+
+def test_swapped_longitude_and_latitude_are_refused_as_such() -> None:
+    place = {"type": "Polygon", "coordinates": [[[29.1, 119.6], [29.101, 119.6], [29.101, 119.601], [29.1, 119.6]]]}
+    with pytest.raises(InvalidValue, match="longitude and latitude seem to be swapped"):
+        read(json.dumps(place).encode())
 
 
 def zipped(size: int) -> bytes:
