@@ -89,6 +89,7 @@ export class Drawn {
       this.picture.setPath(null, this.around());
       this.picture.scene.pose = null;
       this.judgement.refuse(null, null, 0);
+      this.form.offer(null);
     }
     this.draw();
   }
@@ -106,6 +107,7 @@ export class Drawn {
   refused() {
     const refusal = this.questions.refusals.get("contact") ?? this.questions.refusals.get("course");
     if (!this.#isRoute || !refusal) return;
+    this.form.offer(null);
     const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
     if (fields.length) this.judgement.wait(fields);
     else this.judgement.refuse(refusal.message, this.questions.course, Number(this.state.get("benches")));

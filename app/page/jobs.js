@@ -12,7 +12,7 @@ const LOOK = 1_000;
 /** Endings of file names, by media type. */
 const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf" };
 /** Names of the jobs that Keep starts. */
-const NAMES = { films: "keepFilm", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
+const NAMES = { films: "keepFilm", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
 const UNFINISHED = ["accepted", "running"];
 const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
 

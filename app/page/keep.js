@@ -156,9 +156,9 @@ export class Keep {
 
   /** Start a job; its result appears among the jobs. */
   async #begin({ ask }, form) {
-    const { path, body } = this[ask](form);
+    const { path, query, body } = this[ask](form);
     const headers = { Prefer: "respond-async", ...bearer() };
-    this.jobs.add(await this.service.ask(`keep ${form}`, path, { body, headers, accept: `${TYPES[form]}, application/json;q=0.1` }), { question: path, over: {} });
+    this.jobs.add(await this.service.ask(`keep ${form}`, path, { query, body, headers, accept: `${TYPES[form]}, application/json;q=0.1` }), { question: path, over: {} });
   }
 
   trajectory() {

@@ -63,11 +63,13 @@ export class RouteForm {
     this.steps.take({ ...this.#drawing, ...changes }, kind);
   }
 
-  /** Offer to begin at time 0 where a dance begins later, as the dragon does not yet fit. dance: as judged */
-  offer({ begin, numbers, said: { passages } }) {
+  /** Offer to begin at time 0 where a dance begins later, as the dragon does not yet fit. dance: as judged, or null */
+  offer(dance) {
+    this.later.hidden = !(dance?.begin > 0) || dance.said.passages.length > 0;
+    if (this.later.hidden) return;
+    const { begin, numbers } = dance;
     const [words, button] = this.later.children;
     const place = Math.ceil(10 * (this.#drawing.begin + numbers.head_speed * begin)) / 10;
-    this.later.hidden = !(begin > 0) || passages.length > 0;
     words.textContent = say("beginsLater", { time: begin.toFixed(2) });
     Object.assign(button, { textContent: say("beginThere", { place }), onclick: () => this.#take({ begin: place }) });
   }

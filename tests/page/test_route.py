@@ -171,6 +171,21 @@ def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answ
     assert page.locator("#judgement > .old").is_hidden()
 
 
+def test_a_dance_that_begins_later_can_begin_at_time_0(open_page: Any) -> None:
+    page = open_page("?path=route&benches=24&route=0,0_150,0", failing=True)
+    offer = page.get_by_role("button", name="Begin at time 0: head at 40.9 m")
+    offer.click()
+    page.wait_for_url("**begin=40.9*")
+    offer.wait_for(state="hidden")
+    verdict(page, "Can be danced")
+    page.go_back()
+    offer.wait_for()
+    # A path on which the dragon has no room is no dance that begins later.
+    page.locator("#benches").fill("200")
+    verdict(page, "Cannot be danced")
+    offer.wait_for(state="hidden")
+
+
 def saved(page: Any) -> Any:
     with page.expect_download() as download:
         page.locator("#save").click()
