@@ -11,6 +11,7 @@ import typer
 
 from app.command import show
 from app.command.options import asks, of_file, unused
+from app.command.usage import path
 from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.questions import figures as drawn
@@ -39,7 +40,7 @@ ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PI
 def figures(
     asked: FigureOptions,
     context: typer.Context,
-    folder: Annotated[Path, typer.Argument(help="Folder for the files; created if missing.")] = Path(),
+    folder: Annotated[Path, typer.Argument(parser=path, help="Folder for the files; created if missing.")] = Path(),
     file: Annotated[
         Path | None, typer.Argument(help="Dance as a .toml or .json file, as for check: any dragon, path and venue.")
     ] = None,

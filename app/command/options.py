@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,7 +15,7 @@ from pydantic import BaseModel
 from rich.markup import escape
 
 from app.files.disk import object_words, read_dance
-from app.wire.dances import DanceQuery, TimeRange
+from app.wire.dances import DanceQuery, Strays, TimeRange
 from app.wire.messages import checked
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
@@ -59,14 +60,17 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
     return found
 
 
-def of_file(file: Path, body: type[Model], context: typer.Context) -> Model:
+def of_file(file: Path, body: type[Model], context: typer.Context, instead: str = "") -> Model:
     """The request for the dance in a file, as for `check`, with the options of the question.
 
-    Fields of other questions in the file, such as a venue, are ignored.
+    Fields of other questions in the file, such as a venue, are ignored; of strays a note says so.
+    instead: which strays count in place of those in the file, for a question about strays
     raises: InvalidValue, OSError
     """
     unused(context, DanceQuery.model_fields, "cannot be combined with FILE, which describes the dance")
     told, own = read_dance(file), body.model_fields.keys()
+    if instead and (strays := [name for name in Strays.model_fields if told.get(name) and name not in own]):
+        print(f"{file}: not counted: {', '.join(strays)}: {instead}.", file=sys.stderr)
     told = {name: value for name, value in told.items() if name in own or name not in _asked_of_a_dance()}
     told |= {name: context.params[name] for name in given(context, *own)}
     if steps := _steps(body, context):
@@ -100,11 +104,12 @@ def _asked_of_a_dance() -> set[str]:
 
 
 def asks(
-    model: type[BaseModel], body: type[BaseModel] | None = None
+    model: type[BaseModel], body: type[BaseModel] | None = None, instead: str = ""
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Turn the fields of a request into options of a command, whose first argument becomes the request.
 
     body: the request made from a FILE instead, if the command takes one
+    instead: as for of_file()
     """
 
     def decorated(command: Callable[..., None]) -> Callable[..., None]:
@@ -125,7 +130,7 @@ def asks(
             file = values.pop("file", None) if body else None
             flat = {name: values.pop(name) for name in model.model_fields}
             with _in_options(body if file else None, context):
-                request = of_file(file, body, context) if body and file else checked(model, flat)
+                request = of_file(file, body, context, instead) if body and file else checked(model, flat)
                 with refusing(request):
                     command(request, **values)
 

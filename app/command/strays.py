@@ -16,7 +16,7 @@ from app.questions.tolerance_curve import ToleranceCurveQuery
 from core.errors import said
 
 
-@asks(ToleranceQuery, ToleranceRequest)
+@asks(ToleranceQuery, ToleranceRequest, "the answer is the largest stray, by people and by the play of pins together")
 def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
     """Largest proven stray without contact, and a pose that touches with a slightly larger one.
 
@@ -38,7 +38,7 @@ def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
         show.print_parts(curve_table(answer.columns))
 
 
-@asks(ContactProbabilityQuery, ContactProbabilityRequest)
+@asks(ContactProbabilityQuery, ContactProbabilityRequest, "people wobble as --lateral and --forward say")
 def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
     """Probability of a contact when people wobble, from dances drawn at random.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import difflib
 import re
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -15,6 +16,7 @@ from app.wire.messages import ALIKE_SLIP, message
 Misuse: Any = typer.BadParameter.__base__
 # The value that stands in quotes at the beginning of the parser's message.
 QUOTED = re.compile(r"""('.*'|".*"|\S+) is not """, re.DOTALL)
+EMPTY = "must be the name of a folder, got an empty name: the current folder is ."
 
 
 def told(error: Any) -> str:
@@ -22,14 +24,22 @@ def told(error: Any) -> str:
     parameter, said = getattr(error, "param", None), QUOTED.match(error.message or "")
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
-    if parameter is not None and parameter.param_type_name == "argument" and not error.message:
-        return f"{parameter.name.upper()} is missing"
+    if parameter is not None and not error.message:
+        name = parameter.name.upper() if parameter.param_type_name == "argument" else parameter.opts[0]
+        return f"{name} is missing" if hasattr(error, "param_type") else f"{name} {EMPTY}"  # refused by path()
     if parameter is not None and said:
         return _unfit(parameter, said[1])
     words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
     if command := re.match(r"No such command '([^']*)'", words):
         return unknown(command[1], error.ctx.command.list_commands(error.ctx))
     return f"{words[:1].lower()}{words[1:]}"
+
+
+def path(text: str | Path) -> Path:
+    """A place that is named; an empty name, such as that of a variable without a value, is not the current folder."""
+    if not str(text):
+        raise ValueError
+    return Path(text)
 
 
 def unknown(word: str, known: list[str]) -> str:

@@ -161,6 +161,7 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
         ("collision-time --benches 1e3", "--benches must be a whole number, got 1e3"),
         ("collision-time --cross-check all", "--cross-check must be dragon, pair or none, got all"),
         ("check", "FILE is missing"),
+        ("sweep run spec.toml", "--output is missing"),
         ("check dance.toml --margin 1.3", "--margin is unknown here: --help lists what is known"),
         ("foo", "foo is unknown here: --help lists what is known"),
         ("overlap", "overlap is unknown here: did you mean overlaps?"),
@@ -173,6 +174,16 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
 def test_wrong_values_get_one_line_on_standard_error_and_exit_code_2(line: str, message: str) -> None:
     done = run(*line.split())
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+
+
+@pytest.mark.parametrize("line", ["contest", "figures", "sweep run spec.toml --output", "sweep show"])
+def test_an_empty_name_is_not_the_current_folder(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = run(*line.split(), "")
+    name = "--output" if "--output" in line else "FOLDER"
+    words = f"Error: {name} must be the name of a folder, got an empty name: the current folder is .\n"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", words)
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("form", [[], ["--json"]], ids=["table", "json"])

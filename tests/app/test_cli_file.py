@@ -158,3 +158,30 @@ def test_a_clearance_is_a_table(file: str) -> None:
     assert done.returncode == 0
     assert "clearance [m]" in done.stdout
     assert done.stdout.count("\n") > len(("title", "names", "10", "11", "12"))
+
+
+@pytest.mark.parametrize(
+    ("command", "names", "words"),
+    [
+        (
+            "tolerance",
+            "stray, hole, pin",
+            "the answer is the largest stray, by people and by the play of pins together",
+        ),
+        ("contact-probability", "stray", "people wobble as --lateral and --forward say"),
+    ],
+)
+def test_a_stray_in_the_file_that_does_not_count_is_named(
+    tmp_path: Path, client: httpx.Client, command: str, names: str, words: str
+) -> None:
+    strays = {"stray": 0.02, "hole": 0.055, "pin": 0.05}
+    asked: dict[str, Any] = {"dragon": {"benches": 5}, "start": 0, "stop": 10}
+    asked |= {} if command == "tolerance" else {"samples": 10}
+    counted = {} if command == "tolerance" else {name: strays[name] for name in ("hole", "pin")}
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(asked | strays))
+    done = run(command, str(file), "--json")
+    assert (done.returncode, done.stderr) == (0, f"{file}: not counted: {names}: {words}.\n")
+    assert json.loads(done.stdout) == client.post(f"/{command}", json=asked | counted).raise_for_status().json()
+    file.write_text(json.dumps(asked))
+    assert run(command, str(file)).stderr == ""
