@@ -136,5 +136,5 @@ def test_cold_start_baseline(benchmark: BenchmarkFixture) -> None:
 def test_cold_command(benchmark: BenchmarkFixture) -> None:
     """bench-dragon collision-time, with its check by four engines and its table."""
     benchmark.group = "cold start"
-    code = "import sys; sys.argv[1:] = ['collision-time']; from app.command.main import app; app()"
+    code = "import sys; sys.argv[1:] = ['collision-time']; from app.command.entry import main; main()"
     benchmark.pedantic(run_cold, (code,), rounds=7)

@@ -292,6 +292,7 @@ ORDER = (
     "app.command.paper",
     "app.command.serve",
     "app.command.main",
+    "app.command.entry",
 )
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}

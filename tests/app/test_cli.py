@@ -413,6 +413,23 @@ def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> N
     assert list(tmp_path.iterdir()) == []
 
 
+def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path: Path) -> None:
+    caught = "try:\n    time.sleep(60)\nexcept BaseException:\n    raise ImportError"
+    (tmp_path / "typer.py").write_text(f"import sys, time\nprint('importing', flush=True)\n{caught}")
+    process = subprocess.Popen(
+        [COMMAND, "--version"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=ENVIRONMENT | {"PYTHONPATH": str(tmp_path)},
+        preexec_fn=heed_ctrl_c,
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"importing\n"
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=PATIENCE) == (b"", b"")
+    assert process.returncode == 130
+
+
 @contextlib.contextmanager
 def serving(
     *options: str, on_sigint: signal.Handlers = signal.SIG_DFL
