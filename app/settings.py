@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
+from pydantic_core import PydanticCustomError
 
 from core.errors import InvalidValue
 
@@ -18,6 +20,16 @@ PREFIX = "BENCH_DRAGON_"
 DATA = f"{PREFIX}DATA"
 # Largest number of processes of one service; each takes about 100 MB.
 WORKERS_MAX = 64
+# Address of a Dask scheduler, its port in group 1; "local" is a cluster of this machine.
+SCHEDULER = re.compile(r"(?:(?:tcp|tls|ucx|wss?)://)?(?:[\w.-]+|\[[\da-fA-F:.]+\]):(\d{1,5})|local|")
+PORT_MAX = 65535
+
+
+def _scheduler(address: str) -> str:
+    found = SCHEDULER.fullmatch(address)
+    if found is None or not 1 <= int(found[1] or 1) <= PORT_MAX:
+        raise PydanticCustomError("scheduler", "must be the address of a scheduler, as tcp://scheduler:8786")
+    return address
 
 
 def usable_cores() -> int:
@@ -137,7 +149,7 @@ class Settings(BaseModel):
     sweep_processes: int | None = Field(
         None, ge=1, le=WORKERS_MAX, description="Processes that answer a sweep; default: one for each core"
     )
-    dask: str = Field(
+    dask: Annotated[str, AfterValidator(_scheduler)] = Field(
         "", description="Scheduler of a Dask cluster that answers sweeps; empty: processes of this machine"
     )
     job_days_max: float = Field(7.0, gt=0, description="Time for which a finished job is kept [days]")

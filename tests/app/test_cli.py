@@ -25,6 +25,7 @@ import openpyxl
 import pytest
 
 import core
+from app.settings import Settings
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
 
@@ -227,6 +228,19 @@ def test_a_setting_that_cannot_be_is_one_line_that_names_it(command: str) -> Non
     assert done.returncode == 2
     assert done.stderr.startswith("Error: BENCH_DRAGON_BENCHES_MAX must be a valid integer")
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("address", ["foo", "tcp://", "tcp://foo", "tcp://foo:x", "tcp://foo:70000", "http://foo:8786"])
+def test_an_address_without_a_scheduler_is_refused_at_the_start_of_the_service(address: str) -> None:
+    done = run("serve", BENCH_DRAGON_DASK=address)
+    words = f"BENCH_DRAGON_DASK must be the address of a scheduler, as tcp://scheduler:8786, got {address!r}"
+    assert (done.returncode, done.stderr) == (2, f"Error: {words}\n")
+
+
+@pytest.mark.parametrize("address", ["", "local", "tcp://10.0.0.1:8786", "scheduler:8786", "tls://[::1]:1"])
+def test_an_address_of_a_scheduler_is_a_setting(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("BENCH_DRAGON_DASK", address)
+    assert Settings().dask == address
 
 
 def test_a_file_that_is_not_json_is_named() -> None:
