@@ -31,7 +31,7 @@ from app.service import grading, places, problems, routes
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
 from app.service.load import Glances, KeptAnswers, Lanes
-from app.service.middleware import HeadAsGet, Metrics, Mistakes, RequestId, RequestLimits, SafetyHeaders
+from app.service.middleware import HeadAsGet, Metrics, Mistakes, OriginForm, RequestId, RequestLimits, SafetyHeaders
 from app.service.pages import add_pages
 from app.service.reply import VERSION, build, refuse_query
 from app.settings import SHARED_COUNTS, Settings
@@ -145,6 +145,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
+            Middleware(OriginForm),
             Middleware(RequestId),
             Middleware(SafetyHeaders),
             Middleware(HeadAsGet),

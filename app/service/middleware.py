@@ -1,4 +1,4 @@
-"""Middleware for every request: body size, HEAD, security headers, internal errors, counts and times."""
+"""Middleware for every request: its target, body size, HEAD, security headers, internal errors, counts and times."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import logging
 import re
 import uuid
 from time import perf_counter
+from urllib.parse import unquote
 
 from prometheus_client import CollectorRegistry, Counter, Histogram
 from starlette.datastructures import Headers
@@ -23,6 +24,8 @@ SELF_ONLY = "default-src 'self'; frame-ancestors 'none'"
 # Swagger UI uses inline styles and icons from data: addresses.
 DOCS_POLICY = f"{SELF_ONLY}; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
 CLOSE = {"Connection": "close"}
+# A target in absolute form, its path in group 1.
+ABSOLUTE = re.compile(rb"https?://[^/]+(/.*)?", re.IGNORECASE)
 # A name that a client may give its request.
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
 
@@ -66,6 +69,19 @@ class RequestLimits:
     def _refused(self, most: int) -> Refused:
         detail = f"The body must be at most {most} bytes: ask for less in one request."
         return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], CLOSE)
+
+
+class OriginForm:
+    """Takes the target in absolute form as in origin form: GET http://host/turn as GET /turn (RFC 9112, 3.2.2)."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http" and (found := ABSOLUTE.fullmatch(scope["raw_path"])):
+            path = found[1] or b"/"
+            scope = {**scope, "raw_path": path, "path": unquote(path.decode("ascii"))}
+        await self.app(scope, receive, send)
 
 
 class RequestId:

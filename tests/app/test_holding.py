@@ -109,6 +109,25 @@ def test_malformed_http_is_a_problem(held: Service, sent: bytes, status: int) ->
 
 
 @pytest.mark.parametrize(
+    ("target", "path", "status"),
+    [
+        ("http://service:80/healthz", "/healthz", 200),
+        ("HTTPS://service/turn?pitch=1.7", "/turn?pitch=1.7", 200),
+        ("http://service", "/", 200),
+        ("http://service/paper%2F", "/paper%2F", 404),
+        ("http:///healthz", "http:///healthz", 404),
+    ],
+)
+def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target: str, path: str, status: int) -> None:
+    told = [
+        send(held, f"GET {one} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode()) for one in (target, path)
+    ]
+    heads, bodies = zip(*(one.split(b"\r\n\r\n", 1) for one in told), strict=True)
+    assert heads[0].startswith(f"HTTP/1.1 {status} ".encode())
+    assert bodies[0] == bodies[1]
+
+
+@pytest.mark.parametrize(
     "body", [b'{"\\ud800":1}', b'{"dragon":{"a\\u0000":1}}', b'{"path":{"kind":"\\udc00"}}', b'["\\u0000"]']
 )
 @pytest.mark.parametrize("path", ["/trajectory", "/check", "/overlaps", "/figures/trajectory.svg"])
