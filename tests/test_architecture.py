@@ -245,6 +245,7 @@ ORDER = (
     "app.sweeps",
     "app.jobs.task",
     "app.jobs.job",
+    "app.jobs.reserve",
     "app.jobs.store",
     "app.jobs.keeper",
     "app.jobs.runner",

@@ -52,6 +52,7 @@ logger = logging.getLogger("uvicorn.error")
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
 # Time after which a client may ask again when there was no room [s].
 COME_AGAIN = {"Retry-After": "60"}
+MAKE_ROOM = "remove jobs that you do not need, or make room"
 # Number of an event in a client's header; longer numbers are not ours, and SQLite cannot store them.
 EVENT_ID = re.compile(r"[0-9]{1,18}")
 NOT_KEPT = {"Cache-Control": "no-store"}
@@ -115,7 +116,8 @@ def later(request: Request, task: Task) -> Response:
 async def store_problem(request: Request, error: Exception) -> Response:
     """The answer if SQLite cannot write or read: the disk is full or fails."""
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
-        detail = "The disk of the data folder is full: remove jobs that you do not need, or make room."
+        words = "to remove a job takes some room too, make some" if request.method == "DELETE" else MAKE_ROOM
+        detail = f"The disk of the data folder is full: {words}."
         return problem(507, "insufficient-storage", detail)
     logger.error("The store of the jobs failed: %s", error)
     detail = f"The store of the jobs failed ({error}): try again."

@@ -3,6 +3,7 @@
     FOLDER/jobs.sqlite   tables jobs and events; written ahead (WAL) and flushed at every change
     FOLDER/results/ID    the bytes of an answer, complete or absent
     FOLDER/sweeps/ID     the shards of an unfinished sweep
+    FOLDER/reserve       room to remove jobs on a full disk
 
 Every change of a job is one transaction and one event, so a listener sees each change once. Only the runner changes an
 accepted job to running and further; anyone may dismiss it.
@@ -25,6 +26,7 @@ from typing import Any
 import orjson
 
 from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
+from app.jobs.reserve import Reserve
 
 # Longest wait of a change for that of another process [s].
 PATIENCE = 5.0
@@ -70,6 +72,7 @@ class Store:
             inner.mkdir(mode=0o700, exist_ok=True)
         file = self.folder / "jobs.sqlite"
         file.touch(mode=0o600)  # Other users must not read the names of jobs, which open their results.
+        self._reserve = Reserve(self.folder / "reserve")
         self._lock = Lock()
         self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
         try:
@@ -200,7 +203,7 @@ class Store:
     def dismiss(self, job: str) -> bool:
         """Dismiss an unfinished job: True if it was unfinished. The runner ends its process."""
         now, words = time.time(), "It was dismissed before it was done."
-        with self._change() as run:
+        with self._reserve.given(), self._change() as run:
             return self._move(
                 run,
                 job,
@@ -216,9 +219,10 @@ class Store:
     def remove(self, job: str) -> None:
         """Remove a job with its events and its result."""
         self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
-        with self._change() as run:
-            run.execute("DELETE FROM jobs WHERE id = ?", (job,))
-        self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # The write-ahead log still holds the call.
+        with self._reserve.given():
+            with self._change() as run:
+                run.execute("DELETE FROM jobs WHERE id = ?", (job,))
+            self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # The write-ahead log still holds the call.
 
     def has_work(self, days: float) -> bool:
         """True if a runner has work. days: time for which finished jobs are kept"""
@@ -245,11 +249,11 @@ class Store:
         running = f"SELECT count(*) FROM jobs WHERE state = 'running' AND question = '{SWEEP}'"
         may_run = f"state = 'accepted' AND (question != '{SWEEP}' OR ({running}) < ?)"
         with self._change() as run:
-            row = run.execute(f"SELECT id FROM jobs WHERE {may_run} ORDER BY created LIMIT 1", (sweeps,)).fetchone()
-            if row is None:
-                return None
-            self._move(run, row[0], "1", state=JobState.RUNNING, started=time.time(), progress=0, message="It runs.")
-        job: str = row[0]
+            asked = f"SELECT id, question FROM jobs WHERE {may_run} ORDER BY created LIMIT 1"
+            job, question = run.execute(asked, (sweeps,)).fetchone() or (None, "")
+            if job is not None:
+                again = {} if question == SWEEP else {"progress": 0}  # A sweep goes on from its shards.
+                self._move(run, job, "1", state=JobState.RUNNING, started=time.time(), message="It runs.", **again)
         return job
 
     def tidy(self, works: Container[str]) -> None:

@@ -166,7 +166,7 @@ def run(
     """Answer every design that has no row in the folder yet.
 
     engine: function that starts the engine; not called if nothing is missing
-    progress: called at least every TICK
+    progress: called before the engine starts, which takes seconds, and then at least every TICK
     raises: InvalidValue, OSError, and the errors of the engine; after KeyboardInterrupt the next run continues
     """
     begin(folder, spec)
@@ -175,6 +175,7 @@ def run(
         return
     answered = spec.designs - sum(stop - start for start, stop in map(spec.shard, missing))
     running = _Run(folder, spec, question, iter(missing), answered)
+    progress(running.progress())
     running.through(engine(), progress)
     if running.aside:
         # A design that shared a process may not be the cause of its death, so these designs are answered alone.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.app.jobs.service import SHORT, Service
+from tests.app.jobs.service import ENDLESS, SHORT, Service
 
 DISK_BYTES = 1_000_000
 # About 1.3 MB of JSON, which the disk does not hold.
@@ -27,9 +27,9 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
         subprocess.run(["umount", "--lazy", folder], check=True)
 
 
-def fill(folder: Path) -> Path:
+def fill(folder: Path, name: str = "filler") -> Path:
     """A file that takes the rest of the disk."""
-    file = folder / "filler"
+    file = folder / name
     with file.open("wb", buffering=0) as filler:
         try:
             while filler.write(b"0" * 4096):
@@ -61,3 +61,17 @@ def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> 
         assert service.finished(again)["status"] == "successful"
         assert service.client.delete(too_big).status_code == 204
         assert service.client.get(f"{again}/result").content == service.client.get(f"{first}/result").content
+
+
+def test_jobs_can_be_removed_one_after_the_other_while_the_disk_stays_full(small_disk: Path) -> None:
+    with Service(small_disk / "data") as service:
+        made = [service.post(BIG) for _ in range(3)]  # They fail, so that no result is removed with them.
+        for address in made:
+            assert service.finished(address)["status"] == "failed"
+        waiting = service.post(ENDLESS)
+        for k, address in enumerate([*made, waiting]):
+            fill(small_disk, f"filler{k}")
+            answer = service.client.delete(address)
+            assert answer.status_code == (200 if address == waiting else 204), answer.text
+        assert service.client.delete(waiting).status_code == 204
+        assert {service.client.get(address).status_code for address in [*made, waiting]} == {404}

@@ -65,6 +65,17 @@ def test_what_was_running_waits_again_for_a_new_runner_and_half_results_go(store
     assert store.take() == job
 
 
+def test_a_sweep_that_is_begun_again_keeps_its_progress_and_another_job_begins_anew(store: Store) -> None:
+    made = [make(store, question) for question in ("sweep", "turn")]
+    for job in made:
+        assert store.take() == job
+        store.proceed(job, 0.4, 0.1)
+    store.begin()
+    for job, progress in zip(made, (40, 0), strict=True):
+        assert store.take() == job
+        assert store.known(job).progress == progress
+
+
 def test_a_result_stands_when_its_state_could_not_be_written_and_is_said_again(store: Store) -> None:
     job = make(store)
     store.take()

@@ -59,8 +59,12 @@ def test_only_what_is_missing_is_answered_again(tmp_path: Path) -> None:
     for file in removed:
         file.unlink()
     assert missing_shards(tmp_path / "a", spec) == [0, 7]
-    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=lambda: Processes(1))
-    assert told[0].designs == 48
+
+    def engine() -> Processes:
+        assert [one.designs for one in told] == [48]  # what is kept is said before the engine starts
+        return Processes(1)
+
+    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=engine)
     assert kept == {file: file.stat().st_mtime_ns for file in kept}
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
 
@@ -86,7 +90,7 @@ def test_killed_workers_change_no_byte(tmp_path: Path) -> None:
         return engines[-1]
 
     def kill(progress: Progress) -> None:
-        if len(killed) < 3 and progress.designs >= 20 * len(killed):
+        if engines and len(killed) < 3 and progress.designs >= 20 * len(killed):
             killed.append(chance.choice(engines[0].pids))
             psutil.Process(killed[-1]).kill()
 
@@ -132,7 +136,7 @@ def test_no_process_is_left(tmp_path: Path) -> None:
             raise KeyboardInterrupt
 
     pids: list[int] = []
-    noted: Callable[[Progress], None] = lambda progress: pids.extend(engines[0].pids)  # noqa: E731
+    noted: Callable[[Progress], None] = lambda _: pids.extend(pid for one in engines for pid in one.pids)  # noqa: E731
     run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=engine, progress=noted)
     with pytest.raises(KeyboardInterrupt):
         run(spec_of(SLOW, 100), tmp_path / "b", question=SLOW, engine=engine, progress=stop)
