@@ -14,7 +14,7 @@ const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
 export class Files {
-  /** steps: receives drawings; questions: has the shown dance; announce(words) */
+  /** steps: receives drawings; questions: has the shown dance; announce(words()) */
   constructor(state, steps, service, questions, announce) {
     Object.assign(this, { state, steps, service, questions, announce });
     this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "open", hidden: true });
@@ -51,15 +51,15 @@ export class Files {
     try {
       if (/\.(csv|tsv)$/i.test(file.name)) {
         this.state.set({ csv: await file.text() });
-        return this.announce(say("opened", { name: file.name }));
+        return this.announce(() => say("opened", { name: file.name }));
       }
-      this.announce(say("opening", { name: file.name }));
+      this.announce(() => say("opening", { name: file.name }));
       const found = (await ownDance(file)) ?? (await this.#places(file));
       if (found) this.#take(found, file.name);
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
-      this.announce(refusalWords(error.message).textContent);
+      this.announce(() => refusalWords(error.message).textContent);
     }
   }
 
@@ -85,7 +85,7 @@ export class Files {
     };
     this.state.set({ ...own, ...numbers, ...told, time: null, view: null });
     this.steps.take(opened);
-    this.announce([say("opened", { name }), ...(found.notes ?? [])].join(" "));
+    this.announce(() => [say("opened", { name }), ...(found.notes ?? [])].join(" "));
   }
 
   /** The dance in the format of `bench-dragon check`. */
@@ -94,7 +94,7 @@ export class Files {
     const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: "dance.json" });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-    this.announce(say("saved", { name: link.download }));
+    this.announce(() => say("saved", { name: link.download }));
   }
 }
 

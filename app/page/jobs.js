@@ -37,7 +37,7 @@ export class Jobs {
   #jobs = new Map();
   #timer = 0;
 
-  /** show(columns, spec): draw the table of a sweep; announce(words) */
+  /** show(columns, spec): draw the table of a sweep; announce(words()) */
   constructor(list, service, show, announce) {
     Object.assign(this, { list, service, show, announce });
     for (const { id, spec } of remembered()) this.#jobs.set(id, { spec });
@@ -54,7 +54,7 @@ export class Jobs {
   add(status, spec) {
     this.#jobs = new Map([[status.jobID, { spec, status, shown: false }], ...this.#jobs]);
     this.#remember();
-    this.announce(say("jobStarted"));
+    this.announce(() => say("jobStarted"));
     this.#look();
   }
 
@@ -107,7 +107,7 @@ export class Jobs {
   }
 
   #refused(error) {
-    if (error instanceof Problem) this.announce(refusalWords(error.message).textContent);
+    if (error instanceof Problem) this.announce(() => refusalWords(error.message).textContent);
     else if (!(error instanceof Superseded)) throw error;
   }
 
@@ -115,7 +115,7 @@ export class Jobs {
     job.shown = true;
     try {
       this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
-      this.announce(say("jobReady"));
+      this.announce(() => say("jobReady"));
     } catch (error) {
       this.#refused(error);
     }

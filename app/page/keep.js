@@ -49,7 +49,7 @@ const SHOWN = "keepShown";
 const PROOF = "keepProof";
 
 export class Keep {
-  /** jobs: makes films; announce(words): reports events */
+  /** jobs: makes films; announce(words()): reports events */
   constructor({ state, service, questions, jobs, canvas, announce }) {
     Object.assign(this, { state, service, questions, jobs, canvas, announce });
     onClick("#share", () => {
@@ -121,9 +121,9 @@ export class Keep {
   async #copy(text) {
     try {
       await navigator.clipboard.writeText(text);
-      this.announce(say("copied"));
+      this.announce(() => say("copied"));
     } catch {
-      this.announce(say("copyFailed"));
+      this.announce(() => say("copyFailed"));
     }
   }
 
@@ -131,12 +131,12 @@ export class Keep {
     if (!this.questions.dance) return;
     try {
       if (item.job) return await this.#begin(item, form);
-      this.announce(say("making", { name: say(item.key) }), true);
+      this.announce(() => say("making", { name: say(item.key) }), true);
       const blob = item.ask ? await this.#asked(this[item.ask](form), form) : await this.#picture();
       const link = make("a", { href: URL.createObjectURL(blob), download: named(item.file, form) });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-      this.announce(say("saved", { name: link.download }));
+      this.announce(() => say("saved", { name: link.download }));
     } catch (error) {
       // What takes too long for one answer is made as a job.
       if (error instanceof Problem && FOR_CLIENTS.test(error.message)) this.#begin(item, form).catch((refused) => this.#told(refused));
@@ -145,7 +145,7 @@ export class Keep {
   }
 
   #told(error) {
-    if (error instanceof Problem) this.announce(refusalWords(error.message).textContent);
+    if (error instanceof Problem) this.announce(() => refusalWords(error.message).textContent);
     else if (!(error instanceof Superseded)) throw error;
   }
 

@@ -11,7 +11,7 @@ import { $, $$, onClick } from "./elements.js";
 import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
-import { announce, markContact, placeInset } from "./overlays.js";
+import { announce, announceAgain, markContact, placeInset } from "./overlays.js";
 import { Pace, passagesText, quickened, timeOfDay } from "./pace.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
@@ -51,7 +51,7 @@ const service = new Service({
   },
   back() {
     $("#lost").hidden = true;
-    announce(say("back"));
+    announce(() => say("back"));
   },
 });
 const questions = new Questions(service, state, (kind, detail) => (SHOW[kind] ?? TELL[kind])(detail));
@@ -254,7 +254,7 @@ const SHOW_STATE = {
   lang: translate,
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
   rate: (rate) => ($("#rate").value = rate),
-  handle: () => announce(showHandle()),
+  handle: () => announce(showHandle),
   view: (view) => (view ? dance.view.set(...view) : (dance.view.fitted = true)),
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
@@ -293,14 +293,14 @@ function translate() {
   controls.translate(limits);
   benches.show();
   pace.show();
-  player.translate();
+  for (const part of [player, keep]) part.translate();
   jobs.render();
-  keep.translate();
   map.draw();
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
   TELL.refused();
   route.translate();
+  announceAgain();
 }
 
 function listen() {

@@ -10,14 +10,21 @@ const CORNERS = ["top-right", "bottom-right", "top-left"];
 
 let said = 0;
 
-/** Show a message; it disappears by itself, or on a click. stays: only the next message replaces it */
+/** Gives the shown message in the language of the page. */
+let message = () => "";
+
+/** Show a message; it disappears by itself, or on a click. words(): its text; stays: only the next message replaces it */
 export function announce(words, stays = false) {
   const box = $("#status");
-  const end = () => (box.textContent = "");
-  Object.assign(box, { textContent: words, onclick: end });
+  message = words;
+  const end = () => announce(() => "", true);
+  Object.assign(box, { textContent: words(), onclick: end });
   clearTimeout(said);
-  if (!stays) said = setTimeout(end, Math.max(SAID, LETTER * words.length));
+  if (!stays) said = setTimeout(end, Math.max(SAID, LETTER * box.textContent.length));
 }
+
+/** Show the message in another language. */
+export const announceAgain = () => ($("#status").textContent = message());
 
 /**
  * Put the inset into the corner where it covers least of the dragon; it moves only to a better corner.

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import pypdfium2
 import pytest
 from playwright.sync_api import expect
 
@@ -240,6 +241,32 @@ def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open
         expect(page.locator(place)).to_be_visible()
     ground = "one => getComputedStyle(one).backgroundColor"
     assert page.locator("#canvas").evaluate(ground) == page.locator("body").evaluate(ground) == "rgb(255, 255, 255)"
+
+
+def test_a_print_from_a_wide_window_is_that_from_a_narrow_one(open_page: Any, look_at: Any) -> None:
+    printed = []
+    for width in (800, 2200):
+        page = open_page("?benches=20&time=end", viewport={"width": width, "height": 900})
+        look_at(page, "curve", "scan")
+        document = pypdfium2.PdfDocument(page.pdf(format="A4"))
+        printed.append([leaf.render().to_numpy().astype(int) for leaf in document])
+    for narrow, wide in zip(*printed, strict=True):
+        assert narrow.min() < 100  # it is not empty
+        assert float((abs(narrow - wide).max(axis=-1) > 60).mean()) < 0.01
+
+
+def test_a_message_changes_its_language_with_the_page(visit: Any) -> None:
+    told = """async (selector) => {
+      const status = document.querySelector("#status");
+      document.querySelector(selector).click();
+      while (!status.textContent) await new Promise(requestAnimationFrame);
+      const first = status.textContent;
+      document.querySelector("[data-lang=zh]").click();
+      return [first, status.textContent];
+    }"""
+    page = visit()
+    english, chinese = page.evaluate(told, "#share")
+    assert (english, chinese) in {("Copied", "已复制"), ("The browser did not allow copying", "浏览器不允许复制")}
 
 
 def test_everything_can_be_kept_from_the_page(open_page: Any, server: str) -> None:
