@@ -12,7 +12,7 @@ from typing import Any
 import orjson
 
 from app.extras import require
-from app.maps.features import Counted, Drawing, Feature, Shape, area_of, holds, inner_point, role_of, shaped
+from app.maps.features import Counted, Drawing, Feature, area_of, drawn_as, holds, inner_point, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
 from core.venue import Ring
@@ -60,7 +60,7 @@ def _drawing(document: Any) -> Drawing:
     code = int(document.header.get("$INSUNITS", 0))
     factor = UNITS.get(code, 1.0)
     told = _told(document)
-    reader = _Reader(factor, told.get("names", {}))
+    reader = _Reader(factor, told)
     for entity in reader.entities(document.modelspace()):
         reader.take(entity)
     if code not in UNITS:
@@ -97,8 +97,10 @@ def _told(document: Any) -> Mapping[str, Any]:
 class _Reader:
     """Collects the features of a drawing, in metres."""
 
-    def __init__(self, factor: float, names: Mapping[str, str]) -> None:
-        self.factor, self.names = factor, names
+    def __init__(self, factor: float, told: Mapping[str, Any]) -> None:
+        """told: by this program; names, and radii of walls [m], by handle"""
+        self.factor, self.names = factor, told.get("names", {})
+        self.radii = {handle: one for handle, one in told.get("radii", {}).items() if isinstance(one, float)}
         self.counted, self.texts = Counted(), list[tuple[str, tuple[float, float]]]()
         self.flat = import_module("ezdxf.path")
         self.seen = 0
@@ -117,8 +119,9 @@ class _Reader:
 
     def take(self, entity: Any) -> None:
         kind, layer = entity.dxftype(), str(entity.dxf.get("layer", ""))
-        name = self.names.get(str(entity.dxf.get("handle")))
-        feature = Feature("point", (), name, role_of(layer, name), properties={"layer": layer})
+        handle = str(entity.dxf.get("handle"))
+        name, radius = self.names.get(handle), self.radii.get(handle)
+        feature = Feature("point", (), name, role_of(layer, name), radius, properties={"layer": layer})
         if kind in TEXTS:
             words = entity.plain_text() if kind == "MTEXT" else str(entity.dxf.text)
             self.texts.append((words.strip(), self._place(entity.dxf.insert)))
@@ -143,8 +146,7 @@ class _Reader:
         # A closing point that a program adds may differ from the first one in the last digits.
         if len(points) > 3 and dist(points[0], points[-1]) < FLATTENED:
             points = (*points[:-1], points[0])
-        shape: tuple[Shape, tuple[Ring, ...]] = ("line", (points,)) if feature.role == "path" else shaped(points)
-        self.counted.add(replace(feature, shape=shape[0], rings=shape[1]))
+        self.counted.add(drawn_as(replace(feature, rings=(points,))))
 
     def _place(self, point: Any) -> tuple[float, float]:
         return float(point[0]) * self.factor, float(point[1]) * self.factor
@@ -185,7 +187,8 @@ def _is_of(hole: Feature, layer: str) -> bool:
 
 
 def written(drawing: Drawing) -> bytes:
-    """A drawing in metres: areas as closed polylines, the path as a polyline, marks as circles, each with its text.
+    """A drawing in metres: areas as closed polylines, the path and walls as polylines, trees and marks as circles, each
+    with its text.
 
     raises: MissingPackage
     """
@@ -196,7 +199,7 @@ def written(drawing: Drawing) -> bytes:
     for name, colour in LAYERS.values():
         document.layers.add(name, color=colour)
         document.layers.add(f"{name}_HOLES", color=colour)
-    space, names = document.modelspace(), {}
+    space, names, radii = document.modelspace(), {}, {}
     told: dict[str, object] = {}
     for feature in drawing.features:
         layer = LAYERS[feature.role or "obstacle"][0]
@@ -204,6 +207,8 @@ def written(drawing: Drawing) -> bytes:
             entity = _drawn(space, feature, ring, f"{layer}_HOLES" if k else layer)
             if feature.name is not None and not k:
                 names[entity.dxf.handle] = feature.name
+            if feature.shape == "line" and feature.radius is not None:
+                radii[entity.dxf.handle] = float(feature.radius)
         if feature.role in ("obstacle", "mark") and feature.name:
             point = inner_point(feature.rings) if feature.shape == "polygon" else feature.rings[0][0]
             x, y = point if feature.role == "obstacle" else (point[0] + CROSS, point[1] + CROSS)
@@ -213,7 +218,7 @@ def written(drawing: Drawing) -> bytes:
             told["path"] = feature.properties["path"]
     if drawing.origin is not None:
         told["origin"] = {"longitude": drawing.origin.longitude, "latitude": drawing.origin.latitude}
-    text = orjson.dumps(told | {"names": names}).decode()
+    text = orjson.dumps(told | {"names": names, "radii": radii}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
     record = document.rootdict.add_xrecord(RECORD)
@@ -224,8 +229,10 @@ def written(drawing: Drawing) -> bytes:
 
 
 def _drawn(space: Any, feature: Feature, ring: Ring, layer: str) -> Any:
-    attributes = {"layer": layer}
+    attributes: dict[str, object] = {"layer": layer}
     if feature.shape == "point":
-        return space.add_circle(ring[0], 0.5 * CROSS, dxfattribs=attributes)
+        return space.add_circle(ring[0], feature.radius or 0.5 * CROSS, dxfattribs=attributes)
     closed = feature.shape == "polygon"
+    if feature.radius is not None:
+        attributes["const_width"] = 2.0 * feature.radius
     return space.add_lwpolyline(ring[:-1] if closed else ring, close=closed, dxfattribs=attributes)

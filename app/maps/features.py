@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Literal
 
 from app.wire.degrees import Origin
+from app.wire.geojson import Thing
 from core import InvalidValue
 from core.venue import Ring
 
@@ -95,9 +96,25 @@ class Counted:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1
 
 
-def shaped(points: Ring) -> tuple[Shape, tuple[Ring, ...]]:
-    """A line; if it ends at its beginning, the polygon inside it."""
-    return ("polygon", (points,)) if len(points) > 3 and points[0] == points[-1] else ("line", (points,))
+def drawn_as(line: Feature) -> Feature:
+    """The feature of a line; if it ends at its beginning, the polygon inside it, unless it is a path or has a width."""
+    (points,) = line.rings
+    closed = len(points) > 3 and points[0] == points[-1] and line.role != PATH and line.radius is None
+    return replace(line, shape="polygon" if closed else "line")
+
+
+def features_of(things: Sequence[Thing]) -> list[Feature]:
+    """The things of a venue as features, the square first."""
+    return [
+        Feature(*_form(rings, radius), name, OBSTACLE if k else SQUARE, radius)
+        for k, (name, rings, radius) in enumerate(things)
+    ]
+
+
+def _form(rings: tuple[Ring, ...], radius: float | None) -> tuple[Shape, tuple[Ring, ...]]:
+    if radius is None:
+        return "polygon", rings
+    return ("line", rings) if len(set(rings[0])) > 1 else ("point", (rings[0][:1],))
 
 
 def inner_point(rings: tuple[Ring, ...]) -> tuple[float, float]:

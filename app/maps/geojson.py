@@ -8,7 +8,7 @@ from typing import Any
 
 import orjson
 
-from app.maps.features import Counted, Drawing, Feature, Shape, role_of, shaped
+from app.maps.features import Counted, Drawing, Feature, Shape, drawn_as, role_of
 from app.wire.degrees import GEOGRAPHIC, Origin, named_system
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
@@ -94,9 +94,8 @@ def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterat
     elif kind in GEOMETRIES:
         shape, deep = GEOMETRIES[kind]
         for rings in _parts(f"{field}.coordinates", told.get("coordinates"), shape, deep):
-            # A polygon may be drawn as a line that ends at its beginning.
-            drawn = shaped(rings[0]) if shape == "line" and like.role != "path" else (shape, rings)
-            yield replace(like, shape=drawn[0], rings=drawn[1])
+            one = replace(like, shape=shape, rings=rings)
+            yield drawn_as(one) if shape == "line" else one  # Some programs draw a polygon as a line.
     else:
         known = ", ".join([*GEOMETRIES, "Feature", *COLLECTIONS])
         raise InvalidValue(f"{field}.type", f"{spoken(field)}.type must be one of {known}, got {kind!r:.60}")
@@ -145,7 +144,8 @@ def written(drawing: Drawing) -> bytes:
 
 
 def _properties(feature: Feature) -> dict[str, object]:
-    return {"name": feature.name, "role": feature.role, **feature.properties}
+    radius = {} if feature.radius is None else {"radius": feature.radius}
+    return {"name": feature.name, "role": feature.role, **radius, **feature.properties}
 
 
 def geometry_of(feature: Feature) -> dict[str, object]:

@@ -15,7 +15,7 @@ from xml.parsers import expat
 
 import orjson
 
-from app.maps.features import POINTS_MAX, Counted, Drawing, Feature, Shape, role_of, shaped
+from app.maps.features import POINTS_MAX, Counted, Drawing, Feature, Shape, drawn_as, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
 from core.venue import Ring
@@ -149,8 +149,8 @@ class _Reader:
         role = role_of(told.get("role"), told.get("name"), *reversed(self.folders))
         feature = Feature("point", (), told.get("name") or None, role, _number(told.get("radius", "")))
         for shape, rings in self.shapes:
-            drawn = shaped(rings[0]) if shape == "line" and role != "path" else (shape, rings)
-            self.counted.add(replace(feature, shape=drawn[0], rings=drawn[1]))
+            one = replace(feature, shape=shape, rings=rings)
+            self.counted.add(drawn_as(one) if shape == "line" else one)
 
 
 def _points(text: str) -> Ring:
@@ -197,6 +197,8 @@ def written(drawing: Drawing) -> bytes:
         )
     for feature in drawing.features:
         told: dict[str, object] = {"role": feature.role}
+        if feature.radius is not None:
+            told["radius"] = feature.radius
         told |= {name: value for name, value in feature.properties.items() if name != "path"}
         if feature.role == "path":
             told |= {name: orjson.dumps(value).decode() for name, value in _origin_and_path(drawing, feature).items()}

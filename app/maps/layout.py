@@ -17,7 +17,7 @@ from app.maps import geojson
 from app.maps.features import MARK, PATH, SQUARE, Drawing, Feature, area_of, holds
 from app.maps.marks import line_of
 from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
-from app.wire.geojson import read_polygons, venue_of
+from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.models import Coordinates
 from app.wire.paths import POINTS_MAX, AnyPath
 from core import InvalidValue, Route, Spiral, Venue
@@ -45,7 +45,7 @@ class Found:
     """The parts of a dance in a file.
 
     path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0
-    things: GeoJSON features of the venue, where trees and walls have a radius; None: polygons alone
+    things: features of the venue, where trees and walls have a radius
     dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
     """
 
@@ -54,7 +54,7 @@ class Found:
     origin: Origin | None = None
     dance: Mapping[str, Any] | None = None
     notes: Sequence[str] = ()
-    things: Sequence[Mapping[str, Any]] | None = None
+    things: Sequence[Feature] = ()
 
     @property
     def geometry(self) -> dict[str, Any] | None:
@@ -64,8 +64,7 @@ class Found:
         told: dict[str, Any] = {"type": "FeatureCollection"}
         if self.origin is not None:
             told["origin"] = {"longitude": self.origin.longitude, "latitude": self.origin.latitude}
-        areas = (Feature("polygon", area.rings, area.name) for area in self.venue.areas)
-        return told | {"features": [_told(area) for area in areas] if self.things is None else self.things}
+        return told | {"features": [_told(one) for one in self.things]}
 
 
 def _told(one: Feature) -> dict[str, Any]:
@@ -73,10 +72,11 @@ def _told(one: Feature) -> dict[str, Any]:
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
-def _checked(things: list[dict[str, Any]]) -> Venue:
+def _checked(things: list[Feature]) -> Venue:
     """The venue of features, checked like a request, so that a request can use them."""
+    told = {"type": "FeatureCollection", "features": [_told(one) for one in things]}
     try:
-        return venue_of(read_polygons({"type": "FeatureCollection", "features": things}))
+        return venue_of(outlined(read_things(told)))
     except InvalidValue as error:
         raise InvalidValue("file", f"file must hold a valid square: {error.message}") from error
 
@@ -176,8 +176,8 @@ class Reading:
         others = (one for one in self.features if one is not largest)
         return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
 
-    def _things(self, square: Feature | None, others: list[Feature]) -> list[dict[str, Any]]:
-        """The square and the obstacles as GeoJSON features."""
+    def _things(self, square: Feature | None, others: list[Feature]) -> list[Feature]:
+        """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
             listed = ", ".join(without[:NAMED]) + (", …" if len(without) > NAMED else "")
@@ -200,7 +200,7 @@ class Reading:
         things = [replace(square, name=names.new(square.name or "square"), radius=None)]
         for k, one in enumerate(obstacles, start=1):
             things.append(replace(one, name=names.new(one.name or f"obstacle {k}")))
-        return [_told(one) for one in things]
+        return things
 
     def _obstacle(self, one: Feature) -> Feature:
         """An obstacle, with a radius if it is a point or a line."""

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from app.maps.features import Drawing, Feature
+from app.maps.features import Drawing, Feature, features_of
 from app.wire.degrees import Origin, Plane
+from app.wire.geojson import Thing
 from app.wire.models import check_limit
-from core import Dance, Venue
+from core import Dance
 from core.motion.places import handle_places
 from core.paths.path import Path
 from core.paths.route import Route
@@ -71,13 +72,10 @@ def line_of(path: Path, low: float, high: float) -> Floats:
 
 
 def drawing_of(
-    dance: Dance, venue: Venue | None, marks: Marks, told: Mapping[str, object], origin: Origin | None
+    dance: Dance, things: Sequence[Thing], marks: Marks, told: Mapping[str, object], origin: Origin | None
 ) -> Drawing:
-    """The dance as a map in metres. told: the path as a request describes it"""
-    features = []
-    for area in venue.areas if venue else ():
-        role = "square" if venue and area is venue.square else "obstacle"
-        features.append(Feature("polygon", area.rings, area.name, role))
+    """The dance as a map in metres. things: of the venue; told: the path as a request describes it"""
+    features = features_of(things)
     path = dance.path
     low = path.begin if isinstance(path, Route) else min(float(marks.s[0]), path.begin)
     line = tuple(map(tuple, line_of(path, low, path.end).tolist()))

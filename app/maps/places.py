@@ -13,8 +13,9 @@ from pydantic import Field
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, kml
+from app.maps.features import features_of
 from app.maps.layout import Found, Reading, checked_path
-from app.wire.degrees import place_of
+from app.wire.degrees import Place, place_of
 from app.wire.models import Answer, Coordinates
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 
@@ -93,7 +94,8 @@ def _of_dance(told: Mapping[str, Any], say: Say) -> Found:
         raise InvalidValue("file", f"file must have a venue that is GeoJSON or the name of a file, got {venue!r:.60}")
     elif venue is not None:
         place = place_of(venue, told.get("coordinates"), Dragon())
-    return Found(path, place.venue if place else None, place.origin if place else None, others, notes)
+    place = place or Place()
+    return Found(path, place.venue, place.origin, others, notes, features_of(place.things))
 
 
 def read_map(file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH) -> Found:

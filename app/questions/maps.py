@@ -66,7 +66,7 @@ def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
     origin = asked.told_origin(place)
     start = dance.default_start if asked.start is None else asked.start
     marks = marks_of(dance, *dance.span(start, asked.stop), asked.spacing)
-    drawing = drawing_of(dance, place.venue, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
+    drawing = drawing_of(dance, place.things, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
     if form == DXF_TYPE:
         return dxf.written(drawing)
     if form == GEOJSON_TYPE:

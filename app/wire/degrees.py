@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from app.wire.geojson import Polygon, Scale, read_polygons, venue_of
+from app.wire.geojson import Polygon, Scale, Thing, outlined, read_things, venue_of
 from app.wire.models import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.values import Floats, checked_number
@@ -81,10 +81,11 @@ class Plane:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A venue in metres, and the place of its origin on earth if it is known."""
+    """A venue in metres, and the place of its origin on earth if it is known; and what it was made of."""
 
     venue: Venue | None = None
     origin: Origin | None = None
+    things: Sequence[Thing] = ()
 
 
 def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:
@@ -109,9 +110,10 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         )
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))
-    polygons = read_polygons(geometry)
+    things = read_things(geometry)
+    polygons = outlined(things)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
-    return Place(venue_of(polygons), _told_origin(geometry.get("origin")))
+    return Place(venue_of(polygons), _told_origin(geometry.get("origin")), things)
 
 
 def _told_origin(told: object) -> Origin | None:
@@ -154,10 +156,10 @@ def _refuse_systems_inside(field: str, part: object) -> None:
 def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
     """The polygons in degrees. raises: InvalidValue, with a hint if longitude and latitude look swapped"""
     try:
-        return read_polygons(geometry, DEGREES)
+        return outlined(read_things(geometry, DEGREES))
     except InvalidValue as error:
         try:
-            read_polygons(geometry, LATITUDE_FIRST)
+            read_things(geometry, LATITUDE_FIRST)
         except InvalidValue:
             raise error from None
         raise InvalidValue(error.field, f"{error.message}: {SWAPPED}") from error
@@ -196,7 +198,8 @@ def _laid_out(polygons: list[Polygon]) -> Place:
         return tuple(map(tuple, plane.metres(np.array(ring)).tolist()))
 
     metres = [(name, tuple(map(placed, rings))) for name, rings in turned]
-    return Place(venue_of(metres), Origin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude))
+    where = Origin((origin.longitude + 180.0) % 360.0 - 180.0, origin.latitude)
+    return Place(venue_of(metres), where, [(*polygon, None) for polygon in metres])
 
 
 def middle_of(rings: list[Ring]) -> Origin:

@@ -20,6 +20,8 @@ from core.venue import Ring, refuse_many_edges
 
 # Name and rings.
 Polygon = tuple[str, tuple[Ring, ...]]
+# Name, the rings of a polygon or the points of a tree or a wall, and its radius, if it has one [m].
+Thing = tuple[str, tuple[Ring, ...], float | None]
 # Name if it has one, the field of its coordinates, the coordinates as given, and half of its width, if it has one [m].
 Found = tuple[str | None, str, object, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
@@ -32,14 +34,13 @@ DEPTH_MAX = 8
 RADIUS_MIN, RADIUS_MAX = 1e-3, 1e3
 
 
-def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
-    """The polygons of a GeoJSON object, the square first.
+def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
+    """The polygons, trees and walls of a GeoJSON object, the square first.
 
     geometry: a Polygon, a Feature of one, a GeometryCollection or a FeatureCollection of them. The square is the
         feature whose property `name` is "square", else the first polygon; the others are obstacles, named by their
         property `name`, else "obstacle 1" and so on. Heights are ignored. In metres a Feature of a Point or of a
-        LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width. Its
-        polygon holds all within the radius, and nothing further than 2% more.
+        LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width.
     raises: InvalidValue naming the member at fault; too many edges are refused before any coordinate is read
     """
     found = _polygons("venue", geometry)
@@ -49,11 +50,22 @@ def read_polygons(geometry: object, scale: Scale = METRES) -> list[Polygon]:
     refuse_many_edges(
         ring for _, _, rings, _ in found if isinstance(rings, list) for ring in rings if isinstance(ring, list)
     )
-    named = [(name, _rings(field, rings, scale, radius)) for name, field, rings, radius in found]
+    named = [(name, _rings(field, rings, scale, radius), radius) for name, field, rings, radius in found]
     square = next((k for k in whole if named[k][0] == "square"), whole[0])
     others = [polygon for k, polygon in enumerate(named) if k != square]
-    obstacles = [(name or f"obstacle {k}", rings) for k, (name, rings) in enumerate(others, start=1)]
-    return [(named[square][0] or "square", named[square][1]), *obstacles]
+    obstacles = [(name or f"obstacle {k}", rings, radius) for k, (name, rings, radius) in enumerate(others, start=1)]
+    return [(named[square][0] or "square", named[square][1], None), *obstacles]
+
+
+def outlined(things: Sequence[Thing]) -> list[Polygon]:
+    """The things as polygons: of a tree or a wall, all within its radius, and nothing further than 2% more."""
+    outlines = []
+    for name, rings, radius in things:
+        if radius is not None:
+            (outline,) = thickened(np.array(rings[0]), radius)
+            rings = tuple(tuple(map(tuple, ring.tolist())) for ring in outline)
+        outlines.append((name, rings))
+    return outlines
 
 
 def venue_of(polygons: Sequence[Polygon]) -> Venue:
@@ -121,8 +133,7 @@ def _rings(field: str, value: object, scale: Scale, radius: float | None) -> tup
         raise InvalidValue(field, f"{field} must be in metres, as its radius is, or be a Polygon: got {scale[0]}")
     if len(read[0]) < 2:
         raise InvalidValue(field, f"{field} must be at least 2 points, got {len(read[0])}")
-    (outline,) = thickened(np.array(read[0]), radius)
-    return tuple(tuple(map(tuple, ring.tolist())) for ring in outline)
+    return read
 
 
 def _place(field: str, value: object, scale: Scale) -> Point:

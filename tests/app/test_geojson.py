@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from app.wire.degrees import Coordinates, place_of
-from app.wire.geojson import read_polygons, venue_of
+from app.wire.geojson import outlined, read_things, venue_of
 from core import Dragon, InvalidValue, Venue
 
 AT_ONCE_ASKED = 20.0  # [s], with what else the machine does
@@ -35,7 +35,7 @@ def features(*members: dict[str, Any]) -> dict[str, Any]:
 
 
 def read(geometry: object) -> Venue:
-    return venue_of(read_polygons(geometry))
+    return venue_of(outlined(read_things(geometry)))
 
 
 SQUARE = box(-35, -5, 20, 20)

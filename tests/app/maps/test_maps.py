@@ -67,6 +67,53 @@ def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, pat
     assert client.post("/maps.kml", json=again).raise_for_status().content.startswith(b"<?xml")
 
 
+def thing(name: str, kind: str, coordinates: Any, radius: float | None = None) -> dict[str, Any]:
+    properties = {"name": name} | ({} if radius is None else {"radius": radius})
+    return {"type": "Feature", "properties": properties, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+THINGS = [
+    thing("square", "Polygon", [[[-30, -30], [30, -30], [30, 30], [-30, 30], [-30, -30]]]),
+    thing("elm", "Point", [10.5, 4.25], 0.7),
+    thing("wall", "LineString", [[-20, 10], [-10, 12], [0, 10]], 0.15),
+    thing("ring wall", "LineString", [[20, 20], [25, 20], [25, 25], [20, 20]], 0.2),
+    thing("stage", "Polygon", [[[-20, -20], [-15, -20], [-15, -15], [-20, -20]]]),
+]
+
+
+@pytest.mark.parametrize(
+    ("format", "origin"),
+    [("geojson", None), ("geojson", ORIGIN), ("kml", ORIGIN), ("dxf", None), ("dxf", ORIGIN)],
+    ids=lambda part: part if isinstance(part, str) else "degrees" if part else "metres",
+)
+def test_trees_and_walls_come_back_as_they_were(
+    client: httpx.Client, format: str, origin: dict[str, float] | None
+) -> None:
+    body = {"dragon": {"benches": 2}, "path": CORNER, "venue": {"type": "FeatureCollection", "features": THINGS}}
+    data = client.post(f"/maps.{format}", json=body | {"origin": origin}).raise_for_status().content
+    found = read(data)
+    assert found.geometry is not None
+    assert not any("without a radius" in note for note in found.notes)
+    for got, put in zip(found.geometry["features"], THINGS, strict=True):
+        assert (got["properties"], got["geometry"]["type"]) == (put["properties"], put["geometry"]["type"])
+        came, was = (np.array(one["geometry"]["coordinates"]) for one in (got, put))
+        assert came.shape == was.shape
+        assert np.abs(came - was).max() < ROUNDING
+    # So they do from a file that describes the dance.
+    again = read(json.dumps({"venue": found.geometry}).encode())
+    assert again.geometry == found.geometry
+    assert again.venue == found.venue
+
+
+def test_trees_and_walls_of_a_drawing_are_as_wide_as_they_are(client: httpx.Client) -> None:
+    body = {"dragon": {"benches": 2}, "path": CORNER, "venue": {"type": "FeatureCollection", "features": THINGS}}
+    data = client.post("/maps.dxf", json=body).raise_for_status().text
+    space = ezdxf.read(io.StringIO(data)).modelspace()
+    walls = [one.dxf.const_width for one in space.query("LWPOLYLINE") if one.dxf.hasattr("const_width")]
+    assert walls == [0.3, 0.4]
+    assert [one.dxf.radius for one in space.query("CIRCLE[layer=='OBSTACLES']")] == [0.7]
+
+
 def test_marks_stand_every_five_metres_of_the_path(client: httpx.Client) -> None:
     body = {"dragon": {"benches": 2}, "path": CORNER}
     told = client.post("/maps.geojson", json=body).raise_for_status().json()
