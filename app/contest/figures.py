@@ -58,7 +58,7 @@ def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iter
             figure, caption = draw(solved, say)
             # The layout is the same for all three files, and takes as long as writing one.
             figure.draw_without_rendering()
-            figure.set_layout_engine("none")
+            figure.set_layout_engine(None)
             files = {kind: _bytes(figure, kind) for kind in FORMATS}
         progress((k + 1) / len(kinds))
         yield Drawn(draw.__name__, caption, files)
