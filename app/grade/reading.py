@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import re
 
 from app.grade.grid import Cell, Grid, Unreadable
 from app.grade.words import Note, note
@@ -18,7 +17,6 @@ LINES_MAX, CELLS_MAX = 200_000, 1_000_000
 # First bytes of a ZIP archive, and of the older container that also holds encrypted workbooks.
 ZIP, OLE = b"PK", bytes.fromhex("d0cf11e0a1b11ae1")
 ENCRYPTED = "EncryptedPackage".encode("utf-16-le")
-NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 # Encodings to try: UTF-8, then that of Chinese versions of Excel.
 CODINGS = ("utf-8-sig", "gb18030")
 
@@ -77,5 +75,11 @@ def _decoded(data: bytes) -> str:
 def _number(word: str, decimal: str) -> Cell:
     """A number, a text, or None for a blank. decimal: "," if a comma may be the decimal point"""
     said = word.strip()
+    if not said:
+        return None
     pointed = said.replace(decimal, ".")
-    return float(pointed) if NUMBER.fullmatch(pointed) else word if said else None
+    try:
+        value = float(pointed)
+    except ValueError:
+        return word
+    return word if "_" in pointed or pointed[-1].isalpha() else value  # 1_000, inf and nan are words here
