@@ -16,7 +16,7 @@ import pandas
 import pytest
 
 from app.files.tables import Language
-from app.grade.reading import FILE_MAX
+from app.grade.reading import FILE_MAX, grids_of
 from app.grade.report import FileAnswer, graded
 from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
@@ -214,6 +214,12 @@ def test_a_number_that_is_none_is_text() -> None:
     sheet = grade(repacked(small(), infinite)).sheets[0]
     assert "The number in C2 is stored as text." in sheet.notes
     assert sheet.right == 4 * 448 - 1
+
+
+def test_a_csv_has_numbers_texts_and_blanks() -> None:
+    words = ["-8.5", " 5. ", ".5e-3", "１２.5", "1_000", "inf", "nan", "1.2.3", "-", " "]
+    [grid] = grids_of(",".join(words).encode(), Budget())[0]
+    assert grid.rows == [[-8.5, 5.0, 0.0005, 12.5, *words[4:9], None]]
 
 
 def test_macros_are_told_and_not_run() -> None:
