@@ -265,14 +265,14 @@ def _filled(
 
 
 def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -> float:
-    """Number in a cell, also if it is stored as text; NaN and a note for other text."""
+    """Number in a cell, also if it is stored as text, maybe with a decimal comma; NaN and a note for other text."""
     if isinstance(cell, float):
         return cell
     if cell is None:
         return float("nan")
     place = cell_name(*((column, row) if turned else (row, column)))
     try:
-        number = float(plain(cell))
+        number = float(plain(cell).replace(",", "."))
         notes.append(note("text_number", cell=place))
     except ValueError:
         notes.append(note("text", cell=place, text=cell[:30]))

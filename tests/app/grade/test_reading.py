@@ -266,10 +266,12 @@ def test_text_in_number_cells_is_told_with_its_place() -> None:
     def change(book: Any) -> None:
         book["位置"]["C3"] = "—"
         book["位置"]["D3"] = str(book["位置"]["D3"].value)
+        book["位置"]["E3"] = str(book["位置"]["E3"].value).replace(".", ",")
 
     sheet = grade(small(change)).sheets[0]
     assert "C3 should hold a number, but holds the text “—”." in sheet.notes
-    assert "The number in D3 is stored as text." in sheet.notes
+    for cell in ("D3", "E3"):
+        assert f"The number in {cell} is stored as text." in sheet.notes
     assert sheet.right == 4 * 448 - 1
 
 
