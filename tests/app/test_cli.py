@@ -25,6 +25,7 @@ import openpyxl
 import pytest
 
 import core
+from app.service.workers import SILENT_SECONDS, START_SECONDS
 from app.settings import Settings
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
@@ -512,6 +513,19 @@ def test_serve_answers_replaces_a_process_that_dies_and_keeps_its_counts_and_ctr
         _, rest = process.communicate(timeout=PATIENCE)
         assert process.returncode == 0
         assert "Traceback" not in rest
+
+
+def test_a_process_that_hangs_is_replaced_within_seconds() -> None:
+    with serving("--workers", "2") as (process, url, lines):
+        first = next(int(one[1]) for line in lines if (one := re.search(r"Started server process \[(\d+)\]", line)))
+        time.sleep(4.0)  # both have answered their parent
+        os.kill(first, signal.SIGSTOP)
+        stopped = time.monotonic()
+        assert process.stderr is not None
+        assert any(f"[{first}] died" in line for line in process.stderr)
+        assert time.monotonic() - stopped < 2.0 * SILENT_SECONDS < START_SECONDS
+        assert any("Application startup complete" in line for line in process.stderr)
+        assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
 
 
 @pytest.mark.parametrize("options", [["--workers", "1"], []], ids=["one", "default"])
