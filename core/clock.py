@@ -85,8 +85,8 @@ class Clock:
             time, place = self._ended(k, passage)
             self.times.append(time)
             self.places.append(place)
-        self.speeds = [head_speed, *(passage.speed for passage in passages), head_speed]
-        self.slowest = min(speed for speed in self.speeds if speed > 0.0)
+        self.speeds = [head_speed, *[passage.speed for passage in passages], head_speed]
+        self.slowest = min([speed for speed in self.speeds if speed > 0.0]) if passages else head_speed
 
     def _ended(self, k: int, passage: Passage) -> tuple[float, float]:
         """Time and place at which a passage ends. raises: InvalidValue"""

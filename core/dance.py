@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
 
@@ -78,13 +78,14 @@ class Dance(Shown):
     path: Spiral | Route
     head_speed: float = 1.0
     passages: Sequence[Passage] = ()
+    end: RunEnd = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         checked_type("dragon", self.dragon, Dragon)
         checked_type("path", self.path, (Spiral, Route))
         object.__setattr__(self, "head_speed", checked_head_speed(self.head_speed))
         object.__setattr__(self, "passages", checked_passages(self.passages))
-        _ = self.end
+        object.__setattr__(self, "end", _end(self.dragon, self.path, self.clock))
 
     def __repr__(self) -> str:
         more = f", passages={self.passages!r}" if self.passages else ""
@@ -114,14 +115,6 @@ class Dance(Shown):
             for one in self.passages
         ]
         return Dance(self.dragon, self.path, head_speed, passages)
-
-    @cached_property
-    def end(self) -> RunEnd:
-        """End of the run."""
-        if isinstance(self.path, Route):
-            _refuse_tight_bends(self.dragon, self.path)
-            return RunEnd(EndReason.END, self.clock.time(self.path.end), None, None)
-        return _spiral_end(self.dragon, self.path, self.clock)
 
     @cached_property
     def earliest(self) -> float:
@@ -206,14 +199,16 @@ class Dance(Shown):
         if begin < self.earliest:
             rule = f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
             raise OutsideRun.of("start", rule, begin, "s")
-        limit = f"{said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
         if until > self.end.time:
-            raise OutsideRun.of("stop", f"must be at most {limit}", until, "s")
+            raise OutsideRun.of("stop", f"must be at most {self._told_end()}", until, "s")
         if until <= begin:
             if stop is None:
-                raise OutsideRun.of("start", f"must be before {limit}", begin, "s")
+                raise OutsideRun.of("start", f"must be before {self._told_end()}", begin, "s")
             raise InvalidValue.of("stop", f"must be after start ({said(begin)} s)", until, "s")
         return begin, until
+
+    def _told_end(self) -> str:
+        return f"{said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
 
     def ends_by(self, stop: float) -> bool:
         """True if a run until `stop` [s] ends at a fold."""
@@ -225,14 +220,11 @@ class Dance(Shown):
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error for a time after the end of the run."""
-        rule = f"must be at most {said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
-        return OutsideRun.of(_instant(time, index), rule, time.flat[index], "s")
+        return OutsideRun.of(_instant(time, index), f"must be at most {self._told_end()}", time.flat[index], "s")
 
 
 def checked_head_speed(head_speed: float) -> float:
     """The head speed [m/s], if it is in the allowed range."""
-    if isinstance(head_speed, (int, float)) and head_speed <= 0:
-        raise InvalidValue("head_speed", f"head_speed must be positive, got {said(head_speed)} m/s")
     return checked_number("head_speed", head_speed, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
 
 
@@ -243,7 +235,8 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     limits are found from the tail forwards: the limit of handle k is the larger of its own fold and the place from
     which handle k + 1 reaches its limit. In a uniform tail its own fold is always the larger one.
     """
-    chords2 = ((dragon.chords[: dragon.uniform_from + 1] / path.growth) ** 2).tolist()
+    chords = dragon.chords[: dragon.uniform_from + 1].tolist()
+    chords2 = [(chord / path.growth) * (chord / path.growth) for chord in chords]
     fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
     limit, bench = 0.0, None
     for k in range(dragon.uniform_from, -1, -1):
@@ -256,7 +249,11 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
     return (limit * (1.0 + FOLD_ROUNDING), bench) if limit > 0.0 else (0.0, None)
 
 
-def _spiral_end(dragon: Dragon, path: Spiral, clock: Clock) -> RunEnd:
+def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
+    """End of the run."""
+    if isinstance(path, Route):
+        _refuse_tight_bends(dragon, path)
+        return RunEnd(EndReason.END, clock.time(path.end), None, None)
     theta, bench = end_theta(dragon, path)
     if theta >= path.start_theta:
         raise InvalidValue(

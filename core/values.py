@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from functools import wraps
 from numbers import Real
@@ -36,24 +37,25 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 
     raises: InvalidValue naming the field, the value, its unit and the limit
     """
-    if not isinstance(value, Real) or isinstance(value, bool):
+    if type(value) is not float and (not isinstance(value, Real) or isinstance(value, bool)):
         raise InvalidValue(name, f"{name} must be a number, got {value!r}")
     try:
-        number, shown = float(value), f"{said(float(value))} {unit}".rstrip()
+        number = float(value)
     except OverflowError as error:  # an int of Python may have any number of digits
-        raise InvalidValue(
-            name, f"{name} must be from {low:g} to {high:g} {unit}".rstrip() + ", got 1e308 or more"
-        ) from error
+        rule = f"from {low:g} to {high:g} {unit}".rstrip()
+        raise InvalidValue(name, f"{name} must be {rule}, got 1e308 or more") from error
+    if low <= number <= high and math.isfinite(number) and not (open_low and number == low):
+        return number
     limit_unit = f" {unit}" if unit else ""
-    if not np.isfinite(number):
-        raise InvalidValue(name, f"{name} must be a finite number, got {shown}")
-    if number < low or (open_low and number == low):
-        if low == 0.0:
-            raise InvalidValue(name, f"{name} must be {'positive' if open_low else 'zero or more'}, got {shown}")
-        raise InvalidValue(name, f"{name} must be at least {low:g}{limit_unit}, got {shown}")
-    if number > high:
-        raise InvalidValue(name, f"{name} must be at most {high:g}{limit_unit}, got {shown}")
-    return number
+    if not math.isfinite(number):
+        rule = "a finite number"
+    elif number > high:
+        rule = f"at most {high:g}{limit_unit}"
+    elif number <= 0.0 <= low:
+        rule = "positive" if open_low or low > 0.0 else "zero or more"
+    else:
+        rule = f"at least {low:g}{limit_unit}"
+    raise InvalidValue(name, f"{name} must be {rule}, got {said(number)}{limit_unit}")
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
@@ -88,8 +90,6 @@ def asked_of(name: str, kind: type) -> Callable[[Callable[P, R]], Callable[P, R]
 
 def checked_size(name: str, value: object) -> float:
     """A positive length in [SIZE_MIN, SIZE_MAX] metres."""
-    if isinstance(value, Real) and not isinstance(value, bool) and value <= 0.0:
-        raise InvalidValue(name, f"{name} must be positive, got {said(float(value))} m")
     return checked_number(name, value, "m", SIZE_MIN, SIZE_MAX)
 
 

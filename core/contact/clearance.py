@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from core import plots
 from core.budget import Budget, bounded
 from core.clock import Clock
-from core.contact.fold import last_travel, least_to_fold
+from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES, Ended
-from core.contact.search import NEAR_WORK_BUDGET, Search
+from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Dance, RunEnd
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue
@@ -156,7 +156,7 @@ def _at(search: Search, time: Floats, clock: Clock) -> tuple[Floats, NDArray[np.
 
 def _grid(search: Search, begin: float, until: float) -> list[float]:
     """Travels between two at which clearances are sampled [m]."""
-    count = search.samples(until - begin, PROFILE_STEP * search.extremes[1])
+    count = search.samples(until - begin, PROFILE_STEP * search.rings.all_shortest)
     grid: list[float] = np.linspace(begin, until, count).tolist()
     return grid
 
@@ -210,7 +210,7 @@ def least_clearance(
     to_fold = dance.nears_fold(until)
     strayed = checked_stray(stray, dance.dragon)
     search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
-    last = last_travel(clock.place(until), to_fold)
+    last = before_fold(clock.place(until)) if to_fold else clock.place(until)
     fold = end if to_fold else None
     (distance, travel, pair), at_least = least_over(search, clock.place(begin), last, clock.slowest, fold)
     if distance == 0.0:
@@ -255,7 +255,7 @@ def least_over(
                 proven = max(proven or 0.0, left or 0.0) or None
                 break
             proven_to = max(proven_to, found.proven)
-            reach = PROFILE_STEP * search.extremes[1]
+            reach = PROFILE_STEP * search.rings.all_shortest
             touching = found.touching
             assert touching is not None
             best = min(best, refined_dip(search, max(begin, touching - reach), touching, min(until, touching + reach)))

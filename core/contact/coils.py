@@ -27,7 +27,7 @@ STRETCH = 0.5 * math.pi
 FOOT = 1.67
 # Amount by which bounds must exceed the margin [m], far above their rounding. The lengths in their sums are together
 # below 4 RADIUS_MAX (longer chords or a wider pitch are not handled). The error of ring_least() is at most 1e-11 of
-# them (RING_ROUNDING of core/contact/search.py), 4e-7 m; where it has a bound, the relative error of d is at most 2,000
+# them (LEAST_ROUNDING of core/kernels/rings.py), 4e-7 m; where it has a bound, the relative error of d is at most 2,000
 # u, so that of quotients by it 1e-12, 4e-8 m; all other terms are good to 50 u, 2e-10 m. Between the coils the path is
 # at most 1e-8 m beside its pieces, because joints miss by at most 1e-9 m and rad (core/paths/route.py).
 CLEARLY = 1e-6
@@ -151,11 +151,8 @@ def wholly_outside(dragon: Dragon, growth: float, radius: float) -> float:
 
 def _rings(dragon: Dragon) -> kernels.Rings:
     """Input of the kernels' ring bounds for a dragon whose benches may all be the outer one of a pair."""
-    chords, rings = dragon.chords[: dragon.uniform_from + 1], kernels.Rings()
-    rings.chord = rings.all_chord = float(chords.max())
-    rings.shortest = rings.all_shortest = float(chords.min())
-    rings.between_shortest = float(chords[min(1, chords.size - 1) :].min())  # the head lies between no two others
-    rings.overhang, rings.half_width = rings.all_overhang, rings.all_half_width = _sideways(dragon)
+    rings = kernels.Rings()
+    rings.measure(dragon.chords, dragon.overhangs, dragon.widths, dragon.lengths, dragon.uniform_from, 0)
     return rings
 
 

@@ -21,8 +21,8 @@ from core.budget import Budget, bounded
 from core.clock import Clock
 from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
 from core.contact.clearance import Graze
-from core.contact.fold import approach_fold, last_travel
-from core.contact.march import BRACKETS_GRAZING, Ended
+from core.contact.fold import approach_fold
+from core.contact.march import BRACKETS_GRAZING, TOUCHES, Ended
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Dance, EndReason, RunEnd
@@ -52,6 +52,14 @@ class Outcome(StrEnum):
     CONTACT_AT_START = "contact_at_start"
     CLEAR = "clear"
     UNDECIDED = "undecided"
+
+
+OUTCOMES = {
+    Ended.REACHED: Outcome.CLEAR,
+    Ended.STUCK: Outcome.UNDECIDED,
+    Ended.TOUCHED: Outcome.CONTACT,
+    Ended.TOUCHED_AT_START: Outcome.CONTACT_AT_START,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,12 +247,12 @@ def contact_within(
     clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
     search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
     search.timing = clock.rounding(until)
+    first, last = clock.place(begin), clock.place(until)
     to_fold = dance.nears_fold(until)
-    last = last_travel(clock.place(until), to_fold)
-    if to_fold:
-        state, found, tolerance = approach_fold(search, clock.place(begin), last, head_speed, end)
-    else:
-        state, found, tolerance = search.approach(clock.place(begin), last, head_speed)
+    stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
+    state, found, tolerance = search.approach(first, stops[0][0], head_speed)
+    if to_fold and state not in TOUCHES:
+        state, found, tolerance = approach_fold(search, first, stops, head_speed, end, (state, found, tolerance))
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
     if (
         not (strayed or dance.passages)
@@ -255,7 +263,7 @@ def contact_within(
         if narrower is not None:
             found, tolerance = narrower, narrow
     if state is Ended.STUCK:
-        until = _known_overlap(search, found.proven, last, clock, until)
+        until = _known_overlap(search, found.proven, stops[-1][0], clock, until)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     return _result(dance, search, state, found, end, (begin, until), tolerance)
@@ -280,9 +288,7 @@ def _result(
     if found.graze is not None:
         graze = Graze(max(clock.time(found.graze.travel), span[0]), found.graze.gap, found.graze.benches)
     proven = end.time if state is Ended.REACHED else max(clock.time(found.proven), span[0])
-    outcome = {Ended.REACHED: Outcome.CLEAR, Ended.STUCK: Outcome.UNDECIDED, Ended.TOUCHED: Outcome.CONTACT}.get(
-        state, Outcome.CONTACT_AT_START
-    )
+    outcome = OUTCOMES[state]
     method = _method(dance, search, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
     certificate = Evidence(method, found.steps, clear_until, found.bend, graze)
@@ -331,7 +337,7 @@ def _touching_features(
     met = kernels.bench_separation(*pair, search.own_sizes, search.rows[0])
     corner, edge = None, None
     for bench, feature in zip(pair, (met.feature_a, met.feature_b), strict=True):
-        x, y, ux, uy = search.rows[0, bench, MX : UY + 1]
+        x, y, ux, uy = search.rows[0, bench, MX : UY + 1].tolist()
         centre_on_left = int(y * ux < x * uy)
         if feature >= FRONT:
             edge = Feature(bench, EDGES[centre_on_left][feature - FRONT])

@@ -12,21 +12,14 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.march import TOUCHES, TRAVEL_ROUNDING, Ended
+from core.contact.march import TOUCHES, Ended
 from core.contact.search import Search, joined
 from core.dance import RunEnd
 from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_ROOT, THETA
 from core.kernels.results import Marched
 from core.values import Floats
 
-# Length of the last part before a fold that only the bound on the remaining motion covers [m].
-FOLD_SLIVER = 1e-9
-# Distances before the fold at which the march may end, as shares of the chord of the bench that folds [1]. At the first
-# one the bound is enough for pitches from 0.66 to 2 m, after half of the steps; at the second one also with a fifth of
-# that clearance. (With 1e-3 as the first one it is enough from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1
-# times as long as a contact; measured 2026-11-22.)
-# Number of samples on that way to find a graze [1].
-FOLD_WAYS = (3e-4, 3e-5)
+# Number of samples on the rest of the way to a fold, to find a graze there [1].
 WAY_SAMPLES = 12
 # Most parts into which the way to a fold is divided; each takes 0.1 to 0.3 ms.
 FOLD_STRETCHES = 200
@@ -36,38 +29,39 @@ THETA_ROUNDING = 1e-12
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 
 
-def last_travel(until: float, to_fold: bool) -> float:
-    """End of the march for a run until a travel [m]: a little before a fold."""
-    return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until if to_fold else 0.0)
-
-
 # A march that continues begins at twice that distance before the fold, so that it also sees a graze at the seam. If the
 # run begins where the ring bound clears all pairs (`rings_reach`), that march need not follow all pairs again, because
 # everything before it is clear.
 def approach_fold(
-    search: Search, begin: float, last: float, head_speed: float, end: RunEnd
+    search: Search,
+    begin: float,
+    stops: list[tuple[float, float]],
+    head_speed: float,
+    end: RunEnd,
+    marched: tuple[Ended, Marched, float],
 ) -> tuple[Ended, Marched, float]:
-    """Search.approach() from a travel to a fold, with `last` a little before it [m]; REACHED: clear up to the fold.
+    """Search.approach() from a travel to a fold [m]; REACHED: clear up to the fold.
 
-    The march ends FOLD_WAYS before the fold. It continues if the bound is not enough there, or if a narrower graze than
-    those before may lie ahead.
+    stops: Search.fold_stops(); marched: Search.approach() to the first of them
+    The march continues beyond a stop if the bound is not enough there, or if a narrower graze than those before may lie
+    ahead.
     """
     assert end.theta is not None
-    assert end.bench is not None
     start, opening, passed = begin, True, Marched(begin)
+    state, found, tolerance = marched
+    (stop, way), *further = stops
+    last = stops[-1][0]
     rings_reach = search.travel_at(search.clear_radius / search.growth) > begin
-    for part in FOLD_WAYS:
-        way = part * float(search.dragon.chords[end.bench])
-        early = min(last, search.travel_at(end.theta) - way)
-        if start < early - way:
-            state, found, tolerance = search.approach(start, early, head_speed, opening=opening)
-            found = joined(passed, found)
-            if state in TOUCHES or (state is Ended.REACHED and _leaves(search, early, last, found, end.theta)):
-                return state, found, tolerance
-            if state is not Ended.REACHED or not rings_reach:
-                break
-            start, opening, passed = early - way, False, found
-    state, found, tolerance = search.approach(start, last, head_speed, opening=opening)
+    while further:
+        found = joined(passed, found)
+        if state in TOUCHES or (state is Ended.REACHED and _leaves(search, stop, last, found, end.theta)):
+            return state, found, tolerance
+        if state is Ended.REACHED and rings_reach:
+            start, opening, passed = stop - way, False, found
+        else:
+            further = further[-1:]
+        (stop, way), *further = further
+        state, found, tolerance = search.approach(start, stop, head_speed, opening=opening)
     found = joined(passed, found)
     if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK

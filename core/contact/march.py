@@ -1,4 +1,4 @@
-"""A march: the width of its bracket, the error of its travels, and how it ended."""
+"""A march: the width of its bracket, the error of its travels, its last part before a fold, and how it ended."""
 
 from __future__ import annotations
 
@@ -16,6 +16,13 @@ BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
 # and the polar angle there (spiral_theta() ends within 7 u of the remaining arc length), and 2 u for a travel that
 # becomes a time and a travel again.
 TRAVEL_ROUNDING = 2e-15
+# Length of the last part before a fold that only the bound on the remaining motion covers [m].
+FOLD_SLIVER = 1e-9
+# Distances before the fold at which the march may end, as shares of the chord of the bench that folds [1]. At the first
+# one the bound is enough for pitches from 0.66 to 2 m, after half of the steps; at the second one also with a fifth of
+# that clearance. (With 1e-3 as the first one it is enough from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1
+# times as long as a contact; measured 2026-11-22.)
+FOLD_WAYS = (3e-4, 3e-5)
 
 
 class Ended(StrEnum):

@@ -18,16 +18,21 @@ from core.contact.march import (
     BRACKET_MIN,
     BRACKETS_GRAZING,
     ENDS,
+    FOLD_SLIVER,
+    FOLD_WAYS,
     TOUCHES,
     TRAVEL_ROUNDING,
     Ended,
 )
+from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels.constants import (
+    CHORD,
     COIL_GROWTH,
     EDGES_PER_WORK,
     FREE,
     HALF_LENGTH,
+    HALF_WIDTH,
     MX,
     MY,
     RADIUS,
@@ -38,7 +43,6 @@ from core.kernels.constants import (
 from core.kernels.results import Marched
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.sampling import bisected
 from core.tolerance.reach import Reach, directions, reach
 from core.values import Floats
 
@@ -51,12 +55,6 @@ NEAR_WORK_BUDGET = 5e6
 # Largest number of samples of a dance [1], and largest share of the work for them [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
-# Relative width to which the clear radius is bisected [1].
-CLEAR_WIDTH = 1e-3
-# Largest error of the ring bound, relative to the lengths in it [1]: at most 64 sums, products and roots. d^2 =
-# radius^2 - foot^2 is at least a thousandth of radius^2 (core/kernels/rings.py), so the relative error of d is at most
-# 2,000 u.
-RING_ROUNDING = 1e-11
 
 
 class Search:
@@ -64,9 +62,7 @@ class Search:
 
     dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
     stray: [m]; kinds: the hulls of that ground, none without a stray, with the indices in `covered`
-    extremes: longest and shortest chord, longest overhang, half width of all benches, chord and half width of those
-        that can be the outer bench of a pair [m]; rings: the same and more for the kernels, with bounds for the current
-        path and margin
+    rings: lengths of the benches for the kernels, with bounds for the current path and margin
     sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
         of edges at rest [m], on routes only. With edges, every pair is a bench and an edge: edge e has the bench number
         room + 1 + e
@@ -104,21 +100,9 @@ class Search:
             dragon = ground.bounds
         self.dragon = dragon
         self.edges = np.empty((0, 4)) if edges is None else edges
-        alike = dragon.uniform_from
-        # A few reductions of all columns together, because this takes a good part of the time of a first contact.
-        sizes = (dragon.chords, dragon.overhangs, 0.5 * dragon.widths, dragon.lengths)
-        columns = np.array([column[: alike + 1] for column in sizes])
-        outer = columns[:, min(2, alike) :]
-        longest, overhang, half_width, self.longest = columns.max(axis=1).tolist()
-        outer_chord, outer_overhang, outer_half_width, _ = outer.max(axis=1).tolist()
-        shortest, outer_shortest = columns[0].min(), outer[0].min()
-        self.extremes = (longest, shortest, overhang, half_width, outer_chord, outer_half_width)
         self.rings = rings = kernels.Rings()
-        rings.chord, rings.shortest = outer_chord, outer_shortest
-        rings.overhang, rings.half_width = outer_overhang, outer_half_width
-        rings.all_chord, rings.all_shortest, rings.all_overhang = longest, shortest, overhang
-        rings.all_half_width, rings.all_radius = half_width, math.hypot(0.5 * self.longest, half_width)
-        rings.between_shortest = float(columns[0, min(1, alike) :].min())
+        rings.measure(dragon.chords, dragon.overhangs, dragon.widths, dragon.lengths, dragon.uniform_from, 2)
+        rings.all_radius = math.hypot(0.5 * rings.all_length, rings.all_half_width)
         if ground is not None:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
@@ -133,11 +117,11 @@ class Search:
         if isinstance(path, Route):
             self.clear_radius = radius = FREE
             if path.tail_begin is None and not len(self.edges) and self.dragon.benches >= 3:
-                radius = self._clear_radius(float(path.table[0, COIL_GROWTH]))
+                radius = float(kernels.clear_radius(float(path.table[0, COIL_GROWTH]), margin, self.rings))
             places = clear_places(path, self.dragon, margin, radius, self.travel_rounding)
             self.rings.clear_place, self.rings.end_place = places
         else:
-            self.clear_radius = self._clear_radius(path.growth)
+            self.clear_radius = float(kernels.clear_radius(path.growth, margin, self.rings))
         self.rings.clear_radius = self.clear_radius
         if self.room:
             self._set_scene()
@@ -152,7 +136,9 @@ class Search:
 
     def travel_rounding(self, *travels: float) -> float:
         """Largest error of travels up to these, in the kernels and as times [m]."""
-        furthest = max(self.place, *(self.place - travel for travel in travels), *map(abs, travels))
+        furthest = self.place
+        for travel in travels:
+            furthest = max(furthest, self.place - travel, abs(travel))
         return self.path.slide + self.timing + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
@@ -182,9 +168,10 @@ class Search:
     def _sizes(self, dragon: Dragon, benches: int) -> Floats:
         """Rows for a number of leading benches of a dragon, and empty ones for the edges at rest."""
         lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
-        columns = [dragon.chords[:benches], 0.5 * lengths, 0.5 * widths, 0.5 * np.hypot(lengths, widths)]
         sizes = np.zeros((benches + 1 + len(self.edges), kernels.SIZE_COLUMNS))
-        sizes[:benches] = np.stack(columns, axis=1)
+        sizes[:benches, CHORD] = dragon.chords[:benches]
+        sizes[:benches, HALF_LENGTH], sizes[:benches, HALF_WIDTH] = 0.5 * lengths, 0.5 * widths
+        sizes[:benches, RADIUS] = 0.5 * np.hypot(lengths, widths)
         return sizes
 
     def spend(self, work: float) -> None:
@@ -197,30 +184,6 @@ class Search:
         step_work = self.room * (1.0 + len(self.edges) / EDGES_PER_WORK)
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
-
-    def ring_least(self, radius: float) -> float:
-        """Lower bound of the separation of pairs whose inner bench leads at this radius or further out [m]."""
-        least = float(kernels.ring_least(self.growth, self.growth, radius, self.rings))
-        return least - self.ring_rounding(radius, self.growth)
-
-    def ring_rounding(self, radius: float, growth: float) -> float:
-        """Largest error of kernels.ring_least() for growths up to this one [m]."""
-        return RING_ROUNDING * (radius + 2.0 * math.pi * growth + float(self.longest))
-
-    def _clear_radius(self, growth: float) -> float:
-        """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so
-        that a handle which is computed to be there is; FREE if none."""
-
-        def clear(radius: float) -> bool:
-            least = float(kernels.ring_least(growth, growth, radius, self.rings))
-            return least > self.margin + self.ring_rounding(radius, growth)
-
-        high = 1.0
-        while not clear(high):
-            high *= 4.0
-            if high > 1e9:
-                return FREE
-        return bisected(clear, 0.0, high, relative=CLEAR_WIDTH)[1] * (1.0 + float(kernels.CLEAR_SPARE))
 
     def travel_at(self, theta: float) -> float:
         """Head travel from the start of a spiral to theta [m]."""
@@ -276,6 +239,8 @@ class Search:
         """march() between two travels [m] with a bracketed contact; the third value is the half width of it [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin, opening=opening)
+        if state is not Ended.STUCK or found.touching is None:
+            return state, found, tolerance
         for wider in sorted({*BRACKETS_GRAZING, *(wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING)}):
             if state is not Ended.STUCK or found.touching is None:
                 break
@@ -289,6 +254,22 @@ class Search:
                     state, found = self.march(until, tolerance, start=begin, opening=opening)
                     found = found._replace(proven=max(proven, found.proven))
         return state, found, tolerance
+
+    def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
+        """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].
+
+        The last one is so near to the fold that its distance does not matter.
+        """
+        assert end.theta is not None
+        assert end.bench is not None
+        stops, last = [], before_fold(until)
+        for part in FOLD_WAYS:
+            way = part * float(self.dragon.chords[end.bench])
+            early = min(last, self.travel_at(end.theta) - way)
+            if begin < early - way:
+                stops.append((early, way))
+                begin = early - way
+        return [*stops, (last, 0.0)]
 
     def surely_within(self, travel: float, pair: tuple[int, int]) -> bool:
         """True if two benches are certainly within the margin after a travel [m], in spite of rounding."""
@@ -317,11 +298,11 @@ class Search:
     def _followed(self, travel: float, leaders: int) -> int:
         """Number of benches behind the leaders of a spiral that can be as near to them as the leaders' own sizes."""
         start, growth = self.theta_at(travel), self.growth
-        rear = growth * start + leaders * self.extremes[0]
-        reach = kernels.leaders_reach(growth, growth * start, rear, self.rings) + self.longest
+        rear = growth * start + leaders * self.rings.all_chord
+        reach = kernels.leaders_reach(growth, growth * start, rear, self.rings) + self.rings.all_length
         beyond = kernels.radius_beyond(growth, reach, self.rings) / growth
         arc = growth * (kernels.spiral_arc(max(beyond, start)) - kernels.spiral_arc(start))
-        return 2 + int(arc / self.extremes[1])
+        return 2 + int(arc / self.rings.all_shortest)
 
     def rates(self, travel: float) -> Floats:
         """Speed of every handle along the path over the head's after a travel [1]; negative for one that moves back."""
@@ -338,6 +319,11 @@ class Search:
         travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
         self.budget.look()
         return travel
+
+
+def before_fold(until: float) -> float:
+    """Last travel of a march to a fold at a travel [m]."""
+    return until - (FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * until)
 
 
 def joined(passed: Marched, further: Marched) -> Marched:

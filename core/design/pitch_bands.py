@@ -62,7 +62,7 @@ class Bands:
         self.graze: tuple[tuple[int, int], float] | None = None
         self.straight = Straight(search.dragon)
         # outside the circle the path curves so little that no handle moves backwards and no bench folds
-        most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.extremes[0]) / radius
+        most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.rings.all_chord) / radius
         self.bent_little = most <= kernels.BEND_LIMIT
         self.total = self.straight.total
         self._make_room(search.room)
@@ -73,8 +73,7 @@ class Bands:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """True if the ring bound excludes contacts from a head radius outwards for all growths in [low, high]."""
-        least = float(kernels.ring_least(low, high, radius, self.search.rings, self.total))
-        return least > self.margin + self.search.ring_rounding(radius, high)
+        return bool(kernels.ring_clears(low, high, radius, self.margin, self.search.rings, self.total))
 
     def _make_room(self, benches: int) -> None:
         self.rows = np.zeros((2, 2, benches + 1, kernels.CHAIN_COLUMNS))

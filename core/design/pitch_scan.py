@@ -11,9 +11,9 @@ import numpy as np
 
 from core import plots
 from core.budget import Budget, Halted, within
-from core.contact.fold import clear_to_fold, last_travel
+from core.contact.fold import clear_to_fold
 from core.contact.march import Ended
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
@@ -112,7 +112,7 @@ class Stops:
         end = Dance(self.dragon, path).end
         search = self._search(path)
         to_fold = end.reason is EndReason.FOLD
-        last = last_travel(end.time, to_fold)
+        last = before_fold(end.time) if to_fold else end.time
         tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
         state, found = search.march(last, tolerance)
         if state is Ended.STUCK and found.touching is not None:

@@ -6,9 +6,9 @@ import math
 
 from core import kernels
 from core.budget import Budget, within
-from core.contact.fold import THETA_ROUNDING, clear_to_fold, last_travel
+from core.contact.fold import THETA_ROUNDING, clear_to_fold
 from core.contact.march import Ended
-from core.contact.search import Search
+from core.contact.search import Search, before_fold
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
@@ -85,7 +85,7 @@ class Ways:
         if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
-        last = min(stop, last_travel(end.time, True))
+        last = min(stop, before_fold(end.time))
         state, found = search.march(last, width or CONTACT_WIDTH)
         if (state is Ended.STUCK and found.touching is None) or (state is Ended.REACHED and last < stop):
             state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK

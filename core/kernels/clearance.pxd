@@ -1,12 +1,13 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.records cimport Closest, Faced, Pair
-from core.kernels.rectangles cimport bench_of, pair_gap, row_separation
+from core.kernels.rectangles cimport bench_gap_within, row_separation
 from core.kernels.hulls cimport hulls_met, nearest_hulls
 from core.kernels.chain cimport place_chain
 from core.kernels.scene cimport Scene
 
 cdef Py_ssize_t BLOCK
+cdef double LIMIT_ROUNDING
 
 cdef double row_gap(Scene scene, Py_ssize_t i, Py_ssize_t j, double[:, ::1] chain) noexcept nogil
 

@@ -7,7 +7,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.hulls import hulls_met, nearest_hulls
     from core.kernels.records import Closest, Pair
-    from core.kernels.rectangles import bench_of, pair_gap, row_separation
+    from core.kernels.rectangles import bench_gap_within, row_separation
 
 
 def row_gap(scene, i, j, chain):
@@ -15,9 +15,16 @@ def row_gap(scene, i, j, chain):
     return row_gap_within(scene, i, j, NO_LIMIT, chain)
 
 
+# Part of the lengths by which a limit is raised, so that rounding decides nothing about pairs at the limit itself [1]:
+# far above the few roundings of a separation.
+LIMIT_ROUNDING = 1e-12
+
+
 def row_gap_within(scene, i, j, limit, chain):
     """row_gap() where that is at most limit; elsewhere a value between limit and row_gap() [m]."""
-    gap = pair_gap(bench_of(i, scene.sizes, chain), bench_of(j, scene.sizes, chain))
+    sizes: cython.double[:, ::1] = scene.sizes
+    raised = limit + LIMIT_ROUNDING * (limit + sizes[i, RADIUS] + sizes[j, RADIUS])
+    gap = bench_gap_within(i, j, raised, sizes, chain)
     if scene.kinds.some and gap < limit:
         return nearest_hulls(scene.kinds, i, j, j > scene.room, limit, scene.sizes, chain).gap
     return gap

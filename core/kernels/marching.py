@@ -147,7 +147,7 @@ class March(Found):
         graze = None
         if self.grazed:
             graze = Dip(float(self.graze_gap), float(self.graze_travel), (self.graze_first, self.graze_second))
-        return Found.result(self)._replace(bend=float(self.bend), graze=graze)
+        return Found.result(self, self.bend, graze)
 
     def repeats_ahead(self, scene):
         """Whether the head is still before rings.end_place, beyond which nothing touches (rings.py)."""

@@ -13,8 +13,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # SWAY. So a gap along an axis fixed in bench i, and the separation of two benches, is good to
 #     G = E_i + E_j + u (|M_i| + |M_j| + D) + (W_i + W_j + 40 u) (D + rho_i + rho_j),  D = |M_j - M_i|,
 # as each corner of j is within rho_j of M_j, and within D + rho_j of M_i. The last term has room for the operations of
-# gap_along(), pair_gap() and least_between(), fewer than 32 on lengths up to D + rho_i + rho_j in all, and for a corner
-# axis whose length is 1 +- 8 u. A bound over an interval counts as proven only if it exceeds the margin by G.
+# gap_along(), pair_gap_within() and least_between(), fewer than 32 on lengths up to D + rho_i + rho_j in all, and for a
+# corner axis whose length is 1 +- 8 u. A bound over an interval counts as proven only if it exceeds the margin by G.
 
 
 def gap_along(i, j, along, left, sizes, chain):

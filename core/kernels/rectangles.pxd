@@ -24,8 +24,6 @@ cdef Seen seen_from(Rectangle a, Rectangle b) noexcept nogil
 cdef double face_gap(Seen seen) noexcept nogil
 cdef double point_gap_squared(double x, double y, double hl, double hw) noexcept nogil
 cdef double corners_gap_squared(Seen seen) noexcept nogil
-cdef double pair_gap(Rectangle a, Rectangle b) noexcept nogil
-
 @cython.locals(a_seen=Seen, b_seen=Seen)
 cdef double pair_gap_within(Rectangle a, Rectangle b, double limit) noexcept nogil
 
@@ -40,6 +38,10 @@ cdef void corner_witness(Rectangle a, Seen seen, Witnesses out) noexcept nogil
 
 cdef Rectangle framed(double[:, ::1] frames, Py_ssize_t i) noexcept nogil
 cdef Rectangle bench_of(Py_ssize_t i, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
+
+cdef double bench_gap_within(
+    Py_ssize_t i, Py_ssize_t j, double limit, double[:, ::1] sizes, double[:, ::1] chain
+) noexcept nogil
 
 cdef void row_separation(
     Py_ssize_t i, Py_ssize_t j, double[:, ::1] sizes, double[:, ::1] chain, Witnesses out

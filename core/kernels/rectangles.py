@@ -113,15 +113,10 @@ def corners_gap_squared(seen):
     return least
 
 
-def pair_gap(a, b):
-    """Signed separation of two rectangles [m], as pair_separation() but without witnesses."""
-    return pair_gap_within(a, b, NO_LIMIT)
-
-
 def pair_gap_within(a, b, limit):
-    """pair_gap() where that is at most limit >= 0; elsewhere a value above limit and not above pair_gap() [m].
+    """Signed separation of two rectangles where that is at most limit; elsewhere a value above limit, not above it [m].
 
-    Where limit and pair_gap() differ by rounding alone, either case may apply.
+    Where limit and separation differ by rounding alone, either case may apply.
     """
     b_seen = seen_from(a, b)
     from_a = face_gap(b_seen)
@@ -284,6 +279,11 @@ def bench_of(i, sizes, chain):
     return Rectangle(
         chain[i, MX], chain[i, MY], chain[i, UX], chain[i, UY], sizes[i, HALF_LENGTH], sizes[i, HALF_WIDTH]
     )
+
+
+def bench_gap_within(i, j, limit, sizes, chain):
+    """pair_gap_within() of benches i and j of a chain [m]. limit: NO_LIMIT for the separation in any case"""
+    return pair_gap_within(bench_of(i, sizes, chain), bench_of(j, sizes, chain), limit)
 
 
 def row_separation(i, j, sizes, chain, out):

@@ -32,8 +32,8 @@ class Rings:
 
     chord, shortest, overhang, half_width: the longest and the shortest chord, the longest overhang and the largest half
         width of the benches that can be the outer one of a pair
-    all_chord, all_shortest, all_overhang, all_half_width, all_radius: the same, and the largest half diagonal, of all
-        benches
+    all_chord, all_shortest, all_overhang, all_half_width, all_length, all_radius: the same, and the largest length and
+        half diagonal, of all benches
     between_shortest: shortest chord of the benches that can lie between two others
     hulls: whether benches are unions of hulls. Then also corners: of all hulls, see RING_FURTHER; middle_half_width,
         within: of the benches that can be the outer one of a pair, the largest half width of a middle, and the largest
@@ -48,10 +48,35 @@ class Rings:
     def __init__(self):
         self.chord = self.shortest = self.overhang = self.half_width = 0.0
         self.all_chord = self.all_shortest = self.all_overhang = self.all_half_width = self.all_radius = 0.0
-        self.between_shortest = self.clear_radius = self.middle_half_width = self.within = 0.0
+        self.all_length = self.between_shortest = self.clear_radius = self.middle_half_width = self.within = 0.0
         self.hulls = False
         self.clear_place = FREE
         self.end_place = -FREE
+
+    def measure(self, chords, overhangs, widths, lengths, alike, outer):
+        """Set the lengths of rectangles, (n,) each, but all_radius.
+
+        alike, outer: the first bench of the equal ones, and the first that can be the outer one of a pair
+        """
+        self.chord = self.overhang = self.all_chord = self.all_overhang = self.all_length = 0.0
+        self.shortest = self.all_shortest = self.between_shortest = FREE
+        widest = 0.0
+        outer_widest = 0.0
+        for k in range(alike + 1):
+            self.all_chord = max(self.all_chord, chords[k])
+            self.all_shortest = min(self.all_shortest, chords[k])
+            self.all_overhang = max(self.all_overhang, overhangs[k])
+            self.all_length = max(self.all_length, lengths[k])
+            widest = max(widest, widths[k])
+            if k >= min(outer, alike):
+                self.chord = max(self.chord, chords[k])
+                self.shortest = min(self.shortest, chords[k])
+                self.overhang = max(self.overhang, overhangs[k])
+                outer_widest = max(outer_widest, widths[k])
+            if k >= min(1, alike):  # the head lies between no two others
+                self.between_shortest = min(self.between_shortest, chords[k])
+        self.all_half_width = 0.5 * widest
+        self.half_width = 0.5 * outer_widest
 
     def lay(self, corners, middle_half_width, within):
         """Set the lengths of hulls."""
@@ -189,6 +214,42 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     if gap <= 0.0:
         return -FREE
     return gap if gap < same_turn else same_turn
+
+
+# Largest error of ring_least(), relative to the lengths in it [1]: at most 64 sums, products and roots. d^2 =
+# radius^2 - foot^2 is at least DISCERNED radius^2, so the relative error of d is at most 2,000 u.
+LEAST_ROUNDING = 1e-11
+# Relative width to which the clear radius is bisected [1], and the largest one [m].
+CLEAR_WIDTH = 1e-3
+CLEAR_MOST = 1e9
+
+
+def ring_rounding(growth, radius, rings):
+    """Largest error of ring_least() for growths up to this one [m]."""
+    return LEAST_ROUNDING * (radius + TWO_PI * growth + rings.all_length)
+
+
+def ring_clears(growth_low, growth, radius, margin, rings, total=1e150):
+    """Whether ring_least() certainly exceeds the margin."""
+    return ring_least(growth_low, growth, radius, rings, total) > margin + ring_rounding(growth, radius, rings)
+
+
+def clear_radius(growth, margin, rings):
+    """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that
+    a handle which is computed to be there is [m]; FREE if none."""
+    low = 0.0
+    high = 1.0
+    while not ring_clears(growth, growth, high, margin, rings):
+        high *= 4.0
+        if high > CLEAR_MOST:
+            return FREE
+    while high - low > CLEAR_WIDTH * high:
+        middle = 0.5 * (low + high)
+        if ring_clears(growth, growth, middle, margin, rings):
+            high = middle
+        else:
+            low = middle
+    return high * (1.0 + CLEAR_SPARE)
 
 
 # Routes that begin with a coil inwards, which continues outwards behind its beginning. On a route handles only go

@@ -127,10 +127,10 @@ class Found:
         self.meets = True
         self.touching = touching
 
-    def result(self):
+    def result(self, bend=0.0, graze=None):
         """What the steps have found so far, see Marched in results.py."""
         touching = float(self.touching) if self.meets else None
-        return Marched(float(self.proven), touching, (self.first, self.second), self.steps)
+        return Marched(float(self.proven), touching, (self.first, self.second), self.steps, float(bend), graze)
 
 
 class Band:

@@ -2,7 +2,7 @@ cimport cython
 from core.kernels.clearance cimport BLOCK, block_boxes, boxes_apart
 from core.kernels.constants cimport *
 from core.kernels.halt cimport Halt
-from core.kernels.rectangles cimport bench_of, pair_gap, pair_gap_within
+from core.kernels.rectangles cimport bench_gap_within
 
 cdef Py_ssize_t FRONT_X
 cdef Py_ssize_t FRONT_Y

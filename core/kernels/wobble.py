@@ -6,7 +6,7 @@ from cython.cimports.libc.math import fabs, sqrt
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.clearance import BLOCK, block_boxes, boxes_apart
     from core.kernels.constants import *
-    from core.kernels.rectangles import bench_of, pair_gap, pair_gap_within
+    from core.kernels.rectangles import bench_gap_within
 
 # Where each person wants to stand. n_k is the nominal place of handle k at an instant, T its tangent, N = T turned
 # left. Person k wants to stand at w_k = n_k + d_k, d_k = lateral z_k N + forward z'_k T, z and z' normal with variance
@@ -167,7 +167,7 @@ class Wobbler:
                 reach = sizes[i, HALF_WIDTH] + (sine * sizes[j, HALF_LENGTH] + cosine * sizes[j, HALF_WIDTH])
                 if fabs(dy * ux - dx * uy) - reach > APART:
                     continue
-                if pair_gap_within(bench_of(i, sizes, chain), bench_of(j, sizes, chain), 0.0) <= 0.0:
+                if bench_gap_within(i, j, 0.0, sizes, chain) <= 0.0:
                     self.first = i
                     self.second = j
                     return True
@@ -213,7 +213,7 @@ class Wobbler:
         dy = chain[j, MY] - chain[i, MY]
         far = self.sizes[i, RADIUS] + self.sizes[j, RADIUS] + both * most
         if dx * dx + dy * dy <= far * far:
-            room = pair_gap(bench_of(i, self.sizes, chain), bench_of(j, self.sizes, chain)) / both - ROOM_ROUNDING
+            room = bench_gap_within(i, j, NO_LIMIT, self.sizes, chain) / both - ROOM_ROUNDING
             rooms[t, i] = min(rooms[t, i], room)
             rooms[t, j] = min(rooms[t, j], room)
 

@@ -11,7 +11,7 @@ from core.budget import Budget, bounded
 from core.clock import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.contact.search import Search
 from core.dance import Dance
-from core.errors import InvalidValue, said, said_bound
+from core.errors import InvalidValue, said_bound
 from core.kernels.constants import EXCEEDED, KEPT
 from core.sampling import bisected
 from core.shown import Shown
@@ -142,7 +142,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
     benches, alike = search.dragon.benches, search.dragon.uniform_from
     rounding = search.travel_rounding(begin, until)
     samples = max(SAMPLES_MIN, SAMPLED_LINKS // (benches + 1))
-    step = max(SAMPLE_STEP * float(search.extremes[0]), (until - begin) / samples)
+    step = max(SAMPLE_STEP * float(search.rings.all_chord), (until - begin) / samples)
     peak = kernels.Peak(search.interval, search.rows[2], _calm(search), alike, begin, until, rounding)
     peak.sample(step)
     search.budget.afford()
@@ -153,7 +153,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
 
 def _calm(search: Search) -> float:
     """Argument of kernels.Peak that excludes handles which are no faster than those before them."""
-    return search.path.calm(2.0 * kernels.BEND_LIMIT / search.extremes[0])
+    return search.path.calm(2.0 * kernels.BEND_LIMIT / search.rings.all_chord)
 
 
 @asked_of("dance", Dance)
@@ -230,7 +230,7 @@ def _excess_in(search: Search, stretch: Stretch, limit: float) -> FirstExcess | 
 def _excess(search: Search, first: float, last: float, head_speed: float, ratio: float) -> tuple[int, kernels.Excess]:
     """The search for the first excess over a rate between two travels of the head [m], and its outcome."""
     rounding = search.travel_rounding(first, last)
-    step, way = SAMPLE_STEP * float(search.extremes[0]), max(abs(first), abs(last), search.place)
+    step, way = SAMPLE_STEP * float(search.rings.all_chord), max(abs(first), abs(last), search.place)
     limit, kept = ratio * (1.0 + SPEED_ROUNDING), ratio * (1.0 + SPEED_PROVEN)
     width = max(EXCESS_WIDTH * min(1.0, head_speed), TRAVEL_WIDTH * way, 4.0 * rounding)
     excess = kernels.Excess(search.interval, _calm(search))
@@ -260,6 +260,4 @@ def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) 
 
 def checked_limit(speed_limit: object) -> float:
     """The speed limit [m/s], if it is in the allowed range."""
-    if isinstance(speed_limit, (int, float)) and speed_limit <= 0:
-        raise InvalidValue("speed_limit", f"speed_limit must be positive, got {said(speed_limit)} m/s")
     return checked_number("speed_limit", speed_limit, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)

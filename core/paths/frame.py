@@ -44,8 +44,10 @@ class Frame:
 
     def point(self, x: float, y: float) -> Point:
         """Point in the world from one in the own frame [m]."""
-        x, y = self.points(np.array([x, y])).tolist()
-        return x, y
+        if self.is_world:
+            return x, y
+        cos, sin, y = math.cos(self.rotation), math.sin(self.rotation), y if self.clockwise else -y
+        return x * cos - y * sin + self.centre[0], x * sin + y * cos + self.centre[1]
 
     def back(self, world: Floats) -> Floats:
         """Points (..., 2) in the own frame from those in the world [m]."""

@@ -6,7 +6,7 @@ Spiral is the whole dance of the contest; Route joins pieces (Line, Arc, Coil, W
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -33,6 +33,8 @@ class Spiral(Shown):
     pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0
     centre: (x, y) [m]; rotation: of the whole spiral about it [rad], as in a Coil
     clockwise: the direction of the dance; False: its mirror image
+    growth: radial advance per radian [m/rad]; start_theta: polar angle of the start [rad]; length: arc length from the
+        start to the centre [m]
     Negative s is on the outward extension of the same spiral; the centre is at s = length.
     The place of the spiral changes only places, never times, distances or proofs, which are those of `standard`.
 
@@ -47,6 +49,9 @@ class Spiral(Shown):
     centre: Point = (0.0, 0.0)
     rotation: float = 0.0
     clockwise: bool = True
+    growth: float = field(init=False, repr=False, compare=False)
+    start_theta: float = field(init=False, repr=False, compare=False)
+    length: float = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "pitch", checked_size("path.pitch", self.pitch))
@@ -56,6 +61,9 @@ class Spiral(Shown):
             raise InvalidValue("path.clockwise", f"path.clockwise must be True or False, got {self.clockwise!r:.60}")
         turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
         object.__setattr__(self, "start_turns", turns)
+        object.__setattr__(self, "growth", self.pitch / (2.0 * math.pi))
+        object.__setattr__(self, "start_theta", 2.0 * math.pi * turns)
+        object.__setattr__(self, "length", self.growth * float(kernels.spiral_arc(self.start_theta)))
 
     def __repr__(self) -> str:
         given = f"pitch={self.pitch!r}, start_turns={self.start_turns!r}"
@@ -88,25 +96,10 @@ class Spiral(Shown):
         """The same spiral in its own frame: around the origin, clockwise."""
         return self if self.frame.is_world else Spiral(self.pitch, self.start_turns)
 
-    @cached_property
-    def growth(self) -> float:
-        """Radial advance per radian [m/rad]."""
-        return self.pitch / (2.0 * math.pi)
-
     @property
     def curve(self) -> kernels.Curve:
         """The spiral in the form of the kernels."""
         return kernels.spiral_curve(self.growth)
-
-    @cached_property
-    def start_theta(self) -> float:
-        """Polar angle of the start [rad]."""
-        return 2.0 * math.pi * self.start_turns
-
-    @cached_property
-    def length(self) -> float:
-        """Arc length from the start to the centre [m]."""
-        return self.growth * float(kernels.spiral_arc(self.start_theta))
 
     def theta(self, s: Floats | float) -> Floats:
         """Polar angle at arc length s in its own frame. s: (...) [m], at most length; returns (...) [rad]."""
@@ -144,7 +137,7 @@ class Spiral(Shown):
 
     def head(self, s: float) -> HeadState:
         """The head at arc length s [m]."""
-        theta = float(self.theta(s))
+        theta = float(kernels.spiral_theta((self.length - s) / self.growth))
         radius = self.growth * theta
         return HeadState(theta, radius, *self.frame.point(radius * math.cos(theta), radius * math.sin(theta)))
 

@@ -170,7 +170,7 @@ def _safe_stray(field: Field, most: float) -> Found:
             if met.touching is None:
                 break
             proven_to = max(proven_to, met.proven)
-            step = PROFILE_STEP * search.extremes[1]
+            step = PROFILE_STEP * search.rings.all_shortest
             around = (max(begin, met.touching - step), met.touching, min(until, met.touching + step))
             found, limiting = _grazing(field, tried, refined_dip(search, *around))
             stray = min(found, tried)
@@ -191,7 +191,7 @@ def _grazing(
             break
         last, stray = (stray, dip[0]), max(stray + dip[0] / slope, 0.0)
         search = field.search(stray, covered)
-        around, travel = PROFILE_STEP * search.extremes[1], dip[1]
+        around, travel = PROFILE_STEP * search.rings.all_shortest, dip[1]
         dip = refined_dip(search, max(field.span[0], travel - around), travel, min(field.span[1], travel + around))
         if stray != last[0]:
             slope = max(slope, (dip[0] - last[1]) / (last[0] - stray))

@@ -14,8 +14,7 @@ from enum import StrEnum
 import numpy as np
 
 from core.budget import Budget, bounded
-from core.contact.fold import last_travel
-from core.contact.search import NEAR_WORK_BUDGET
+from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges, venue_route
 from core.dance import Dance
 from core.errors import said
@@ -142,7 +141,7 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
     fields, travels = [], (dance.clock.place(span[0]), dance.clock.place(span[1]))
     if dance.dragon.benches > 2:
         to_fold = dance.nears_fold(span[1])
-        last = last_travel(travels[1], to_fold)
+        last = before_fold(travels[1]) if to_fold else travels[1]
         fold = dance.end if to_fold else None
         fields.append(Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:

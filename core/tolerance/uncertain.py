@@ -65,7 +65,7 @@ def uncertain_tolerance(
     def touches(stray: float) -> bool:
         search = Search(longer, spiral, 0.0, stray=stray, covered=covered)
         search.rings.between_shortest -= 2.0 * error
-        return float(kernels.ring_least(low, high, radius, search.rings)) <= search.ring_rounding(radius, high)
+        return not kernels.ring_clears(low, high, radius, 0.0, search.rings)
 
     most = 0.5 * float(shorter.chords.min())
     if not touches(most):

@@ -90,14 +90,12 @@ SEARCH = {
     "core.clock",
     "core.contact.claim",
     "core.contact.first_contact",
-    "core.contact.fold",
     "core.contact.search",
     "core.dance",
     "core.dragon",
     "core.errors",
     "core.paths.frame",
     "core.paths.spiral",
-    "core.sampling",
     "core.values",
 }
 # Where everyone is just before and after, and the four engines.

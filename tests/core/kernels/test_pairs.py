@@ -99,7 +99,8 @@ def test_no_two_benches_outside_a_radius_are_closer_than_the_ring_bound(seed: in
     search, dance = Search(dragon, spiral, 0.0), SlowDance.of(dragon, spiral)
     bounds = 0
     for radius in chord * np.geomspace(0.7, 12.0, 8):
-        bound = search.ring_least(float(radius))
+        at = search.growth, float(radius), search.rings
+        bound = kernels.ring_least(search.growth, *at) - kernels.ring_rounding(*at)
         if bound <= 0.0:
             continue
         bounds += 1

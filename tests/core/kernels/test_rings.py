@@ -38,3 +38,20 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(pitch: float, stray
         radius = search.growth * search.theta_at(travel)
         least = kernels.ring_least(search.growth, search.growth, radius, search.rings)
         assert search.clearance(travel)[0] >= least > -kernels.FREE
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.1])
+@pytest.mark.parametrize("pitch", [0.45, 0.55, 1.7])
+def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(
+    pitch: float, margin: float
+) -> None:
+    rings, growth = Search(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
+    clears = [
+        kernels.ring_clears(growth, growth, part * rings.clear_radius, margin, rings)
+        for part in (0.998, 1.0, 1.1, 10.0)
+    ]
+    assert clears == [False, True, True, True]
+
+
+def test_no_radius_is_clear_where_rings_are_narrower_than_benches() -> None:
+    assert Search(Dragon(), Spiral(0.29), 0.0).clear_radius == kernels.FREE
