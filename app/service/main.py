@@ -166,7 +166,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     registry.register(JobMetrics(lambda: app.state.jobs))
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
-    app.include_router(routes.router())
+    routes.add_calls(app.router)
     app.include_router(jobs.asking)
     app.include_router(grading.router)
     app.include_router(places.router)

@@ -59,6 +59,7 @@ class Reply:
         state = request.app.state
         self.request = request
         self.settings: Settings = state.settings
+        self._comes_later = prefers_later(request.headers)
         self._lanes: Lanes = state.lanes
         self._glances: Glances = state.glances
         self._answers: KeptAnswers = state.answers
@@ -95,7 +96,7 @@ class Reply:
         for one in (headers["ETag"], f'"{tag}{GZIPPED}"'):
             if one in known:
                 return Response(status_code=304, headers={**headers, "ETag": one})
-        if prefers_later(self.request.headers):
+        if self._comes_later:
             given = asked.model_dump(mode="json", exclude_unset=True)
             return self._later(self.request, Task(call.name, given, media_type))
         data: bytes | Iterator[bytes] | None = self._answers.get(tag)
@@ -124,7 +125,7 @@ class Reply:
     def _is_quick(self, call: Call, asked: Wire) -> bool:
         """Whether the event loop may compute the answer itself; never a job, which is written to the disk first."""
         forms = call.question.forms
-        if len(forms) > 1 or prefers_later(self.request.headers):
+        if len(forms) > 1 or self._comes_later:
             return False
         return self._cost(call, asked, forms[0]) <= GLANCE
 
@@ -143,8 +144,7 @@ class Reply:
         """Whether the answer is worth compressing, and the client accepts gzip."""
         least = self.settings.compressed_bytes_min
         large = least > 0 and (not isinstance(data, bytes) or len(data) >= least)
-        coding = accepted(self._listed("accept-encoding") or "identity", ["identity", "gzip"])
-        return large and coding == "gzip"
+        return large and accepted(self._listed("accept-encoding") or "identity", ["identity", "gzip"]) == "gzip"
 
     def _tag(self, asked: Wire, media_type: str) -> str:
         """Strong tag: an answer depends only on the call, its values with all defaults, the form and the build."""
@@ -180,9 +180,10 @@ async def reply_query(request: Request) -> Reply:
 
     raises: Refused (422) for a name that is given twice
     """
-    given = Counter(name for name, _ in request.query_params.multi_items())
-    twice = sorted(name for name, times in given.items() if times > 1)[:ERRORS_MAX]
-    if twice:
+    given = request.query_params.multi_items()
+    if len(given) > len(request.query_params):
+        times = Counter(name for name, _ in given)
+        twice = sorted(name for name in times if times[name] > 1)[:ERRORS_MAX]
         items = [ErrorItem(name=name, detail=f"{name[:60]} is given more than once: give it once") for name in twice]
         raise Refused(422, items[0].detail, items)
     return Reply(request)
@@ -269,8 +270,10 @@ def accepted(header: str | None, offers: Sequence[str]) -> str | None:
     >>> accepted("text/csv, */*;q=0.1", ["application/json", "text/csv"])
     'text/csv'
     """
+    if not header or header == "*/*":
+        return offers[0]
     liked: dict[str, float] = {}
-    for entry in (header or "*/*").split(","):
+    for entry in header.split(","):
         kind, *parameters = (part.strip().lower() for part in entry.split(";"))
         quality = next((part[2:] for part in parameters if part.startswith("q=")), "1")
         liked[kind] = float(quality) if quality.replace(".", "", 1).isdecimal() else 0.0

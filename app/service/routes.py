@@ -42,11 +42,11 @@ QUERY_STATUSES = (406, 414, 422, 429, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 429, 500, 503)
 
 
-def router() -> APIRouter:
-    found = APIRouter()
+def add_calls(router: APIRouter) -> None:
+    """Add every call to the router of the service itself: FastAPI matches a request to a router that is included into
+    another one twice, which takes 0.03 ms (2026-11-23)."""
     for call in CALLS.values():
-        _add(found, call)
-    return found
+        _add(router, call)
 
 
 def _default(body: type[Wire]) -> tuple[Wire, ...]:
