@@ -36,10 +36,11 @@ help:
 
 setup: $(VENV)/compiled
 
+# Without bytecode: Python writes it at the first import, and most installed modules are never imported.
 $(VENV)/installed: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
 	@echo 'Installing the locked packages into $(VENV) (some minutes, once)'
-	@grep -v '^#' requirements.lock | xargs -n 24 -P 2 $(PIP) install --no-deps
+	@grep -v '^#' requirements.lock | xargs -n 24 -P 2 $(PIP) install --no-deps --no-compile
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.
@@ -105,7 +106,7 @@ dist: setup
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
 	@PYTHON='$(PYTHON)' bash .ci/make-venv build/checks
-	@build/checks/bin/python -m pip --disable-pip-version-check --quiet --quiet install check-wheel-contents twine
+	@build/checks/bin/python -m pip --disable-pip-version-check --quiet --quiet install --no-compile check-wheel-contents twine
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
 
