@@ -9,9 +9,11 @@ import sys
 import time
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlencode
 
 import httpx
 import pytest
+from playwright.sync_api import expect
 
 from tests.page import polite
 from tests.page.pending import settled
@@ -41,10 +43,11 @@ def port() -> int:
         return int(free.getsockname()[1])
 
 
-def started(port: int) -> subprocess.Popen[bytes]:
+def started(port: int, deadline_seconds: float = 50.0) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    process = subprocess.Popen(command, cwd=ROOT, env=os.environ | {"BENCH_DRAGON_DEADLINE_SECONDS": "50"}, **quiet)
+    limits = {"BENCH_DRAGON_DEADLINE_SECONDS": str(deadline_seconds)}
+    process = subprocess.Popen(command, cwd=ROOT, env=os.environ | limits, **quiet)
     for _ in range(600):
         try:
             httpx.get(f"http://127.0.0.1:{port}/healthz")
@@ -58,6 +61,38 @@ def started(port: int) -> subprocess.Popen[bytes]:
 def stopped(process: subprocess.Popen[bytes]) -> None:
     process.terminate()
     process.wait(timeout=60)
+
+
+def test_a_file_that_takes_long_becomes_a_job_about_the_same_dance(open_page: Any, server: str, port: int) -> None:
+    """The page opens on a patient service; then one that ends every longer computation at once takes its place."""
+    numbers = {"benches": 60, "pitch": 0.6, "start_turns": 9, "stray": 0.02}
+    process = started(port)
+    try:
+        page = open_page("", base=f"http://127.0.0.1:{port}", failing=True)
+        wire = page.context.new_cdp_session(page)
+        wire.send("Network.enable")
+        wire.send(
+            "Network.setCacheDisabled", {"cacheDisabled": True}
+        )  # or it would give what the page has asked before
+        page.goto(f"{page.url}?{urlencode(numbers | {'time': 'end'})}")
+        settled(page)
+        stopped(process)
+        process = started(port, deadline_seconds=0.001)
+        page.locator("#lost").wait_for(state="hidden")
+        for k, name in enumerate(("Ground that benches sweep, JSON", "Minimum pitch with its proof, JSON"), start=1):
+            page.get_by_role("button", name=name).click()
+            expect(page.locator("#jobs li")).to_have_count(k)
+            expect(page.locator("#jobs li").first).to_have_attribute("data-state", "successful")
+        results = [one.get_attribute("href") for one in page.locator("#jobs a[download]").all()]
+        pitch, ground = (polite.get(f"http://127.0.0.1:{port}/{result}").json() for result in results)
+    finally:
+        stopped(process)
+    end = polite.get(f"{server}/collision-time", params=numbers).json()["time"]
+    path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
+    whole = {"dragon": {"benches": 60}, "path": path, "start": 0.0, "stop": end}
+    assert ground == polite.post(f"{server}/envelope", json=whole).raise_for_status().json()
+    query = {name: value for name, value in numbers.items() if name != "pitch"}
+    assert pitch == polite.get(f"{server}/minimum-pitch", params=query).raise_for_status().json()
 
 
 def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
