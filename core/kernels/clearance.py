@@ -22,9 +22,8 @@ LIMIT_ROUNDING = 1e-12
 
 def row_gap_within(scene, i, j, limit, chain):
     """row_gap() where that is at most limit; elsewhere a value between limit and row_gap() [m]."""
-    sizes: cython.double[:, ::1] = scene.sizes
-    raised = limit + LIMIT_ROUNDING * (limit + sizes[i, RADIUS] + sizes[j, RADIUS])
-    gap = bench_gap_within(i, j, raised, sizes, chain)
+    raised = limit + LIMIT_ROUNDING * (limit + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS])
+    gap = bench_gap_within(i, j, raised, scene.sizes, chain)
     if scene.kinds.some and gap < limit:
         return nearest_hulls(scene.kinds, i, j, j > scene.room, limit, scene.sizes, chain).gap
     return gap
@@ -72,11 +71,10 @@ def beyond_box(i, b, within, boxes, chain):
 
 def least_with(scene, i, first, end, best, chain):
     """The nearer pair: `best`, or row i with the nearest of the rows from first to end - 1."""
-    sizes: cython.double[:, ::1] = scene.sizes
     for j in range(first, end):
         dx = chain[j, MX] - chain[i, MX]
         dy = chain[j, MY] - chain[i, MY]
-        far = sizes[i, RADIUS] + sizes[j, RADIUS] + max(best.gap, 0.0)
+        far = scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + max(best.gap, 0.0)
         if dx * dx + dy * dy <= far * far:
             far = row_gap_within(scene, i, j, best.gap, chain)
             if far < best.gap:
