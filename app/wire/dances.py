@@ -120,7 +120,7 @@ class Strays(Wire):
     @property
     def total_stray(self) -> float | None:
         """The stray in all, as an answer tells it; None for none [m]."""
-        return self.to_stray().total or None
+        return (self.to_stray().total or None) if self.strays else None
 
     def to_stray(self) -> Stray:
         """raises: InvalidValue for a pin wider than its hole"""

@@ -115,8 +115,9 @@ def contact_check(
     rounding = CHECK_DIGITS * float(np.spacing(path.place + abs(first) * head_speed))
     travel = max(CHECK_TRAVEL, rounding) / head_speed
     times = [first if at_start else first - travel, last + travel]
-    front = dragon if whole else dragon.leading(contact.benches[1] + 1)  # A bench does not affect those in front of it.
-    poses = _poses(replace(dance, dragon=front), times, budget)
+    if not whole:  # A bench does not affect those in front of it.
+        dance = replace(dance, dragon=dragon.leading(contact.benches[1] + 1))
+    poses = _poses(dance, times, budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
     pair = contact.benches
     if not contact.stray or contact.gap is None:
