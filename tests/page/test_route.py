@@ -167,7 +167,8 @@ def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answ
         assert page.locator(f"{box} > .old").is_visible()
     page.unroute("**/check")
     page.keyboard.press("Shift+ArrowDown")
-    page.wait_for_function("() => getComputedStyle(document.querySelector('#judgement > .value')).opacity === '1'")
+    settled(page)
+    assert page.evaluate("getComputedStyle(document.querySelector('#judgement > .value')).opacity") == "1"
     assert page.locator("#judgement > .old").is_hidden()
 
 
