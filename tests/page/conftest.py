@@ -46,6 +46,7 @@ GO = """(query) => {
   for (const one of document.querySelectorAll("details")) one.open = one.id === "things";
   document.activeElement.blur();
   scrollTo(0, 0);
+  document.querySelector("#rows").scrollTop = 0;
   return new Promise((resolve) => {
     addEventListener("popstate", resolve, { once: true });
     // The second entry takes what the page still has to write about the address before.

@@ -10,6 +10,9 @@ import httpx
 BUSY = 503
 # Longest that the service may be busy [s].
 PATIENCE = 60.0
+# One for all tests of a process: a new client reads the certificates of the system, which takes 0.04 s. It keeps no
+# connection, because a test may end the service at the other end.
+CLIENT = httpx.Client(timeout=PATIENCE, limits=httpx.Limits(max_keepalive_connections=0))
 
 
 def get(url: str, **how: Any) -> httpx.Response:
@@ -23,7 +26,7 @@ def post(url: str, **how: Any) -> httpx.Response:
 def _asked(method: str, url: str, **how: Any) -> httpx.Response:
     end = time.monotonic() + PATIENCE
     while True:
-        answer = httpx.request(method, url, timeout=PATIENCE, **how)
+        answer = CLIENT.request(method, url, **how)
         if answer.status_code != BUSY or time.monotonic() > end:
             return answer
         time.sleep(float(answer.headers["Retry-After"]))

@@ -147,7 +147,7 @@ def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when
 
 
 def test_dragging_the_pitch_to_045_shows_the_numbers_of_the_service(visit: Any, server: str) -> None:
-    page = visit()
+    page = visit("?benches=40&time=end")
     slider = page.locator("#controls input[type=range]").first
     box = slider.bounding_box()
     page.mouse.move(box["x"] + box["width"] * 0.147, box["y"] + box["height"] / 2)
@@ -159,7 +159,7 @@ def test_dragging_the_pitch_to_045_shows_the_numbers_of_the_service(visit: Any, 
     slider.fill("0.449")
     slider.press("ArrowRight")
     assert page.locator("#pitch").input_value() == "0.45"
-    answer = collision_time(server, pitch=0.45)
+    answer = collision_time(server, pitch=0.45, benches=40)
     text_of(page, "#first-contact .value", f"{answer['time']:.6f} s")
     text_of(page, "#clock", f"{answer['time']:.6f} s")
     text_of(page, "#table-time", f"{answer['time']:.6f} s")
@@ -167,12 +167,12 @@ def test_dragging_the_pitch_to_045_shows_the_numbers_of_the_service(visit: Any, 
 
 
 def test_the_dance_plays_to_the_contact_and_stops_there(visit: Any, server: str) -> None:
-    page = visit("?time=400&rate=10")
+    page = visit("?benches=40&time=400&rate=10")
     text_of(page, "#clock", "400.000000 s")
     page.locator("#inset").wait_for(state="hidden")
     page.locator("#play").click()
     text_of(page, "#play", "Pause")
-    text_of(page, "#clock", f"{collision_time(server)['time']:.6f} s")
+    text_of(page, "#clock", f"{collision_time(server, benches=40)['time']:.6f} s")
     text_of(page, "#play", "Play")
     page.locator("#inset").wait_for()
     page.locator("#back").click()
@@ -232,17 +232,18 @@ def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_set
 
 
 def test_a_fold_is_as_clear_as_a_contact(visit: Any, server: str) -> None:
-    page = visit("?pitch=2&start_turns=8")
+    page = visit("?benches=40&pitch=2&start_turns=8")
     text_of(page, "#first-contact .value", "The dragon folds at")
     assert page.locator("#first-contact").get_attribute("data-outcome") == "folds"
-    text_of(page, "#first-contact p", f"{collision_time(server, pitch=2, start_turns=8)['end']['time']:.6f} s")
+    end = collision_time(server, benches=40, pitch=2, start_turns=8)["end"]
+    text_of(page, "#first-contact p", f"{end['time']:.6f} s")
     text_of(page, "#run-end", "the chain folds")
     text_of(page, "#highest-speed .value", "Grows without bound")
     page.locator("#inset").wait_for(state="hidden")
 
 
 def test_contact_at_the_start_has_its_picture_and_its_depth(visit: Any) -> None:
-    page = visit("?pitch=0.3")
+    page = visit("?benches=40&pitch=0.3")
     text_of(page, "#first-contact .value", "Touching already at the start")
     text_of(page, "#inset figcaption", "overlap by ")
     text_of(page, "#clock", "0.000000 s")
@@ -252,9 +253,9 @@ def test_contact_at_the_start_has_its_picture_and_its_depth(visit: Any) -> None:
 def test_benches_that_overlap_are_said_to_overlap_by_what_the_service_answers(
     visit: Any, server: str, margin: float
 ) -> None:
-    answer = collision_time(server, pitch=0.3, margin=margin)
+    answer = collision_time(server, benches=40, pitch=0.3, margin=margin)
     depth = f"{-1000 * answer['gap']:.3f} mm"
-    page = visit(f"?pitch=0.3&margin={margin}")
+    page = visit(f"?benches=40&pitch=0.3&margin={margin}")
     for language, words in (("English", f"overlap by {depth}"), ("中文", f"重叠 {depth}")):
         page.get_by_role("button", name=language).click()
         for place in ("#first-contact p", "#inset figcaption", "#clearance .reading"):
@@ -296,8 +297,8 @@ def test_rows_stay_in_motion_so_that_none_is_replaced_under_the_mouse(visit: Any
     text_of(page, "#rows tr.chosen", "5 · body 5")
 
 
-def test_two_thousand_benches_are_drawn_and_listed(open_page: Any, server: str) -> None:
-    page = open_page("?benches=2000&time=0")
+def test_two_thousand_benches_are_drawn_and_listed(visit: Any, server: str) -> None:
+    page = visit("?benches=2000&time=0")
     text_of(page, "#table-time", "0.000000")
     page.locator("#rows").press("ArrowUp")
     page.locator("#rows").evaluate("box => box.scrollTo(0, box.scrollHeight)")
@@ -339,12 +340,12 @@ def test_the_files_hold_what_the_service_answers(open_page: Any, server: str) ->
 
 
 def test_the_commands_give_what_the_page_shows(visit: Any, server: str) -> None:
-    page = visit("?pitch=0.5")
+    page = visit("?benches=40&pitch=0.5")
     text_of(page, "#curl", "pitch=0.5")
     get, post = (shlex.split(line) for line in page.locator("#curl").inner_text().splitlines())
-    assert polite.get(get[1]).json() == collision_time(server, pitch=0.5)
+    assert polite.get(get[1]).json() == collision_time(server, benches=40, pitch=0.5)
     table = polite.post(post[1], content=post[-1], headers=dict([post[3].split(": ")])).raise_for_status().json()
-    assert len(table["x"][0]) == 224
+    assert len(table["x"][0]) == 41
 
 
 def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, server: str) -> None:
@@ -372,7 +373,7 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, server: str) 
 
 
 def test_a_link_to_the_turn_opens_at_the_pitch_of_the_contest(visit: Any) -> None:
-    page = visit("?path=turn")
+    page = visit("?path=turn&benches=20")
     assert page.locator("#pitch").input_value() == "1.7"
     page.locator("#pitch").fill("1.8")
     page.wait_for_url(re.compile("pitch=1.8"))

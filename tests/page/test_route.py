@@ -134,8 +134,8 @@ def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
     page.locator(".failures li", has_text="touches well").wait_for(state="detached")
 
 
-def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page: Any) -> None:
-    page = open_page("?path=route&benches=24&route=0,0_90,0")
+def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) -> None:
+    page = visit("?path=route&benches=24&route=0,0_90,0")
     verdict(page, "Can be danced")
     for name in ("inout", "eight", "street", "village", "s"):
         with page.expect_response("**/check") as response:
@@ -146,15 +146,15 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(open_page: A
     # The run ends at one time, wherever it is told.
     shown, end = (page.locator(place).inner_text() for place in ("#clock", "#run-end .value"))
     assert shown == end
-    page = open_page("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
+    page = visit("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
     for name, count in (("street", 2), ("empty", 0)):
         page.locator("#preset").select_option(name)
         page.locator("#points summary", has_text=f": {count}").wait_for()
         assert page.locator("#things li").count() == 2
 
 
-def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answer(open_page: Any) -> None:
-    page = open_page(S_CURVE)
+def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answer(visit: Any) -> None:
+    page = visit(S_CURVE)
     verdict(page, "Can be danced")
     page.locator("#tolerance .value").wait_for()
     page.route("**/check", lambda route: None)
@@ -172,8 +172,8 @@ def test_a_verdict_of_before_is_pale_and_says_so_while_the_service_does_not_answ
     assert page.locator("#judgement > .old").is_hidden()
 
 
-def test_a_dance_that_begins_later_can_begin_at_time_0(open_page: Any) -> None:
-    page = open_page("?path=route&benches=24&route=0,0_150,0", failing=True)
+def test_a_dance_that_begins_later_can_begin_at_time_0(visit: Any) -> None:
+    page = visit("?path=route&benches=24&route=0,0_150,0", failing=True)
     offer = page.get_by_role("button", name="Begin at time 0: head at 40.9 m")
     offer.click()
     page.wait_for_url("**begin=40.9*")

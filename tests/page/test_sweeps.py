@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -22,9 +24,7 @@ MARGINS = {"left": 64, "right": 16, "top": 12, "bottom": 44}
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(
-        tmp_path_factory.mktemp("page"), sweep_processes=1, sweep_designs_max=100, deadline_seconds=50
-    ) as service:
+    with Service(tmp_path_factory.mktemp("page"), sweep_processes=1, deadline_seconds=50) as service:
         yield service
 
 
@@ -121,8 +121,8 @@ def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page
     expect(page.locator("#no-jobs")).to_be_visible()
 
 
-def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service) -> None:
-    page = open_page("?benches=12", base=base(service), failing=True)
+def refuses_in_words(page: Any) -> None:
+    """Below the form stands what is wrong with it."""
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 11), ("width", 0.2, 0.3, 11))
     expect(page.locator("#sweep-error")).to_have_text(
         "A sweep may have at most 100 designs here, and this one has 121."
@@ -131,33 +131,9 @@ def test_refusals_stand_below_the_form_in_words(open_page: Any, service: Service
     expect(page.locator("#sweep-error")).to_have_text("The two parameters must differ.")
 
 
-def test_who_has_the_token_sees_all_jobs(open_page: Any, tmp_path_factory: pytest.TempPathFactory) -> None:
-    with Service(tmp_path_factory.mktemp("token"), token=TOKEN, sweep_processes=1, deadline_seconds=50) as guarded:
-        guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
-        address = guarded.post(SHORT)
-        page = open_page("?benches=12", base=base(guarded), failing=True)
-        ask(page, "collision_time", ("pitch", 0.5, 0.6, 3))
-        expect(page.locator("#sweep-error")).to_contain_text("Jobs and uploads need the token of this service")
-        expect(page.locator("#no-jobs")).to_be_visible()
-        sheet = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
-        page.locator("#files").set_input_files(sheet)
-        expect(page.locator("#grades .error")).to_contain_text("Jobs and uploads need the token of this service")
-        page.locator("#sweeps summary").click()
-        page.locator("#token").fill(TOKEN)
-        page.locator("#token").press("Enter")
-        page.locator("#files").set_input_files(sheet)
-        expect(page.locator("#grades .answer .value")).to_contain_text("unreadable")
-        expect(page.locator("#jobs li", has_text="collision_time")).to_be_visible()
-        page.locator("#sweep button").click()
-        page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch").wait_for()
-        guarded.client.delete(address)
-
-
-def test_everyone_can_use_it(open_page: Any, service: Service) -> None:
-    page = open_page("?benches=20", base=base(service), viewport=PHONE, locale="zh-CN", is_mobile=True)
-    ask(page, "least_clearance", ("pitch", 0.7, 0.9, 4), ("benches", 18, 20, 3))
-    page.locator("#map:visible").wait_for()
-    page.locator("#sweeps summary").click()
+def is_for_everyone(page: Any) -> None:
+    """Form, list and map are accessible in light and dark, and nothing is cut off in either language."""
+    page.locator("[data-lang=zh]").click()
     assert serious(page, "#sweeps") == []
     page.emulate_media(color_scheme="dark")
     assert serious(page, "#sweeps", in_colours=True) == []
@@ -171,6 +147,32 @@ def test_everyone_can_use_it(open_page: Any, service: Service) -> None:
         assert page.evaluate(outside, size["width"]) == []
 
 
+def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any, tmp_path: Path) -> None:
+    limits = {"token": TOKEN, "sweep_processes": 1, "sweep_designs_max": 100, "deadline_seconds": 50}
+    with Service(tmp_path, **limits) as guarded:
+        guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
+        address = guarded.post(SHORT)
+        page = open_page("?benches=12", base=base(guarded), failing=True, viewport=PHONE, is_mobile=True)
+        ask(page, "least_clearance", ("pitch", 0.7, 0.9, 4), ("benches", 18, 20, 3))
+        expect(page.locator("#sweep-error")).to_contain_text("Jobs and uploads need the token of this service")
+        expect(page.locator("#no-jobs")).to_be_visible()
+        sheet = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
+        page.locator("#files").set_input_files(sheet)
+        expect(page.locator("#grades .error")).to_contain_text("Jobs and uploads need the token of this service")
+        page.locator("#sweeps summary").click()
+        page.locator("#token").fill(TOKEN)
+        page.locator("#token").press("Enter")
+        page.locator("#files").set_input_files(sheet)
+        expect(page.locator("#grades .answer .value")).to_contain_text("unreadable")
+        expect(page.locator("#jobs li", has_text="collision_time")).to_be_visible()
+        page.locator("#sweep button").click()
+        page.locator("#jobs li[data-state=successful]", has_text="Least clearance over Pitch and Benches").wait_for()
+        page.locator("#map:visible").wait_for()
+        guarded.client.delete(address)
+        is_for_everyone(page)
+        refuses_in_words(page)
+
+
 def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service) -> None:
     page = open_page("?path=route&benches=3&route=-5,0_6,0", base=base(service))
     page.locator("#judgement .value", has_text="Can be danced").wait_for()
@@ -181,3 +183,10 @@ def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service
         row.get_by_role("link", name="Result").click()
     assert download.value.suggested_filename.endswith(".gif")
     expect(row.get_by_role("button")).to_have_text(["Remove"])
+    # So is that of a spiral, which can be cancelled.
+    page.locator("[data-path=spiral]").click()
+    page.get_by_role("button", name="Film of the dance, GIF").click()
+    expect(page.locator("#jobs li")).to_have_count(2)
+    row = page.locator("#jobs li").first
+    row.get_by_role("button").last.click()
+    expect(row).to_have_attribute("data-state", re.compile("dismissed|successful"))
