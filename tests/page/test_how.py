@@ -34,13 +34,12 @@ def drawn(page: Any) -> Any:
 
 
 @pytest.fixture(scope="module")
-def figures(watched: Any, server: str) -> Iterator[Any]:
+def figures(tabs: Any, server: str) -> Iterator[Any]:
     """A page, and what it complains of, for tests of which none minds the numbers that another one has set."""
-    one = watched("how?lang=en", server, "")
+    one = tabs.opened("how?lang=en", server)
     drawn(one.page)
     yield one
-    one.page.close()
-    one.check()
+    tabs.left(one, server)
 
 
 def test_dragged_numbers_get_the_answers_of_the_service(figures: Any, server: str) -> None:

@@ -186,7 +186,8 @@ def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service
     # So is that of a spiral, which can be cancelled.
     page.locator("[data-path=spiral]").click()
     page.get_by_role("button", name="Film of the dance, GIF").click()
-    expect(page.locator("#jobs li")).to_have_count(2)
-    row = page.locator("#jobs li").first
+    films = page.locator("#jobs li", has_text="Film of the dance")
+    expect(films).to_have_count(2)
+    row = films.first  # the newest
     row.get_by_role("button").last.click()
     expect(row).to_have_attribute("data-state", re.compile("dismissed|successful"))
