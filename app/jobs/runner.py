@@ -1,8 +1,9 @@
 """The one process that runs the jobs of a data folder: python -m app.jobs.runner FOLDER
 
-Each job has its own process (app.jobs.work). A limit, a client that dismisses the job, or the system may kill it
-without harm to other jobs. The file that such a process has written counts as soon as the runner gives it its final
-name; before that the job starts again and gives the same bytes, as an answer depends only on its call.
+A job has a process for itself while it runs (app.jobs.work). A limit, a client that dismisses the job, or the system
+may kill it without harm to other jobs. The file that such a process has written counts as soon as the runner gives it
+its final name; before that the job starts again and gives the same bytes, as an answer depends only on its call. After
+its answer the process waits for the next job, which then begins at once.
 
 input   the end of standard input, which means that the parent has ended: the runner ends too
 state   the store, and the processes of the jobs that run
@@ -48,19 +49,30 @@ LOCK_SECONDS = 5.0
 RETRY_SECONDS = 1.0
 
 
-@dataclass
+@dataclass(eq=False)
 class Work:
-    """A process that does a job.
+    """A process that does jobs, and its present one.
 
-    begun: start on the monotonic clock [s]; most: largest duration [s]; over: True if nobody needs it any more
+    job: None while it waits; begun: start of the job on the monotonic clock [s]; most: largest duration [s]
+    over: True if nobody needs the job any more
     first: time of its first report of progress [s], and the share done then
     """
 
     process: subprocess.Popen[bytes]
-    begun: float
-    most: float
+    job: str | None = None
+    begun: float = 0.0
+    most: float = 0.0
     over: bool = False
     first: tuple[float, float] | None = None
+
+    def give(self, job: str, most: float) -> None:
+        """Begin a job."""
+        self.job, self.begun, self.most, self.first = job, time.monotonic(), most, None
+        assert self.process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            # Not as an argument, because every user can see arguments.
+            self.process.stdin.write(f"{job}\n".encode())
+            self.process.stdin.flush()
 
     def rate(self, share: float) -> float | None:
         """Average rate of progress since the first report [1/s]; None before it."""
@@ -86,7 +98,6 @@ class Work:
 class Word:
     """A message of a process: a line, or None when it has ended."""
 
-    job: str
     work: Work
     said: dict[str, Any] | None
 
@@ -97,8 +108,7 @@ class Runner:
     def __init__(self, store: Store, settings: Settings) -> None:
         self.store, self.settings = store, settings
         self.works: dict[str, Work] = {}
-        # A process that has loaded everything and waits for a job, so that a short job does not need a second to begin.
-        self._spare: subprocess.Popen[bytes] | None = None
+        self._waiting: list[Work] = []
         self._words: queue.Queue[Word] = queue.Queue()
         # Changes that are not in the store yet, because a full disk may refuse them for some time.
         self._unheeded: deque[Word] = deque()
@@ -121,8 +131,6 @@ class Runner:
     def step(self) -> None:
         """Process messages, end dismissed jobs, start waiting ones."""
         self._listen()
-        if self._spare is not None and self._spare.poll() is not None:
-            self._spare = None
         while self._unheeded:
             self._heed(self._unheeded[0])
             self._unheeded.popleft()
@@ -144,30 +152,30 @@ class Runner:
             self._start(taken)
 
     def _start(self, job: str) -> None:
-        process, self._spare = self._spare or self._new(), self._new()
         known, settings = self.store.get(job), self.settings
         most = settings.sweep_seconds_max if known and known.question == SWEEP else settings.job_seconds_max
-        work = Work(process, time.monotonic(), most)
-        self.works[job] = work
-        Thread(target=self._hear, args=(job, work), daemon=True).start()
-        assert process.stdin is not None
-        with contextlib.suppress(BrokenPipeError):
-            # Not as an argument, because every user can see arguments.
-            process.stdin.write(f"{job}\n".encode())
-            process.stdin.flush()
+        work = self.works[job] = self._free()
+        work.give(job, most)
 
-    def _new(self) -> subprocess.Popen[bytes]:
-        return start("app.jobs.work", str(self.store.folder), stdout=subprocess.PIPE)
+    def _free(self) -> Work:
+        """A process without a job: one that has done others, or else a new one."""
+        while self._waiting:
+            work = self._waiting.pop()
+            if work.process.poll() is None:
+                return work
+        work = Work(start("app.jobs.work", str(self.store.folder), stdout=subprocess.PIPE))
+        Thread(target=self._hear, args=(work,), daemon=True).start()
+        return work
 
-    def _hear(self, job: str, work: Work) -> None:
+    def _hear(self, work: Work) -> None:
         assert work.process.stdout is not None
         with work.process.stdout as lines:
             for line in lines:
                 # A killed process may leave half a line.
                 with contextlib.suppress(orjson.JSONDecodeError):
-                    self._words.put(Word(job, work, orjson.loads(line)))
+                    self._words.put(Word(work, orjson.loads(line)))
         work.process.wait()
-        self._words.put(Word(job, work, None))
+        self._words.put(Word(work, None))
 
     def _listen(self) -> None:
         with contextlib.suppress(queue.Empty):
@@ -176,26 +184,43 @@ class Runner:
                 self._unheeded.append(self._words.get_nowait())
 
     def _heed(self, word: Word) -> None:
+        work, job = word.work, word.work.job
+        if word.said is None:
+            self._bury(work)
+            return
+        assert job is not None  # A process without a job says nothing.
         match word.said:
             case {"share": float(share), "rate": rate, "done": int(done), "total": int(total), "size": int(size)}:
-                self.store.proceed(word.job, share, rate, done=done, total=total, size=size)
+                self.store.proceed(job, share, rate, done=done, total=total, size=size)
             case {"share": float(share)}:
-                self.store.proceed(word.job, share, word.work.rate(share))
+                self.store.proceed(job, share, work.rate(share))
             case {"kept": int(kept)}:
-                self.store.resume(word.job, kept)
-            case {"written": str(name), "media_type": str(media_type)}:
-                self.store.succeed(word.job, Path(name), media_type)
-                word.work.end()
-            case {"problem": str(text)}:
-                self.store.fail(word.job, text.encode())
-                word.work.end()
-            case None:
-                if not word.work.over:
-                    self.store.die(word.job, died(word.work.process.returncode))
-                assert word.work.process.stdin is not None
-                with contextlib.suppress(BrokenPipeError):
-                    word.work.process.stdin.close()
-                del self.works[word.job]
+                self.store.resume(job, kept)
+            case {"written": str(name), "media_type": str(media_type), "again": bool(again)}:
+                self.store.succeed(job, Path(name), media_type)
+                self._release(work, job, again)
+            case {"problem": str(text), "again": bool(again)}:
+                self.store.fail(job, text.encode())
+                self._release(work, job, again)
+
+    def _release(self, work: Work, job: str, again: bool) -> None:
+        """The process has done its job: it waits for the next one, or ends."""
+        if again and not work.over:
+            del self.works[job]
+            work.job = None
+            self._waiting.append(work)
+        else:
+            work.end()
+
+    def _bury(self, work: Work) -> None:
+        """The process has ended."""
+        if work.job is not None:
+            if not work.over:
+                self.store.die(work.job, died(work.process.returncode))
+            del self.works[work.job]
+        assert work.process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            work.process.stdin.close()
 
 
 def too_long(seconds: float) -> bytes:
@@ -211,15 +236,20 @@ def died(code: int) -> bytes:
     return problem_of(500, "process-ended", detail).to_json()
 
 
+def end_group() -> None:
+    """End this process and its children."""
+    if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
+        os.killpg(0, signal.SIGKILL)
+    os._exit(1)
+
+
 def follow_input() -> None:
     """Read standard input, and end this process and its children when it ends, because their parent is gone."""
 
     def follow() -> None:
         while os.read(sys.stdin.fileno(), 1024):
             pass
-        if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
-            os.killpg(0, signal.SIGKILL)
-        os._exit(1)
+        end_group()
 
     Thread(target=follow, daemon=True).start()
 

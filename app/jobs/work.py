@@ -1,10 +1,13 @@
-"""The process of one job: python -m app.jobs.work FOLDER, with the job's id on standard input.
+"""A process that does jobs, one after another: python -m app.jobs.work FOLDER
 
-It asks the question and writes the answer into a new file, to which the runner gives its final name. It changes nothing
-in the store, so its death at any moment loses nothing and leaves nothing half done.
+It asks the question of a job and writes the answer into a new file, to which the runner gives its final name. It
+changes nothing in the store, so its death at any moment loses nothing and leaves nothing half done. It takes another
+job as long as none has needed much memory; otherwise it ends.
 
-output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}; for a sweep also
-        {"kept": DESIGNS}, and with the share its rate, the designs and the bytes
+input   a job's id on each line; the end of the input means that the parent has ended: the process ends too
+output  lines of JSON: {"share": 0.5}, {"written": FILE, "media_type": ...} or {"problem": TEXT}; the last two with
+        {"again": true} if the process takes another job; for a sweep also {"kept": DESIGNS}, and with the share its
+        rate, the designs and the bytes
 """
 
 from __future__ import annotations
@@ -14,13 +17,17 @@ import os
 import shutil
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import closing
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
 
 from app.jobs.job import SWEEP
 from app.jobs.mouth import Mouth
-from app.jobs.runner import follow_input
+from app.jobs.runner import end_group
 from app.jobs.store import Store
 from app.jobs.task import Task
 from app.logs import log_to_stderr
@@ -31,6 +38,8 @@ logger = logging.getLogger("app.jobs")
 
 # Lower priority of jobs, so that direct answers come first (man 2 nice).
 NICENESS = 10
+# Largest peak of the resident memory of a process that does another job [bytes]; a new one needs 90 MB.
+SMALL = 256_000_000
 
 
 def limit_memory(most: int) -> None:
@@ -38,6 +47,15 @@ def limit_memory(most: int) -> None:
     if find_spec("resource"):
         resource = import_module("resource")
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def is_small() -> bool:
+    """True if this process never needed much memory, so that the next job finds what it would find in a new one."""
+    if not find_spec("resource"):
+        return False
+    resource = import_module("resource")
+    peak: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak * (1 if sys.platform == "darwin" else 1024) < SMALL
 
 
 def answer(task: Task, settings: Settings, mouth: Mouth, shards: Path) -> bytes | Path | Problem:
@@ -75,8 +93,8 @@ def written(found: bytes | Path, folder: Path) -> Path:
     return Path(name)
 
 
-def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> None:
-    """Run the job until it has an answer or a problem."""
+def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> dict[str, object]:
+    """Run the job until it has an answer or a problem, and return the message that says so."""
     task = Task.from_bytes(store.call(job))
     found = answer(task, settings, mouth, store.shards(job))
     most = settings.job_result_bytes_max
@@ -87,27 +105,43 @@ def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> None:
             found = problem_of(413, "content-too-large", detail)
     if not isinstance(found, Problem):
         try:
-            return mouth.say(written=str(written(found, store.results)), media_type=task.form)
+            return {"written": str(written(found, store.results)), "media_type": task.form}
         except OSError as error:
             detail = f"The answer could not be written into the data folder: {error.strerror}. Make room and ask again."
             found = problem_of(507, "insufficient-storage", detail)
-    return mouth.say(problem=found.to_json().decode())
+    return {"problem": found.to_json().decode()}
+
+
+def jobs() -> Iterator[str]:
+    """Ids of the jobs from standard input, whose end ends this process and its children, also during a job."""
+    asked: SimpleQueue[str] = SimpleQueue()
+
+    def read() -> None:
+        # Without the lock of a file object, which would be missed at the end of the process. Each read is one line,
+        # because the next job is given after the answer to the last.
+        while line := os.read(sys.stdin.fileno(), 1024):
+            asked.put(line.decode().strip())
+        end_group()
+
+    Thread(target=read, daemon=True).start()
+    while True:
+        yield asked.get()
 
 
 def main() -> None:
     if hasattr(os, "nice"):
         os.nice(NICENESS)
-    settings = Settings()
+    settings, folder = Settings(), Path(sys.argv[1])
     log_to_stderr(settings.log_json)
     limit_memory(settings.job_memory_max)
     mouth = Mouth()
-    # Read byte by byte, so that the rest of the input stays for the thread that waits for its end.
-    job = b"".join(iter(lambda: os.read(sys.stdin.fileno(), 1).strip(), b"")).decode()
-    if not job:  # The parent of this process is gone.
-        return
-    follow_input()
-    store = Store(Path(sys.argv[1]))
-    do(store, job, settings, mouth)
+    for job in jobs():
+        with closing(Store(folder)) as store:
+            said = do(store, job, settings, mouth)
+        again = is_small()
+        mouth.say(**said, again=again)
+        if not again:
+            return
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.jobs.store import DAY
-from tests.app.jobs.service import LONG, SHORT, Service, wait_for
+from tests.app.jobs.service import ENDLESS, LONG, SHORT, Service, wait_for
 
 TOKEN = "correct horse"
 BEARER = {"Authorization": f"Bearer {TOKEN}"}
@@ -75,9 +75,9 @@ def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(st
 
 def test_a_client_has_only_so_many_unfinished_jobs_and_the_service_only_so_many_jobs(strict: Service) -> None:
     small = {"question": "trajectory", "request": {"dragon": {"benches": 2}, "times": [0]}}
-    addresses = [strict.post(small), strict.post(LONG)]
+    addresses = [strict.post(small), strict.post(ENDLESS)]
     strict.finished(addresses[0])
-    addresses.append(strict.post(LONG))
+    addresses.append(strict.post(ENDLESS))
     refused = strict.client.post("/jobs", json=SHORT)
     assert refused.status_code == 429
     assert "2 of your jobs are not finished" in refused.json()["detail"]

@@ -56,10 +56,29 @@ def test_processes_may_be_killed_at_any_moment(tmp_path: Path) -> None:
 @pytest.mark.parametrize("role", ["child", "spare", "runner", "worker"])
 def test_a_job_goes_on_when_a_process_is_killed(service: Service, scan: bytes, role: str) -> None:
     address = begun(service)
+    if role == "spare":
+        service.finished(service.post(SHORT))  # Its process waits for another job.
     wait_for(lambda: service.of(role))
     for process in service.of(role):
         process.kill()
     assert is_answered(service, address, scan)
+
+
+def test_a_process_does_one_job_after_another(tmp_path: Path) -> None:
+    with Service(tmp_path) as service:
+        done = set()
+        for pitch in (0.5, 0.51):
+            service.finished(service.post(SHORT | {"request": {"pitch": pitch}}))
+            wait_for(lambda: service.of("spare"))
+            done |= {process.pid for process in service.of("spare")}
+        assert len(done) == 1
+
+
+def test_a_process_that_needed_much_memory_does_no_other_job(tmp_path: Path) -> None:
+    large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}}
+    with Service(tmp_path, cells_max=10**7) as service:
+        assert service.finished(service.post(large))["status"] == "successful"
+        wait_for(lambda: not service.of("child") + service.of("spare"), 0.5 * runner.IDLE_SECONDS)
 
 
 def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) -> None:
@@ -109,15 +128,23 @@ def test_the_processes_of_jobs_log_in_the_form_of_the_service(module: str, tmp_p
     code = f"""
 import logging, sys
 from app.jobs import runner, work
-runner.follow_input = work.follow_input = lambda: None
-runner.Runner.run = work.do = lambda *given: logging.getLogger("app.jobs").error("said")
+runner.follow_input = lambda: None
+def said(*given):
+    logging.getLogger("app.jobs").error("said")
+    raise SystemExit
+runner.Runner.run = work.do = said
 sys.argv = ["", {str(tmp_path)!r}]
 {module}.main()
 """
     environment = os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}
     command = [sys.executable, "-c", code]
-    done = subprocess.run(command, input="job\n", env=environment, capture_output=True, text=True, timeout=LINGER * 3)
-    assert [json.loads(line)["message"] for line in done.stderr.splitlines()] == ["said"]
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with subprocess.Popen(command, env=environment, text=True, **pipes) as process:
+        assert process.stdin is not None
+        process.stdin.write("job\n")
+        process.stdin.flush()
+        assert process.stderr is not None
+        assert [json.loads(line)["message"] for line in process.stderr] == ["said"]
 
 
 def test_a_disk_that_stays_full_is_told_once(
