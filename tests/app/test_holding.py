@@ -245,7 +245,7 @@ def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
 
 
 def test_no_python_is_served_and_no_page_frames_another(held: Service) -> None:
-    for path in ("/docs/assets/__init__.py", "/page/uplot/__init__.py"):
+    for path in ("/docs/assets/__init__.py", "/page/__init__.py"):
         assert httpx.get(held.url + path).status_code == 404
     assert "frame-ancestors 'none'" in httpx.get(held.url).headers["content-security-policy"]
 

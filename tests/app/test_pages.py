@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import gzip
+import re
+from pathlib import Path
 
 import httpx
 import pytest
 
-FILES = ["/", "/how", "/page/main.js", "/page/uplot/uPlot.iife.js", "/docs", "/openapi.json"]
+from app.service.pages import Files
+
+FILES = ["/", "/how", "/page/main.js", "/page/uPlot.iife.js", "/docs", "/openapi.json"]
 PLAIN, PACKED = {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip"}
 
 
@@ -54,3 +58,31 @@ def test_only_files_of_the_pages_are_sent(server: str, path: str) -> None:
 
 def test_a_file_takes_no_other_method(server: str) -> None:
     assert httpx.post(f"{server}/page/main.js").status_code == 405
+
+
+@pytest.mark.parametrize("path", ["/", "/how"])
+def test_browsers_keep_the_files_of_a_page_until_one_changes(server: str, path: str) -> None:
+    addresses = re.findall(r'(?:href|src)="(page[^"]*)"', httpx.get(server + path).raise_for_status().text)
+    assert len(addresses) > 3
+    for address in addresses:
+        kept = httpx.get(f"{server}/{address}").raise_for_status()
+        assert kept.headers["Cache-Control"] == "public, max-age=31536000, immutable"
+        asked_again = httpx.get(f"{server}/page/{address.partition('/')[2]}")
+        assert (asked_again.content, asked_again.headers["Cache-Control"]) == (kept.content, "no-cache")
+        # A page that was open before a new version came.
+        older = httpx.get(f"{server}/page-0123456789abcdef/{address.partition('/')[2]}")
+        assert (older.content, older.headers["Cache-Control"]) == (kept.content, "no-cache")
+
+
+def test_the_edition_depends_on_the_files_alone(tmp_path: Path) -> None:
+    editions = []
+    for place, script, others in [("a", "1", ["b.py"]), ("b", "1", []), ("c", "2", [])]:
+        folder = tmp_path / place / "words"
+        folder.mkdir(parents=True)
+        (folder / "main.js").write_text(script)
+        for name in others:
+            (folder / name).touch()
+        editions.append(Files(directory=tmp_path / place).edition())
+    assert editions[0] == editions[1] != editions[2]
+    (tmp_path / "c" / "words" / "main.js").write_text("1, as before")
+    assert Files(directory=tmp_path / "c").edition() not in editions

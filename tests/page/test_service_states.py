@@ -320,7 +320,7 @@ def loaded(browser: Any, server: str) -> tuple[dict[str, int], float]:
 def test_the_page_is_light_and_quick(browser: Any, server: str) -> None:
     for _ in range(LOADS):
         weights, shown = loaded(browser, server)
-        files = [one for one in weights if ("/page/" in one and "uplot" not in one) or "?time=end" in one]
+        files = [one for one in weights if ("/page-" in one and "uPlot" not in one) or "?time=end" in one]
         assert len(files) > 1
         assert sum(weights[one] for one in files) < OWN_MAX
         assert sum(weights.values()) < ALL_MAX
