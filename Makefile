@@ -36,10 +36,12 @@ help:
 
 setup: $(VENV)/compiled
 
-# Without bytecode: Python writes it at the first import, and most installed modules are never imported.
+# The locked pip first, which needs half the processor time of that of Python 3.11. Without bytecode: Python writes it at
+# the first import, and most installed modules are never imported.
 $(VENV)/installed: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
 	@echo 'Installing the locked packages into $(VENV) (some minutes, once)'
+	@$(PIP) install --no-compile "$$(grep '^pip==' requirements.lock)"
 	@grep -v '^#' requirements.lock | xargs -n 24 -P 2 $(PIP) install --no-deps --no-compile
 	@touch $@
 
@@ -105,17 +107,18 @@ dist: setup
 	@rm -rf dist
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
-	@PYTHON='$(PYTHON)' bash .ci/make-venv build/checks
-	@build/checks/bin/python -m pip --disable-pip-version-check --quiet --quiet install --no-compile check-wheel-contents twine
+	@$(BIN)/python -m venv --without-pip --clear build/checks
+	@$(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
 
 # Versions are resolved in a separate, new environment; the file has names and versions only.
 lock:
 	@$(PYTHON) -m venv build/lock
+	@build/lock/bin/python -m pip --quiet install --upgrade pip
 	@build/lock/bin/python -m pip --quiet install -e '.[dev]'
 	@{ sed -n '/^#/p' requirements.lock; build/lock/bin/python -m pip list --format=freeze \
-		| grep -vE '^(pip|bench-dragon)=='; } > build/requirements.lock
+		| grep -v '^bench-dragon=='; } > build/requirements.lock
 	@mv build/requirements.lock requirements.lock
 	@rm -rf build/lock
 
