@@ -12,6 +12,7 @@ import time
 from functools import cache
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 import openpyxl
@@ -59,17 +60,33 @@ def without_fonts(folder: Path, *given: str) -> subprocess.CompletedProcess[str]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 
-@pytest.fixture(scope="module", params=["zh", "en"])
-def kit(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
-    """Language and folder of a kit, which takes some seconds: all processes of the tests share the one of the first."""
-    own, zh = tmp_path_factory.getbasetemp(), request.param == "zh"
-    folder = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / f"kit-{request.param}"
+def made(language: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of a kit, which takes some seconds: all processes of the tests share the one of the first."""
+    own = tmp_path_factory.getbasetemp()
+    folder = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / f"kit-{language}"
     with folder.with_suffix(".lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (folder / "report.md").is_file():  # written last
+            zh = language == "zh"
             done = run("contest", str(folder), "--language", "zh", "--no-films") if zh else without_fonts(folder, "en")
             assert done.returncode == 0, done.stderr
-    return request.param, folder
+    return folder
+
+
+@pytest.fixture(scope="module", params=["zh", "en"])
+def kit(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    """Language and folder of a kit."""
+    return request.param, made(request.param, tmp_path_factory)
+
+
+@pytest.fixture(scope="module")
+def chinese(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return made("zh", tmp_path_factory)
+
+
+@pytest.fixture(scope="module")
+def english(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return made("en", tmp_path_factory)
 
 
 @cache
@@ -77,24 +94,23 @@ def sheets(folder: Path, name: str) -> list[Any]:
     return list(openpyxl.load_workbook(folder / f"{name}.xlsx").worksheets)
 
 
+def written(folder: Path, name: str) -> tuple[list[str], list[list[tuple[str, str, str]]]]:
+    """Words of a workbook, and of each sheet the (place, style, text) of its numbers, as they stand in its file."""
+    with ZipFile(folder / f"{name}.xlsx") as file:
+        parts = [file.read(part).decode() for part in file.namelist() if part.startswith("xl/worksheets/")]
+    words = [word for part in parts for word in re.findall("<t[^>]*>([^<]*)</t>", part)]
+    return words, [re.findall(r'<c r="(\w+)" s="(\d+)"><v>([^<]*)</v>', part) for part in parts]
+
+
 def numbers(sheet: Any) -> np.ndarray[Any, Any]:
     return np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
-def test_chinese_labels_are_the_contest_s_own_to_the_blank_and_english_ones_words_of_that_layout(
-    kit: tuple[str, Path], name: str
-) -> None:
-    language, folder = kit
+def test_labels_are_the_contest_s_own_to_the_blank(chinese: Path, name: str) -> None:
     own = reference("contest_workbooks")["workbooks"][name]
-    found = sheets(folder, name)
+    found = sheets(chinese, name)
     assert [sheet.dimensions for sheet in found] == [sheet["dimensions"] for sheet in own]
-    if language == "en":
-        words = [str(cell.value) for sheet in found for cell in sheet["A"][1:]]
-        assert words[0].startswith("head")
-        assert words[-1].startswith("tail (rear)")
-        assert all(word.isascii() for word in words)
-        return
     assert [sheet.title for sheet in found] == [sheet["title"] for sheet in own]
     for sheet, told in zip(found, own, strict=True):
         assert [cell.value for cell in sheet["A"]] == told["first_column"]
@@ -103,8 +119,18 @@ def test_chinese_labels_are_the_contest_s_own_to_the_blank_and_english_ones_word
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
-def test_every_cell_is_a_number_of_six_decimals_in_a_frozen_sheet(kit: tuple[str, Path], name: str) -> None:
-    for sheet in sheets(kit[1], name):
+def test_english_workbooks_have_the_same_numbers_in_the_same_cells(chinese: Path, english: Path, name: str) -> None:
+    words, found = written(english, name)
+    assert any(word.startswith("head") for word in words)
+    assert any(word.startswith("tail (rear)") for word in words)
+    assert all(word.isascii() for word in words)
+    assert found == written(chinese, name)[1]
+    assert sum(map(len, found)) == sum(numbers(sheet).size for sheet in sheets(chinese, name))
+
+
+@pytest.mark.parametrize("name", WORKBOOKS)
+def test_every_cell_is_a_number_of_six_decimals_in_a_frozen_sheet(chinese: Path, name: str) -> None:
+    for sheet in sheets(chinese, name):
         assert sheet.freeze_panes == "B2"
         assert sheet.column_dimensions["A"].width > 15
         cells = [cell for row in sheet.iter_rows(min_row=2, min_col=2) for cell in row]
@@ -127,8 +153,8 @@ def differences(place: Any, speed: Any, column: int, handles: list[Any]) -> list
 
 
 @pytest.mark.parametrize(("name", "first", "told"), [("result1", 0, "trajectory"), ("result4", -100, "turn")])
-def test_workbooks_hold_the_reference_numbers(kit: tuple[str, Path], name: str, first: int, told: str) -> None:
-    place, speed = map(numbers, sheets(kit[1], name))
+def test_workbooks_hold_the_reference_numbers(chinese: Path, name: str, first: int, told: str) -> None:
+    place, speed = map(numbers, sheets(chinese, name))
     known = reference(told)
     instants = known["tables"] if told == "turn" else [*known["selected"], *known["full"]]
     whole = [one for one in instants if float(one["time"]).is_integer() and one["time"] - first < place.shape[1]]
@@ -137,8 +163,8 @@ def test_workbooks_hold_the_reference_numbers(kit: tuple[str, Path], name: str, 
         assert max(differences(place, speed, round(one["time"]) - first, one["handles"])) <= SIX_DECIMALS
 
 
-def test_the_second_workbook_holds_the_dance_at_first_contact(kit: tuple[str, Path]) -> None:
-    table = numbers(sheets(kit[1], "result2")[0])
+def test_the_second_workbook_holds_the_dance_at_first_contact(chinese: Path) -> None:
+    table = numbers(sheets(chinese, "result2")[0])
     handles = reference("trajectory")["full"][-1]["handles"]
     assert len(handles) == len(table) == 224
     told = np.array([[one["x"], one["y"], one["speed"]] for one in handles])
