@@ -19,6 +19,10 @@ class Mouth:
     def __init__(self) -> None:
         self._line = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+        self.begin()
+
+    def begin(self) -> None:
+        """A new job: a message about its progress is due at once."""
         self._latest = 0.0
 
     def say(self, **words: Any) -> None:

@@ -136,6 +136,7 @@ def main() -> None:
     limit_memory(settings.job_memory_max)
     mouth = Mouth()
     for job in jobs():
+        mouth.begin()
         with closing(Store(folder)) as store:
             said = do(store, job, settings, mouth)
         again = is_small()
