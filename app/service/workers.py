@@ -20,24 +20,25 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from tempfile import TemporaryDirectory, TemporaryFile
 from threading import Thread
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import uvicorn
-from fastapi import FastAPI
 from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
 from app.jobs.keeper import scratch
 from app.logs import log_config
-from app.service.protocol import Protocol
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
 from core import InvalidValue
+
+if TYPE_CHECKING:  # The first of several processes answers nothing and does not load the framework.
+    from fastapi import FastAPI
 
 logger = logging.getLogger("uvicorn.error")
 
 # h11 serves, although httptools would save a fifteenth of the time: httptools answers an unknown method itself, with
 # 400 and without problem details.
-PARSER = Protocol
+PARSER = "app.service.protocol:Protocol"
 # Room for the counts of one process [bytes]: three kinds of metrics, each in a file of 1 MiB.
 COUNTS_BYTES = 4 << 20
 # Longest silence of a process before it is replaced [s]: while it starts, which takes ten seconds on a busy machine,
