@@ -33,9 +33,7 @@ DIRECTIVES = {
     "wraparound": False,
     "cdivision": True,
     "initializedcheck": False,
-    # Nobody pickles an extension type; without this code and the comments the C compiles in three quarters of the time.
-    "auto_pickle": False,
-    "emit_code_comments": False,
+    "emit_code_comments": False,  # the C compiles in nine tenths of the time
 }
 # One module for all holds Cython's code for memoryviews.
 SHARED = "core.kernels._shared"
