@@ -42,7 +42,7 @@ $(VENV)/installed: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
 	@echo 'Installing the locked packages into $(VENV) (some minutes, once)'
 	@$(PIP) install --no-compile "$$(grep '^pip==' requirements.lock)"
-	@grep -v '^#' requirements.lock | xargs -n 24 -P 2 $(PIP) install --no-deps --no-compile
+	@grep -v '^#' requirements.lock | xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,21 @@ from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from core import InvalidValue
 from tests.app.sweeps.odd_questions import INTERRUPTED, LAND, SLOW, UNANSWERABLE
+
+
+class Shared(Processes):
+    """Processes of several runs, which must not end with the first."""
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Shared]:
+    """One process for the runs that only need an engine."""
+    engine = Shared(1)
+    yield engine
+    Processes.close(engine)
 
 
 def spec_of(question: Question, designs: int = 60, shard_size: int = 6, **request: Any) -> Spec:
@@ -51,9 +66,9 @@ def test_a_run_writes_every_part_and_says_how_far_it_is(tmp_path: Path) -> None:
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
 
 
-def test_only_what_is_missing_is_answered_again(tmp_path: Path) -> None:
+def test_only_what_is_missing_is_answered_again(shared: Shared, tmp_path: Path) -> None:
     spec, told = spec_of(LAND), list[Progress]()
-    run(spec, tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: shared)
     removed = [tmp_path / "a" / shards.part_name(shard) for shard in (0, 7)]
     kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "a").glob("part-*") if file not in removed}
     for file in removed:
@@ -62,16 +77,16 @@ def test_only_what_is_missing_is_answered_again(tmp_path: Path) -> None:
 
     def engine() -> Processes:
         assert [one.designs for one in told] == [48]  # what is kept is said before the engine starts
-        return Processes(1)
+        return shared
 
     run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=engine)
     assert kept == {file: file.stat().st_mtime_ns for file in kept}
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
 
 
-def test_a_complete_folder_starts_no_engine(tmp_path: Path) -> None:
+def test_a_complete_folder_starts_no_engine(shared: Shared, tmp_path: Path) -> None:
     spec = spec_of(LAND, 6)
-    run(spec, tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: shared)
 
     def none() -> Processes:
         pytest.fail("nothing is missing")
@@ -145,17 +160,17 @@ def test_no_process_is_left(tmp_path: Path) -> None:
     assert shards.parts(tmp_path / "b")
 
 
-def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
+def test_a_folder_of_something_else_is_refused(shared: Shared, tmp_path: Path) -> None:
     (tmp_path / "letter.txt").write_text("dear")
     with pytest.raises(InvalidValue, match="has files but no sweep"):
         run(spec_of(LAND, 6), tmp_path, question=LAND)
-    run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
+    run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: shared)
     with pytest.raises(InvalidValue, match="has another sweep, or one of another version"):
         run(spec_of(LAND, 8), tmp_path / "a", question=LAND)
 
 
-def test_what_a_killed_run_left_half_written_is_removed(tmp_path: Path) -> None:
+def test_what_a_killed_run_left_half_written_is_removed(shared: Shared, tmp_path: Path) -> None:
     spec = spec_of(LAND, 6)
     (tmp_path / ".part-xyz").write_bytes(b"half")
-    run(spec, tmp_path, question=LAND, engine=lambda: Processes(1))
+    run(spec, tmp_path, question=LAND, engine=lambda: shared)
     assert sorted(file.name for file in tmp_path.iterdir()) == ["part-000000.parquet", "sweep.json"]
