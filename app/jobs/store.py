@@ -25,6 +25,7 @@ from typing import Any
 
 import orjson
 
+from app.files.disk import flush_folder
 from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
 from app.jobs.reserve import Reserve
 
@@ -76,10 +77,21 @@ class Store:
         self._lock = Lock()
         self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
         try:
-            self._prepare()
+            self._open()
         except BaseException:
             self._connection.close()
             raise
+
+    def _open(self) -> None:
+        # While another process recovers the log of a killed one, or removes its own, SQLite refuses without waiting.
+        end = time.monotonic() + PATIENCE
+        while True:
+            try:
+                return self._prepare()
+            except sqlite3.OperationalError as error:
+                if error.sqlite_errorcode != sqlite3.SQLITE_BUSY or time.monotonic() > end:
+                    raise
+                time.sleep(0.05)
 
     def _prepare(self) -> None:
         run = self._connection.execute
@@ -333,14 +345,3 @@ class Store:
 def _job(row: tuple[Any, ...]) -> Job:
     found = dict(zip((field.name for field in fields(Job)), row, strict=True))
     return Job(**found | {"state": JobState(found["state"])})
-
-
-def flush_folder(folder: Path) -> None:
-    """Flush the names of a folder to the disk, if the system supports it."""
-    if os.name == "nt":
-        return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

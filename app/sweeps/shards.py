@@ -18,6 +18,7 @@ import pyarrow.parquet as pq
 from pydantic import BaseModel
 
 import core
+from app.files.disk import flush_folder
 from app.sweeps.columns import TYPES, Column, answer_columns, value_type
 from app.sweeps.designs import designs
 from app.sweeps.questions import Question, refusal
@@ -166,12 +167,7 @@ def keep(temporary: Path, file: Path) -> None:
     os.umask(mask)
     temporary.chmod(0o666 & ~mask)
     os.replace(temporary, file)
-    if hasattr(os, "O_DIRECTORY"):  # Windows cannot flush a folder.
-        folder = os.open(file.parent, os.O_DIRECTORY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
+    flush_folder(file.parent)
 
 
 def parts(folder: Path) -> set[int]:
