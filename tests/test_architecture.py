@@ -176,6 +176,7 @@ ORDER = (
     "app.plan.plan",
     "app.files.disk",
     "app.files.lock",
+    "app.files.flush",
     "app.grade",
     "app.grade.errors",
     "app.grade.paper",

@@ -168,14 +168,3 @@ def _read_benches(file: Path) -> dict[str, Any]:
 def object_words(file: Path) -> str:
     """Word for an object in the format of a file."""
     return "a table" if file.suffix.lower() == ".toml" else OBJECT
-
-
-def flush_folder(folder: Path) -> None:
-    """Flush the names of a folder to the disk, if the system supports it."""
-    if os.name == "nt":
-        return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

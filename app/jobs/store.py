@@ -25,7 +25,7 @@ from typing import Any
 
 import orjson
 
-from app.files.disk import flush_folder
+from app.files.flush import flush_folder
 from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
 from app.jobs.reserve import Reserve
 
@@ -89,7 +89,7 @@ class Store:
             try:
                 return self._prepare()
             except sqlite3.OperationalError as error:
-                if error.sqlite_errorcode != sqlite3.SQLITE_BUSY or time.monotonic() > end:
+                if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or time.monotonic() > end:
                     raise
                 time.sleep(0.05)
 

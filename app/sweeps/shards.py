@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 from pydantic import BaseModel
 
 import core
-from app.files.disk import flush_folder
+from app.files.flush import flush_folder
 from app.sweeps.columns import TYPES, Column, answer_columns, value_type
 from app.sweeps.designs import designs
 from app.sweeps.questions import Question, refusal

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import orjson
@@ -179,3 +180,21 @@ def test_jobs_of_the_layout_before_are_taken_over(tmp_path: Path) -> None:
         found = store.known("a")
         assert (found.question, found.done, found.total) == ("turn", None, None)
         store.close()
+
+
+def test_a_store_is_opened_again_while_another_process_recovers_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    busy = sqlite3.OperationalError("database is locked")
+    busy.sqlite_errorcode = sqlite3.SQLITE_BUSY_RECOVERY
+    prepare, refusals = Store._prepare, [busy, busy]
+
+    def prepared(self: Store) -> None:
+        if refusals:
+            raise refusals.pop()
+        prepare(self)
+
+    monkeypatch.setattr(Store, "_prepare", prepared)
+    with closing(Store(tmp_path)) as store:
+        assert store.all() == []
+    assert refusals == []
