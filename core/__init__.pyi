@@ -1,14 +1,9 @@
 from .budget import Budget
 from .clock import Passage
+from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from .contact.cross_check import ContactCheck, contact_check, pitch_check
-from .contact.first_contact import (
-    Evidence,
-    Feature,
-    FirstContact,
-    Outcome,
-    first_contact,
-)
+from .contact.first_contact import first_contact
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from core.contact.answer import FirstContact, Outcome
 from core.contact.clearance import LeastClearance
-from core.contact.first_contact import FirstContact, Outcome
 from core.contact.walls import AreaClearance, VenueClearance
 from core.dance import RunEnd
 from core.dragon import Dragon

@@ -7,8 +7,9 @@ from enum import StrEnum
 
 from core.budget import Budget
 from core.clock import TIME_MAX
+from core.contact.answer import FirstContact
 from core.contact.clearance import LeastClearance, least_clearance
-from core.contact.first_contact import FirstContact, first_contact
+from core.contact.first_contact import first_contact
 from core.contact.walls import VenueClearance, is_clear_beyond, venue_clearance, venue_end
 from core.dance import Dance, EndReason
 from core.dragon import Stray, checked_stray

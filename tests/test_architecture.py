@@ -87,7 +87,7 @@ ORDER = (
     "core.contact.fold",
     "core.contact.clearance",
     "core.contact.near_graze",
-    "core.contact.claim",
+    "core.contact.answer",
     "core.contact.first_contact",
     "core.venue",
     "core.contact.walls",

@@ -12,6 +12,7 @@ ROOT = Path(__file__).parent.parent
 CORE, TESTS = ROOT / "core", ROOT / "tests" / "core"
 # Modules that are tested with others, as the parts of one answer.
 TESTED_WITH = {
+    "contact/answer.py": "test_plots.py",
     "contact/march.py": "contact/test_search.py",
     "contact/walls.py": "test_venue.py",
     "failures.py": "test_verdict.py",

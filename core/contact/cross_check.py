@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.budget import Budget, bounded
-from core.contact.first_contact import FirstContact, Outcome
+from core.contact.answer import FirstContact, Outcome
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch

@@ -12,47 +12,28 @@ before it, only the pairs of the first m + 1 benches need a search.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from enum import StrEnum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from core import kernels, plots
+from core import kernels
 from core.budget import Budget, bounded
 from core.clock import Clock
-from core.contact.claim import ENDS, UNDECIDED_THEN, claim, claim_at_start, claim_undecided, contact_then
+from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold
 from core.contact.march import BRACKETS_GRAZING, TOUCHES, Ended
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Dance, EndReason, RunEnd
-from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue, said
+from core.dragon import Dragon, Stray, checked_stray
+from core.errors import said
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
-from core.motion.trajectory import bench_outlines, trajectory
-from core.paths.path import HeadState
+from core.paths.frame import WORLD
 from core.paths.spiral import Spiral
-from core.shown import Shown, worded
 from core.values import asked_of, checked_number
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-# Time before the end at which a run without contact is drawn [s], because the chain still exists there.
-BEFORE_END = 1e-6
 # Distance ahead at which a search that gave up first tests for a certain overlap [m of head travel].
 BEYOND = 1e-3
-
-
-class Outcome(StrEnum):
-    """Outcome of a search for first contact."""
-
-    CONTACT = "contact"
-    CONTACT_AT_START = "contact_at_start"
-    CLEAR = "clear"
-    UNDECIDED = "undecided"
-
 
 OUTCOMES = {
     Ended.REACHED: Outcome.CLEAR,
@@ -61,129 +42,6 @@ OUTCOMES = {
     Ended.TOUCHED_AT_START: Outcome.CONTACT_AT_START,
 }
 
-
-@dataclass(frozen=True, slots=True)
-class Feature(Shown):
-    """A corner or an edge of one bench. Corners: front-outer, front-inner, rear-outer, rear-inner;
-    edges: front, rear, outer, inner. front is towards the lower handle, outer away from the centre."""
-
-    bench: int
-    name: str
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class Evidence(Shown):
-    """Evidence for the answer.
-
-    method: the claim and its proof, in sentences (core/contact/claim.py)
-    steps: number of proven steps
-    clear_until: time until which nothing touches [s]; None if no time is proven clear, because benches touch at the
-        start or the search is undecided from the start
-    bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
-    least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
-    """
-
-    method: str
-    steps: int
-    clear_until: float | None
-    bound: float
-    least_clearance: Graze | None
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class FirstContact(Shown):
-    """First time at which two benches that share no handle come within the margin.
-
-    time: [s], None if clear or undecided; 0 for contact_at_start
-    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided the
-        same, or up to the end of the run if no overlap is certain; None if clear or at the start
-    head: state of the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet
-    point: (x, y) [m] of the corner; end: end of the run if clear
-    gap: separation of the pair in its nominal places at that time [m]: the margin, or another value at the start or
-        with a stray; None without a pair
-    margin, stray: [m]; dance: the dance of the question
-    """
-
-    outcome: Outcome
-    time: float | None
-    time_bracket: tuple[float, float] | None
-    head: HeadState | None
-    benches: tuple[int, int] | None
-    corner: Feature | None
-    edge: Feature | None
-    point: tuple[float, float] | None
-    end: RunEnd | None
-    certificate: Evidence
-    gap: float | None = None
-    margin: float = field(kw_only=True)
-    stray: float = field(kw_only=True, default=0.0)
-    dance: Dance = field(kw_only=True, repr=False, compare=False)
-
-    def _line(self) -> str:
-        if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
-            return f"undecided from {worded(self.time_bracket[0], 's')} on"
-        near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
-        near = f"may {near} with strays up to {worded(self.stray, 'm')}" if self.stray else near
-        if self.benches is None or self.time is None:
-            assert self.end is not None
-            why = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
-            return f"no two benches {near} until {worded(self.end.time, 's')}{why}"
-        a, b = self.benches
-        return f"benches {a} and {b} {near} at {worded(self.time, 's')}"
-
-    def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
-        """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.
-
-        enlarged: True shows only the surroundings of the contact, with the corner and the edge that meet
-        returns: the given axes, or those of a new figure, in metres
-        raises: ImportError without matplotlib, naming the extra; InvalidValue (enlarged) if nothing meets
-        """
-        axes = plots.wanted_axes(ax, "FirstContact.plot()")
-        dance, benches = self.dance, self.benches
-        handles = trajectory(dance, self._shown_time()).position
-        outlines = bench_outlines(dance.dragon, handles)
-        if enlarged:
-            if benches is None or self.point is None:
-                raise InvalidValue("enlarged", "enlarged must be False where no two benches meet, got True")
-            width = float(dance.dragon.widths[list(benches)].max())
-            centre = dance.path.frame.centre
-            half = max(plots.ENLARGED_WIDTHS * width, plots.ENLARGED_MARGINS * self.margin)
-            plots.draw_enlarged(axes, outlines, benches, self.point, half, self.corner, self.edge, centre)
-        else:
-            plots.draw_dance(axes, dance.path, handles, outlines)
-            if benches is not None:
-                plots.mark_pair(axes, outlines, benches)
-        if benches is not None:
-            axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
-        axes.set_title(self._title(enlarged), fontsize=11)
-        return axes
-
-    def _title(self, enlarged: bool) -> str:
-        margin = self.margin
-        if enlarged and self.point is not None:
-            place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
-            near = f"Nearer than {said(margin)} m: a gap of {self.gap:.6f} m at {place}"
-            return near if margin else f"They meet at {place}"
-        what = f"First nearer than {said(margin)} m" if margin else "First contact"
-        if self.outcome is Outcome.CONTACT and self.head is not None:
-            return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
-        if self.outcome is Outcome.CONTACT_AT_START:
-            return f"Nearer than {said(margin)} m from the start on" if margin else f"{what}: already at the start"
-        if self.outcome is Outcome.CLEAR and self.end is not None:
-            none = f"Never nearer than {said(margin)} m" if margin else "No contact"
-            if self.end.reason is EndReason.FOLD:
-                return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
-            return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
-        return f"Undecided: clear up to {self.time_bracket[0]:.6f} s" if self.time_bracket else "Undecided"
-
-    def _shown_time(self) -> float:
-        if self.time is not None:
-            return self.time
-        if self.time_bracket is not None:
-            return self.time_bracket[0]
-        return (self.end or self.dance.end).time - BEFORE_END
-
-
 # Names in the order of the kernels' features, FRONT_LEFT to REAR_LEFT and FRONT to LEFT. The first row is for benches
 # with the centre on their right, the second for those with the centre on their left.
 CORNERS = (
@@ -191,6 +49,23 @@ CORNERS = (
     ("front-inner", "front-outer", "rear-outer", "rear-inner"),
 )
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
+
+# The claim of an answer, in complete sentences. Numbers have all their digits, because a rounded one would describe
+# another dance, or an instant that is not proven.
+PROOF = (
+    "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
+    "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
+)
+NO_PAIR = "Fewer than three benches have no two that share no handle."
+TRIED = "Computed in doubles, with allowances for their rounding."
+MEASURED = "Measured at that instant, in doubles."
+ENDS = {
+    EndReason.FOLD: ", where a bench folds and the run ends.",
+    EndReason.CENTRE: ", where the head is at the centre.",
+    EndReason.END: ", where the path ends.",
+    EndReason.STOP: ", where the search was to stop.",
+}
+UNDECIDED_THEN = "; whether any do after that is not decided."
 
 
 @asked_of("dance", Dance)
@@ -346,5 +221,60 @@ def _touching_features(
     x, y = (met.bx, met.by) if corner and corner.bench == pair[1] else (met.ax, met.ay)
     turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
     cos, sin = math.cos(turned), math.sin(turned)
-    point = search.path.frame.point(float(x * cos - y * sin), float(x * sin + y * cos))
-    return corner, edge, point, float(met.separation)
+    point, frame = (float(x * cos - y * sin), float(x * sin + y * cos)), search.path.frame
+    return corner, edge, point if frame == WORLD else frame.point(*point), float(met.separation)
+
+
+def claim(dance: Dance, margin: float, stray: float, span: tuple[float, float], then: str) -> str:
+    """The claim in words: dragon, path, head speed, margin, stray, and the span of time [s] without a contact.
+
+    then: the rest of the sentence
+    """
+    start, stop = map(said, span)
+    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
+    never = f"from {start} s to {stop} s no two benches that share no handle {near}"
+    return f"{_dance(dance)}: {_strayed(stray)}{never}{then} {PROOF if dance.dragon.benches > 2 else NO_PAIR}"
+
+
+def claim_at_start(dance: Dance, margin: float, stray: float, start: float, pair: tuple[int, int]) -> str:
+    """claim() for two benches within the margin at the start [s]."""
+    near = f"{_be(stray)} nearer to each other than {said(margin)} m" if margin else f"{'may ' if stray else ''}touch"
+    touching = f"at {said(start)} s benches {pair[0]} and {pair[1]} {near}."
+    return f"{_dance(dance)}: {_strayed(stray)}{touching} {MEASURED}"
+
+
+def claim_undecided(dance: Dance, margin: float, stray: float, start: float) -> str:
+    """claim() for a search that gave up at the start [s]."""
+    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
+    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}."
+    return f"{_dance(dance)}: {_strayed(stray)}{never} {TRIED}"
+
+
+def contact_then(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
+    """The end of a claim's sentence for a contact that is certain at a time [s]."""
+    near = f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
+    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {near}."
+
+
+def _strayed(stray: float) -> str:
+    return (
+        f"while every hole is within {said(stray)} m of its place, and every chord keeps its length, " if stray else ""
+    )
+
+
+def _be(stray: float) -> str:
+    return "may be" if stray else "are"
+
+
+def _dance(dance: Dance) -> str:
+    return f"{_dragon(dance.dragon)} on {dance.path.words()}, the head at {dance.clock.words()}"
+
+
+def _dragon(dragon: Dragon) -> str:
+    count = f"{dragon.benches} bench{'es' if dragon.benches > 1 else ''}"
+    widths, overhangs = dragon.widths, dragon.overhangs
+    if dragon.uniform_from > 1 or widths[0] != widths[-1] or overhangs[0] != overhangs[-1]:
+        return f"{count} given one by one"
+    head, body, width, overhang = map(said, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
+    lengths = f"head {head} m" + (f", body {body} m" if dragon.benches > 1 else "")
+    return f"{count} ({lengths}, width {width} m, overhang {overhang} m)"

@@ -21,8 +21,9 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget, Halted, within
+from core.contact.answer import FirstContact, Outcome
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
-from core.contact.first_contact import FirstContact, Outcome, contact_within
+from core.contact.first_contact import contact_within
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance, follows
 from core.dragon import Dragon, Stray, checked_stray

@@ -13,6 +13,7 @@ from core.budget import BATCH_WORK, Budget, bounded
 from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import InvalidValue
+from core.paths.frame import WORLD
 from core.paths.route import Route
 from core.shapes.rectangles import corners
 from core.shown import Shown, extent, worded
@@ -141,7 +142,8 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
         share = dance.clock.speed(asked.reshape(-1)) / dance.head_speed
         velocity *= share[:, None, None]
         speed *= share[:, None]
-    position, velocity = dance.path.frame.points(position), dance.path.frame.vectors(velocity)
+    if (frame := dance.path.frame) != WORLD:
+        position, velocity = frame.points(position), frame.vectors(velocity)
     columns = position, velocity, speed
     return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
 

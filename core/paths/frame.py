@@ -25,14 +25,9 @@ class Frame:
     rotation: float = 0.0
     clockwise: bool = True
 
-    @property
-    def is_world(self) -> bool:
-        """True if both frames are the same, so that no number changes."""
-        return self.clockwise and self.rotation == 0.0 and self.centre == (0.0, 0.0)
-
     def vectors(self, own: Floats) -> Floats:
         """Directions (..., 2) in the world from those in the own frame."""
-        if self.is_world:
+        if self == WORLD:
             return own
         cos, sin = math.cos(self.rotation), math.sin(self.rotation)
         x, y = own[..., 0], own[..., 1] if self.clockwise else -own[..., 1]
@@ -40,18 +35,18 @@ class Frame:
 
     def points(self, own: Floats) -> Floats:
         """Points (..., 2) in the world from those in the own frame [m]."""
-        return own if self.is_world else self.vectors(own) + np.array(self.centre)
+        return own if self == WORLD else self.vectors(own) + np.array(self.centre)
 
     def point(self, x: float, y: float) -> Point:
         """Point in the world from one in the own frame [m]."""
-        if self.is_world:
+        if self == WORLD:
             return x, y
         cos, sin, y = math.cos(self.rotation), math.sin(self.rotation), y if self.clockwise else -y
         return x * cos - y * sin + self.centre[0], x * sin + y * cos + self.centre[1]
 
     def back(self, world: Floats) -> Floats:
         """Points (..., 2) in the own frame from those in the world [m]."""
-        if self.is_world:
+        if self == WORLD:
             return world
         cos, sin = math.cos(self.rotation), math.sin(self.rotation)
         x, y = world[..., 0] - self.centre[0], world[..., 1] - self.centre[1]
@@ -59,4 +54,5 @@ class Frame:
         return np.stack([x * cos + y * sin, left if self.clockwise else -left], axis=-1)
 
 
+# The frame of a path whose own frame is that of the world: no number changes.
 WORLD = Frame()

@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.errors import InvalidValue, said
-from core.paths.frame import Frame
+from core.paths.frame import WORLD, Frame
 from core.paths.path import HeadState
 from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
@@ -67,7 +67,7 @@ class Spiral(Shown):
 
     def __repr__(self) -> str:
         given = f"pitch={self.pitch!r}, start_turns={self.start_turns!r}"
-        if not self.frame.is_world:
+        if self.frame != WORLD:
             given += f", centre={self.centre!r}, rotation={self.rotation!r}, clockwise={self.clockwise!r}"
         return f"Spiral({given})"
 
@@ -94,7 +94,7 @@ class Spiral(Shown):
     @property
     def standard(self) -> Spiral:
         """The same spiral in its own frame: around the origin, clockwise."""
-        return self if self.frame.is_world else Spiral(self.pitch, self.start_turns)
+        return self if self.frame == WORLD else Spiral(self.pitch, self.start_turns)
 
     @property
     def curve(self) -> kernels.Curve:
@@ -139,7 +139,8 @@ class Spiral(Shown):
         """The head at arc length s [m]."""
         theta = float(kernels.spiral_theta((self.length - s) / self.growth))
         radius = self.growth * theta
-        return HeadState(theta, radius, *self.frame.point(radius * math.cos(theta), radius * math.sin(theta)))
+        x, y = radius * math.cos(theta), radius * math.sin(theta)
+        return HeadState(theta, radius, *((x, y) if self.frame == WORLD else self.frame.point(x, y)))
 
     def calm(self, curvature: float) -> float:
         """Radius outside which the |curvature| is at most this [1/m], in the form of kernels.Peak [m]."""

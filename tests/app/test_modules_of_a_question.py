@@ -88,13 +88,11 @@ EDGE = {
 SEARCH = {
     "core.budget",
     "core.clock",
-    "core.contact.claim",
     "core.contact.first_contact",
     "core.contact.search",
     "core.dance",
     "core.dragon",
     "core.errors",
-    "core.paths.frame",
     "core.paths.spiral",
     "core.values",
 }
@@ -122,6 +120,6 @@ def test_a_collision_time_goes_through_no_other_modules(asked: str, passed: set[
 def test_a_contact_has_three_representations_of_a_march_of_core_and_of_the_answer() -> None:
     assert seen_while_asking(REPRESENTED, HOLDING, "/collision-time?cross_check=dragon&pitch=") == {
         "core.kernels.results.Marched",
-        "core.contact.first_contact.FirstContact",
+        "core.contact.answer.FirstContact",
         "app.questions.collision_time.CollisionTime",
     }

@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from core import Arc, Dance, Line, Route, clearance_profile
+from core.contact.answer import FirstContact, Outcome
 from core.contact.cross_check import (
     CHECK_TRAVEL,
     CLOSE_MAX,
@@ -20,7 +21,7 @@ from core.contact.cross_check import (
     judged_contact,
     pitch_check,
 )
-from core.contact.first_contact import FirstContact, Outcome, first_contact
+from core.contact.first_contact import first_contact
 from core.design.minimum_pitch import LimitedBy, minimum_pitch
 from core.dragon import Dragon
 from core.motion.trajectory import bench_poses, trajectory

@@ -1,0 +1,152 @@
+"""Answer of a search for first contact: its outcome, the evidence for it, and its drawing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from core import plots
+from core.contact.clearance import Graze
+from core.dance import Dance, EndReason, RunEnd
+from core.errors import InvalidValue, said
+from core.motion.trajectory import bench_outlines, trajectory
+from core.paths.path import HeadState
+from core.shown import Shown, worded
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Time before the end at which a run without contact is drawn [s], because the chain still exists there.
+BEFORE_END = 1e-6
+
+
+class Outcome(StrEnum):
+    """Outcome of a search for first contact."""
+
+    CONTACT = "contact"
+    CONTACT_AT_START = "contact_at_start"
+    CLEAR = "clear"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True)
+class Feature(Shown):
+    """A corner or an edge of one bench. Corners: front-outer, front-inner, rear-outer, rear-inner;
+    edges: front, rear, outer, inner. front is towards the lower handle, outer away from the centre."""
+
+    bench: int
+    name: str
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Evidence(Shown):
+    """Evidence for the answer.
+
+    method: the claim and its proof, in sentences (core/contact/first_contact.py)
+    steps: number of proven steps
+    clear_until: time until which nothing touches [s]; None if no time is proven clear, because benches touch at the
+        start or the search is undecided from the start
+    bound: the largest bound on the second derivative of a gap along the head's way that a step used [1/m]
+    least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
+    """
+
+    method: str
+    steps: int
+    clear_until: float | None
+    bound: float
+    least_clearance: Graze | None
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class FirstContact(Shown):
+    """First time at which two benches that share no handle come within the margin.
+
+    time: [s], None if clear or undecided; 0 for contact_at_start
+    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided the
+        same, or up to the end of the run if no overlap is certain; None if clear or at the start
+    head: state of the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet
+    point: (x, y) [m] of the corner; end: end of the run if clear
+    gap: separation of the pair in its nominal places at that time [m]: the margin, or another value at the start or
+        with a stray; None without a pair
+    margin, stray: [m]; dance: the dance of the question
+    """
+
+    outcome: Outcome
+    time: float | None
+    time_bracket: tuple[float, float] | None
+    head: HeadState | None
+    benches: tuple[int, int] | None
+    corner: Feature | None
+    edge: Feature | None
+    point: tuple[float, float] | None
+    end: RunEnd | None
+    certificate: Evidence
+    gap: float | None = None
+    margin: float = field(kw_only=True)
+    stray: float = field(kw_only=True, default=0.0)
+    dance: Dance = field(kw_only=True, repr=False, compare=False)
+
+    def _line(self) -> str:
+        if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
+            return f"undecided from {worded(self.time_bracket[0], 's')} on"
+        near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
+        near = f"may {near} with strays up to {worded(self.stray, 'm')}" if self.stray else near
+        if self.benches is None or self.time is None:
+            assert self.end is not None
+            why = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
+            return f"no two benches {near} until {worded(self.end.time, 's')}{why}"
+        a, b = self.benches
+        return f"benches {a} and {b} {near} at {worded(self.time, 's')}"
+
+    def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
+        """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.
+
+        enlarged: True shows only the surroundings of the contact, with the corner and the edge that meet
+        returns: the given axes, or those of a new figure, in metres
+        raises: ImportError without matplotlib, naming the extra; InvalidValue (enlarged) if nothing meets
+        """
+        axes = plots.wanted_axes(ax, "FirstContact.plot()")
+        dance, benches = self.dance, self.benches
+        handles = trajectory(dance, self._shown_time()).position
+        outlines = bench_outlines(dance.dragon, handles)
+        if enlarged:
+            if benches is None or self.point is None:
+                raise InvalidValue("enlarged", "enlarged must be False where no two benches meet, got True")
+            width = float(dance.dragon.widths[list(benches)].max())
+            centre = dance.path.frame.centre
+            half = max(plots.ENLARGED_WIDTHS * width, plots.ENLARGED_MARGINS * self.margin)
+            plots.draw_enlarged(axes, outlines, benches, self.point, half, self.corner, self.edge, centre)
+        else:
+            plots.draw_dance(axes, dance.path, handles, outlines)
+            if benches is not None:
+                plots.mark_pair(axes, outlines, benches)
+        if benches is not None:
+            axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
+        axes.set_title(self._title(enlarged), fontsize=11)
+        return axes
+
+    def _title(self, enlarged: bool) -> str:
+        margin = self.margin
+        if enlarged and self.point is not None:
+            place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
+            near = f"Nearer than {said(margin)} m: a gap of {self.gap:.6f} m at {place}"
+            return near if margin else f"They meet at {place}"
+        what = f"First nearer than {said(margin)} m" if margin else "First contact"
+        if self.outcome is Outcome.CONTACT and self.head is not None:
+            return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
+        if self.outcome is Outcome.CONTACT_AT_START:
+            return f"Nearer than {said(margin)} m from the start on" if margin else f"{what}: already at the start"
+        if self.outcome is Outcome.CLEAR and self.end is not None:
+            none = f"Never nearer than {said(margin)} m" if margin else "No contact"
+            if self.end.reason is EndReason.FOLD:
+                return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
+            return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
+        return f"Undecided: clear up to {self.time_bracket[0]:.6f} s" if self.time_bracket else "Undecided"
+
+    def _shown_time(self) -> float:
+        if self.time is not None:
+            return self.time
+        if self.time_bracket is not None:
+            return self.time_bracket[0]
+        return (self.end or self.dance.end).time - BEFORE_END
