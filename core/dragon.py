@@ -41,6 +41,7 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
 class Dragon(Shown):
     """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
 
+    benches: number of benches; there is one more handle
     lengths, widths, overhangs, chords: (n,) [m], read-only; chord = length - 2 overhang > 0
     uniform_from: index of the bench from which all benches to the tail are equal (0 or 1 for a uniform body)
     names: one for each bench, empty for a bench without; no entries if no bench has a name
@@ -50,6 +51,7 @@ class Dragon(Shown):
     (223, np.float64(2.86), np.float64(1.65))
     """
 
+    benches: int = field(repr=False)
     lengths: Floats
     widths: Floats
     overhangs: Floats
@@ -123,6 +125,7 @@ class Dragon(Shown):
         ):
             column.flags.writeable = False
             object.__setattr__(self, name, column)
+        object.__setattr__(self, "benches", lengths.size)
         object.__setattr__(self, "uniform_from", int(different[-1]) + 1 if different.size else 0)
         object.__setattr__(self, "names", names)
 
@@ -163,11 +166,6 @@ class Dragon(Shown):
         object.__setattr__(dragon, "chords", self.chords)
         object.__setattr__(dragon, "uniform_from", self.uniform_from)
         return dragon
-
-    @property
-    def benches(self) -> int:
-        """Number of benches; there is one more handle."""
-        return self.lengths.size
 
     def __repr__(self) -> str:
         sizes = [self.lengths, self.widths, self.overhangs]

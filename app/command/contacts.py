@@ -20,7 +20,7 @@ def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False)
     with show.waiting("first contact"):
         answer = collisions.collision_time(asked, Terms())
     title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
-    if stray := asked.to_stray().total:
+    if stray := asked.to_stray():
         title += f" that may come about with strays up to {said(stray)} m"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
 

@@ -120,14 +120,14 @@ class Strays(Wire):
     @property
     def total_stray(self) -> float | None:
         """The stray in all, as an answer tells it; None for none [m]."""
-        return (self.to_stray().total or None) if self.strays else None
+        return self.to_stray() or None
 
-    def to_stray(self) -> Stray:
-        """raises: InvalidValue for a pin wider than its hole"""
+    def to_stray(self) -> float:
+        """The stray in all, 0.0 for none [m]. raises: InvalidValue for a pin wider than its hole"""
         if self.pin > self.hole:
             rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
             raise InvalidValue("pin", rule, hole="hole")
-        return Stray(self.stray, self.hole, self.pin)
+        return Stray(self.stray, self.hole, self.pin).total if self.strays else 0.0
 
 
 class HeadSpeed(Wire):

@@ -117,7 +117,8 @@ def contact_within(
 ) -> FirstContact:
     """first_contact() as a part of a larger question; it is also undecided if the budget of that question is spent."""
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    strayed = checked_stray(stray, dance.dragon)
+    none = type(stray) is float and stray == 0.0  # False and None are refused
+    strayed = 0.0 if none else checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
     clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
     search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)

@@ -91,7 +91,6 @@ SEARCH = {
     "core.contact.first_contact",
     "core.contact.search",
     "core.dance",
-    "core.dragon",
     "core.errors",
     "core.paths.spiral",
     "core.values",
