@@ -31,8 +31,8 @@ from .paths.route import Route
 from .paths.spiral import Spiral
 from .paths.turn import Turn
 from .shapes.engines import Engine
-from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, verdicts
-from .shapes.rectangles import Separation, separation
+from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, separation, verdicts
+from .shapes.rectangles import Separation
 from .tolerance.chance import ContactProbability, contact_probability
 from .tolerance.curve import ToleranceCurve, tolerance_curve
 from .tolerance.exhibit import Exhibit

@@ -76,8 +76,6 @@ ORDER = (
     "core.plots",
     "core.shapes.rectangles",
     "core.motion.trajectory",
-    "core.shapes.broad_phase",
-    "core.shapes.angle_sum",
     "core.shapes.engines",
     "core.shapes.overlaps",
     "core.tolerance.reach",

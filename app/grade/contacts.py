@@ -14,7 +14,7 @@ import numpy as np
 from core import Dance, Dragon, Spiral, bench_outlines, bench_poses, clearance_profile, separation
 from core import trajectory as trajectory_of
 from core.sampling import bisected
-from core.shapes.angle_sum import angle_sums
+from core.shapes.rectangles import angle_sums
 from core.values import Floats
 
 TURNING_RADIUS = 4.5  # [m], of the contest's turning circle

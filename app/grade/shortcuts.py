@@ -42,8 +42,7 @@ from core import (
     minimum_pitch,
     shortest_turn,
 )
-from core.shapes.angle_sum import literal_corners
-from core.shapes.rectangles import corners
+from core.shapes.rectangles import corners, literal_corners
 
 SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
 # Steps of time in students' searches for an event [s], and for the highest speed or the graze of a pitch [s].

@@ -33,8 +33,7 @@ from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_c
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import stop_radius
 from core.sampling import bisected
-from core.shapes.angle_sum import literal_corners
-from core.shapes.rectangles import corners
+from core.shapes.rectangles import corners, literal_corners
 
 PAPER_LENGTH = 442.590256  # [m], eq. 2
 PAPER_TIME = 406.43  # [s], figure 7

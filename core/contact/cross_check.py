@@ -19,10 +19,9 @@ from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
-from core.shapes.broad_phase import Pairs, meeting_pairs
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
-from core.shapes.rectangles import corners, frames, frames_separation
+from core.shapes.rectangles import Pairs, corners, frames, frames_separation, meeting_pairs
 from core.shown import Shown, worded
 from core.tolerance.reach import SHORT, Reach, reach
 from core.values import Floats, asked_of, checked_number, checked_type

@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core.budget import Budget
-from core.shapes.angle_sum import angle_sum_judged, angle_sum_pairs
-from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, meeting_pairs, pair_within, pairs_within
-from core.shapes.rectangles import corners, frames
+from core.shapes import rectangles
+from core.shapes.rectangles import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, corners, frames, meeting_pairs
 from core.values import Floats
 
 # Number of dragons whose FCL objects are kept, and their largest number of benches: 8 MB in all.
@@ -319,10 +318,10 @@ def distance_from(polygons: Polygons, line: Floats) -> float:
 
 
 FINDERS: dict[Engine, Callable[[Floats, Floats, float, bool, Budget], Iterator[Pairs]]] = {
-    Engine.SEPARATING_AXIS: pairs_within,
+    Engine.SEPARATING_AXIS: rectangles.pairs_within,
     Engine.FCL: _fcl,
     Engine.SHAPELY: _shapely,
-    Engine.ANGLE_SUM: angle_sum_pairs,
+    Engine.ANGLE_SUM: rectangles.angle_sum_pairs,
 }
 
 
@@ -341,8 +340,8 @@ def _judged_by_shapely(poses: Floats, sizes: Floats, margin: float) -> list[bool
 
 
 JUDGES: dict[Engine, Callable[[Floats, Floats, float], list[bool]]] = {
-    Engine.SEPARATING_AXIS: pair_within,
+    Engine.SEPARATING_AXIS: rectangles.pair_within,
     Engine.FCL: _judged_by_fcl,
     Engine.SHAPELY: _judged_by_shapely,
-    Engine.ANGLE_SUM: angle_sum_judged,
+    Engine.ANGLE_SUM: rectangles.angle_sum_judged,
 }

@@ -1,4 +1,7 @@
-"""Overlapping benches at one instant, found by four engines, with a comparison of the four."""
+"""Overlapping benches at one instant, found by four engines, with a comparison of the four; separation of rectangles.
+
+Rectangles that users give are checked here.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,25 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.budget import Budget, bounded
-from core.errors import InvalidValue
-from core.shapes.broad_phase import Pairs, checked_benches
+from core.errors import InvalidValue, said
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
-from core.shapes.rectangles import POSE, Separation, checked_array, checked_columns, frames, frames_separation
+from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
 from core.shown import Shown, counted, worded
+from core.values import SIZE_MAX, SIZE_MIN, Floats, checked_number
+
+# Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
+POSITION_MAX = 1e9
+
+# Lowest and highest value, and unit, of each number that describes a rectangle in the plane.
+LIMITS = {
+    "x": (-POSITION_MAX, POSITION_MAX, "m"),
+    "y": (-POSITION_MAX, POSITION_MAX, "m"),
+    "heading": (-np.inf, np.inf, "rad"),
+    "length": (SIZE_MIN, SIZE_MAX, "m"),
+    "width": (SIZE_MIN, SIZE_MAX, "m"),
+}
+POSE = ("x", "y", "heading")
+SIZE = ("length", "width")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -72,7 +89,7 @@ def overlaps(
 ) -> Overlaps:
     """All pairs with separation <= margin; if chained, without neighbours in the chain.
 
-    The engine finds the pairs; their separation is always the exact one of rectangles.py. The angle-sum rule misses
+    The engine finds the pairs; their separation is always the exact one of separation(). The angle-sum rule misses
     rectangles that cross without a corner inside, and accepts no margin; the other three engines miss no pair.
 
     poses: (n, 3) x [m], y [m], heading [rad]; lengths, widths: (n,) [m]
@@ -145,3 +162,98 @@ def verdicts(
     checked_columns("benches", pose_after, POSE)
     poses = np.array([pose_before, pose_after])
     return {engine: Verdict(*JUDGES[engine](poses, size, margin)) for engine in able(margin)}
+
+
+def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes_b: ArrayLike) -> Separation:
+    """Signed separation of rectangles a and b, pair by pair.
+
+    Rectangles apart: the Euclidean distance and the nearest points. Overlapping rectangles: minus the length of the
+    shortest translation that separates them, the deepest corner, and the point of the face above it. If parallel edges
+    meet, the witnesses are the middle of their common stretch. The error is a few ulp of the larger of the sizes and
+    the distance; witnesses also round by an ulp of their own coordinates.
+
+    poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
+    raises: InvalidValue for a shape that does not fit, a value that is not finite, or one outside LIMITS
+
+    >>> separation([0.0, 0.0, 0.0], [2.0, 1.0], [3.0, 0.0, 0.0], [2.0, 1.0]).separation
+    array(1.)
+    """
+    a = _checked_frames("_a", poses_a, sizes_a)
+    b = _checked_frames("_b", poses_b, sizes_b)
+    try:
+        shape = np.broadcast_shapes(a.shape, b.shape)
+    except ValueError as error:
+        raise InvalidValue(
+            "poses_b", f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
+        ) from error
+    return frames_separation(np.broadcast_to(a, shape), np.broadcast_to(b, shape))
+
+
+def checked_benches(
+    poses: ArrayLike, lengths: ArrayLike, widths: ArrayLike, margin: float
+) -> tuple[Floats, Floats, float]:
+    """Poses (n, 3), sizes (n, 2) length and width, and margin, as doubles within their limits.
+
+    raises: InvalidValue with the field benches.K.x, y, heading, length or width, or margin
+    """
+    pose = checked_array("benches", poses, "(n, 3): x, y, heading", 3)
+    if pose.ndim != 2:
+        raise InvalidValue("benches", f"benches must have shape (n, 3): x, y, heading, got {pose.shape}")
+    length = checked_array("lengths", lengths, "(n,)", None)
+    width = checked_array("widths", widths, "(n,)", None)
+    for name, column in (("lengths", length), ("widths", width)):
+        if column.size != len(pose):
+            raise InvalidValue(name, f"{name} must have one number for each of {len(pose)} benches, got {column.size}")
+    checked_columns("benches", np.column_stack([pose, length, width]), POSE + SIZE)
+    return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
+
+
+def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> None:
+    """Refuse the first value outside its LIMITS. columns: (n, len(names)).
+
+    raises: InvalidValue with the field subject.row.name, the value, its unit and the limit
+    """
+    lows, highs = np.array([LIMITS[name][:2] for name in names]).T
+    if (np.isfinite(columns) & (columns >= lows) & (columns <= highs)).all():
+        return
+    for name, column in zip(names, columns.T, strict=True):
+        low, high, unit = LIMITS[name]
+        wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= high)))
+        if wrong.size:
+            k = int(wrong[0])
+            limit = f"from {low:g} to {high:g} {unit}"
+            if not np.isfinite(column[k]):
+                limit = "a finite number"
+            elif low > 0.0 and column[k] <= 0.0:
+                limit = "positive"
+            raise InvalidValue(
+                f"{subject}.{k}.{name}", f"{subject}[{k}].{name} must be {limit}, got {said(column[k])} {unit}"
+            )
+
+
+def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
+    """The values as float64 with a last axis of that length (a plain list if None).
+
+    raises: InvalidValue if they are no numbers or have another shape
+    """
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidValue(name, f"{name} must be numbers of shape {shape}") from error
+    if (array.ndim != 1) if last is None else (array.shape[-1:] != (last,)):
+        raise InvalidValue(name, f"{name} must have shape {shape}, got {array.shape}")
+    return array
+
+
+def _checked_frames(suffix: str, poses: ArrayLike, sizes: ArrayLike) -> Floats:
+    pose = checked_array(f"poses{suffix}", poses, "(..., 3): x, y, heading", 3)
+    size = checked_array(f"sizes{suffix}", sizes, "(..., 2): length, width", 2)
+    checked_columns(f"poses{suffix}", pose.reshape(-1, 3), POSE)
+    checked_columns(f"sizes{suffix}", size.reshape(-1, 2), SIZE)
+    try:
+        return frames(pose, size)
+    except ValueError as error:
+        raise InvalidValue(
+            f"sizes{suffix}",
+            f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}",
+        ) from error

@@ -1,18 +1,22 @@
-"""Exact signed separation of two oriented rectangles, with witness points and normal.
+"""Rectangles: corners, separation, the pairs that may touch, and the paper's angle-sum rule.
 
-The derivation is in core/kernels/rectangles.py: the separating axis theorem for rectangles that meet; for rectangles
-apart, the least distance from a corner of one to the other.
+The separation is exact and signed, with witness points and normal. Its derivation is in core/kernels/rectangles.py: the
+separating axis theorem for rectangles that meet; for rectangles apart, the least distance from a corner of one to the
+other. Pairs that may touch are all whose upright boxes come within the margin, so no touching pair is missed; a second
+step keeps those within the margin by the exact separation.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
 from core import kernels
-from core.errors import InvalidValue, said
+from core.budget import Budget
+from core.errors import InvalidValue, TooLarge, said
 from core.kernels.constants import (
     FRAME_COLUMNS,
     FRAME_HALF_LENGTH,
@@ -30,24 +34,34 @@ from core.kernels.constants import (
     WITNESS_BY,
 )
 from core.shown import Shown, worded
-from core.values import SIZE_MAX, SIZE_MIN, Floats
+from core.values import Floats
 
-# Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
-POSITION_MAX = 1e9
+Pairs = NDArray[np.int64]
 
-# Lowest and highest value, and unit, of each number that describes a rectangle in the plane.
-LIMITS = {
-    "x": (-POSITION_MAX, POSITION_MAX, "m"),
-    "y": (-POSITION_MAX, POSITION_MAX, "m"),
-    "heading": (-np.inf, np.inf, "rad"),
-    "length": (SIZE_MIN, SIZE_MAX, "m"),
-    "width": (SIZE_MIN, SIZE_MAX, "m"),
-}
-POSE = ("x", "y", "heading")
-SIZE = ("length", "width")
-
-# Sides of the centre on which the corners lie, in units of (half length, half width).
+# Sides of the centre on which the corners lie, in units of (half length, half width): front-left, front-right,
+# rear-right, rear-left. This is also the order of eq. 12, where the length runs to the right.
 CORNER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
+
+# Largest number of overlapping pairs in one answer: 10 for each of 100,000 benches; the search takes 200 MB for them.
+PAIRS_MAX = 1_000_000
+# Largest number of pairs of upright boxes that meet: under a second of search. 100,000 benches on a spiral of pitch
+# 0.55 m have 340,000 such pairs without neighbours.
+CANDIDATES_MAX = 20_000_000
+# The same for the other engines; FCL takes about 5 microseconds for each pair.
+CROSS_CANDIDATES_MAX = 2_000_000
+# Additional reach of the search, as a part of the coordinates and sizes [1]: each of its few operations rounds by
+# 1.1e-16, and so does the separation that it must not miss.
+ROUNDING = 4e-15
+
+# Most pairs in one batch: 32 angles for each pair stay within 60 MB.
+ANGLE_BATCH = 50_000
+
+# Tolerance of a sum of four angles for a full turn [rad]: its rounding is below 1e-14. The sum at a point d outside the
+# middle of an edge of length e is 8 d / e too small, so the tolerance is a distance of 4e-13 m for an edge of 3.41 m.
+ANGLE_TOLERANCE = 1e-12
+
+# Upper bound on the rounding of such a sum [rad].
+SUM_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -67,31 +81,6 @@ class Separation(Shown):
         if not self.separation.ndim:
             return worded(self.separation.item(), "m")
         return worded(self.separation, "m")
-
-
-def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes_b: ArrayLike) -> Separation:
-    """Signed separation of rectangles a and b, pair by pair.
-
-    Rectangles apart: the Euclidean distance and the nearest points. Overlapping rectangles: minus the length of the
-    shortest translation that separates them, the deepest corner, and the point of the face above it. If parallel edges
-    meet, the witnesses are the middle of their common stretch. The error is a few ulp of the larger of the sizes and
-    the distance; witnesses also round by an ulp of their own coordinates.
-
-    poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]; shapes broadcast
-    raises: InvalidValue for a shape that does not fit, a value that is not finite, or one outside LIMITS
-
-    >>> separation([0.0, 0.0, 0.0], [2.0, 1.0], [3.0, 0.0, 0.0], [2.0, 1.0]).separation
-    array(1.)
-    """
-    a = _checked_frames("_a", poses_a, sizes_a)
-    b = _checked_frames("_b", poses_b, sizes_b)
-    try:
-        shape = np.broadcast_shapes(a.shape, b.shape)
-    except ValueError as error:
-        raise InvalidValue(
-            "poses_b", f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
-        ) from error
-    return frames_separation(np.broadcast_to(a, shape), np.broadcast_to(b, shape))
 
 
 def frames_separation(a: Floats, b: Floats) -> Separation:
@@ -137,52 +126,169 @@ def corners(poses: Floats, sizes: Floats) -> Floats:
     return frame[..., :2] + along + left
 
 
-def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> None:
-    """Refuse the first value outside its LIMITS. columns: (n, len(names)).
+# If two rectangles are within the margin, so are their upright boxes along x and along y; so these boxes meet when they
+# are grown by half the margin on every side.
+def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, budget: Budget | None = None) -> Pairs:
+    """Pairs (P, 2), a < b, whose upright boxes meet; if exact, only those within the margin, rounded up.
 
-    raises: InvalidValue with the field subject.row.name, the value, its unit and the limit
+    frame: rows of rectangles.frames()
+    raises: TooLarge with the field benches for more than PAIRS_MAX pairs or CANDIDATES_MAX meeting boxes if exact, for
+        more than CROSS_CANDIDATES_MAX otherwise
     """
-    lows, highs = np.array([LIMITS[name][:2] for name in names]).T
-    if (np.isfinite(columns) & (columns >= lows) & (columns <= highs)).all():
-        return
-    for name, column in zip(names, columns.T, strict=True):
-        low, high, unit = LIMITS[name]
-        wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= high)))
-        if wrong.size:
-            k = int(wrong[0])
-            limit = f"from {low:g} to {high:g} {unit}"
-            if not np.isfinite(column[k]):
-                limit = "a finite number"
-            elif low > 0.0 and column[k] <= 0.0:
-                limit = "positive"
-            raise InvalidValue(
-                f"{subject}.{k}.{name}", f"{subject}[{k}].{name} must be {limit}, got {said(column[k])} {unit}"
-            )
+    half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
+    scale = np.abs(frame[:, :2]).sum(axis=1) + frame[:, 4:].sum(axis=1) + margin
+    half += 0.5 * margin + ROUNDING * scale[:, None]
+    boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
+    leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
+    order = _tree_order(frame[:, :2], leaves)
+    frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, kernels.BOX_COLUMNS))
+    kernels.grow_tree(boxes, tree)
+    most = (PAIRS_MAX, CANDIDATES_MAX) if exact else (CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX)
+    words = "within the margin" if exact else "close by", "close by"
+    budget = budget or Budget()
+    meetings = kernels.Meetings(frame, boxes, tree, order, budget.halt)
+    pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
+    while True:
+        meetings.find(margin, exact, chained, *most, pairs)
+        budget.afford(float(meetings.met))
+        counts = (meetings.found, meetings.met)
+        for count, limit, what in zip(counts, most, words, strict=True):
+            if count > limit:
+                message = f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
+                raise TooLarge("benches", message)
+        if meetings.found <= len(pairs):
+            return pairs[: meetings.found]
+        pairs = np.empty((meetings.found, 2), dtype=np.int64)
 
 
-def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
-    """The values as float64 with a last axis of that length (a plain list if None).
+def _tree_order(centres: Floats, leaves: int) -> Pairs:
+    """Order of the rows that puts near rows into groups of four: slices with equal counts along x, each sorted along y.
 
-    raises: InvalidValue if they are no numbers or have another shape
+    Slices are made by rank, not by coordinate, so that one distant bench does not push all others into one slice.
     """
-    try:
-        array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"{name} must be numbers of shape {shape}") from error
-    if (array.ndim != 1) if last is None else (array.shape[-1:] != (last,)):
-        raise InvalidValue(name, f"{name} must have shape {shape}, got {array.shape}")
-    return array
+    strip = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
+    strip_of = np.empty(len(centres), dtype=np.int64)
+    strip_of[np.argsort(centres[:, 0], kind="stable")] = np.arange(len(centres)) // strip
+    return np.lexsort((centres[:, 1], strip_of))
 
 
-def _checked_frames(suffix: str, poses: ArrayLike, sizes: ArrayLike) -> Floats:
-    pose = checked_array(f"poses{suffix}", poses, "(..., 3): x, y, heading", 3)
-    size = checked_array(f"sizes{suffix}", sizes, "(..., 2): length, width", 2)
-    checked_columns(f"poses{suffix}", pose.reshape(-1, 3), POSE)
-    checked_columns(f"sizes{suffix}", size.reshape(-1, 2), SIZE)
-    try:
-        return frames(pose, size)
-    except ValueError as error:
+def pairs_within(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
+    """The pairs within the margin at each instant, by the separating axis. poses: (T, n, 3); sizes: (n, 2)"""
+    reach = margin + ROUNDING * (margin + 2.0 * sizes.sum(axis=1).max(initial=0.0))
+    for frame in frames(poses, sizes):
+        pairs = meeting_pairs(frame, reach, chained, exact=True, budget=budget)
+        yield pairs[frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]).separation <= margin]
+
+
+def pair_within(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    """True at each instant at which a single pair is within the margin. poses: (T, 2, 3); sizes: (2, 2)"""
+    pairs, gaps = frames(poses, sizes), np.empty(len(poses))
+    first, second = (np.ascontiguousarray(pairs[:, bench]) for bench in (0, 1))
+    kernels.pair_gaps(first, second, kernels.NO_LIMIT, gaps)
+    return [gap <= margin for gap in gaps.tolist()]
+
+
+# The paper's rule for overlapping benches: corners by its rotation matrix, collision by a sum of angles. It serves only
+# as a cross-check: it sees only corners inside rectangles, and needs a tolerance.
+def paper_corners(poses: Floats, sizes: Floats) -> Floats:
+    """Corners (..., 4, 2) [m] by the paper's construction: centre, rotation matrix, half sizes.
+
+    Eq. 12 as printed is not the product with the matrix of eq. 11: the sign of w/2 cos theta is wrong in the y of all
+    four corners. Here it is right. The paper's theta points from the front handle to the rear one, and its arctan
+    ignores the quadrant: so its heading may differ from ours by half a turn, which only renames corners.
+
+    poses: (..., 3) x [m], y [m], heading [rad]; sizes: (..., 2) length [m], width [m]
+    source: Yang et al., eqs. 8-12
+    """
+    return _turned(poses, sizes, last=1.0)
+
+
+def literal_corners(poses: Floats, sizes: Floats) -> Floats:
+    """Corners (..., 4, 2) [m] by eq. 12 as printed: a parallelogram whose shape changes with the heading.
+
+    poses, sizes: as paper_corners()
+    source: Yang et al., eq. 12: as if the last entry of the matrix of eq. 11 were -cos theta
+    """
+    return _turned(poses, sizes, last=-1.0)
+
+
+def _turned(poses: Floats, sizes: Floats, last: float) -> Floats:
+    half = 0.5 * CORNER_SIDES * sizes[..., None, :]
+    heading, along, across = poses[..., 2, None], half[..., 0], half[..., 1]
+    cos, sin = np.cos(heading), np.sin(heading)
+    x = poses[..., 0, None] + (cos * along - sin * across)
+    y = poses[..., 1, None] + (sin * along + last * cos * across)
+    return np.stack([x, y], axis=-1)
+
+
+def angle_sums(points: Floats, polygon: Floats) -> Floats:
+    """Sum of the angles that the edges of a convex polygon subtend at each point [rad].
+
+    It is a full turn inside and on an edge, corners included, and less outside.
+
+    points: (..., P, 2) [m]; polygon: (..., C, 2) [m]; returns (..., P)
+    source: Yang et al., eq. 13
+    """
+    to = polygon[..., None, :, :] - points[..., :, None, :]
+    to_next = np.concatenate([to[..., 1:, :], to[..., :1, :]], axis=-2)
+    cross = to[..., 0] * to_next[..., 1] - to[..., 1] * to_next[..., 0]
+    sums = np.arctan2(np.abs(cross), (to * to_next).sum(axis=-1)).sum(axis=-1)
+    return np.where((to == 0.0).all(axis=-1).any(axis=-1), 2.0 * np.pi, sums)
+
+
+def angle_sum_overlap(corners_a: Floats, corners_b: Floats, *, tolerance: float = ANGLE_TOLERANCE) -> NDArray[np.bool_]:
+    """True for each pair in which the rule sees a corner of one polygon in the other.
+
+    It misses polygons that cross without a corner inside, and counts corners slightly outside as inside: see
+    ANGLE_TOLERANCE.
+
+    corners_a, corners_b: (..., C, 2) [m]; tolerance [rad]; returns (...)
+    source: Yang et al., eqs. 13-16
+    """
+    return _holds_any(corners_a, corners_b, tolerance) | _holds_any(corners_b, corners_a, tolerance)
+
+
+# Only corners in or near the upright box of the polygon are tested. The others cannot have a full sum: let a point lie
+# d > 0 away from a convex polygon of diameter at most D (that of its box). Seen from the point, with the nearest point
+# of the polygon straight ahead, the polygon lies beyond the perpendicular line at distance d and within D to either
+# side, so it fills an angle of at most pi - 2 atan(d / D). From outside, each direction into the polygon meets two
+# edges, so the sum is at most 2 pi - 4 atan(d / D), which is less than 2 pi - tolerance if d > D tan(tolerance / 4).
+def _holds_any(points: Floats, polygon: Floats, tolerance: float) -> NDArray[np.bool_]:
+    """True if any of the points is inside the polygon, by the rule. points: (..., P, 2), polygon: (..., C, 2) [m]"""
+    # x and y first, then the points: numpy is slow along short last axes.
+    place, edge = (np.ascontiguousarray(np.moveaxis(one, (-1, -2), (0, 1))) for one in (points, polygon))
+    low, high = edge.min(axis=1), edge.max(axis=1)
+    reach = np.hypot(*(high - low)) * np.tan(0.25 * min(tolerance + SUM_ROUNDING, 2.0 * np.pi))
+    near = ((place >= (low - reach)[:, None]) & (place <= (high + reach)[:, None])).all(axis=0)
+    point, *pair = np.nonzero(near)
+    sums = angle_sums(points[*pair, point, None, :], polygon[tuple(pair)])[:, 0]
+    near[near] = sums >= 2.0 * np.pi - tolerance
+    return np.asarray(near.any(axis=0))
+
+
+def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:
+    """The pairs that overlap by the rule at each instant. poses: (T, n, 3); sizes: (n, 2)
+
+    raises: InvalidValue for a margin that is not 0
+    """
+    if margin != 0.0:
         raise InvalidValue(
-            f"sizes{suffix}",
-            f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}",
-        ) from error
+            "margin",
+            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
+        )
+    for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
+        pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)
+        batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
+        seen = []
+        for batch in batches:
+            budget.look()
+            seen.append(angle_sum_overlap(corner[batch[:, 0]], corner[batch[:, 1]]))
+        yield pairs[np.concatenate(seen)] if seen else pairs
+
+
+def angle_sum_judged(poses: Floats, sizes: Floats, margin: float) -> list[bool]:
+    """True at each instant at which a single pair overlaps by the rule. poses: (T, 2, 3); sizes: (2, 2)"""
+    corner = paper_corners(poses, sizes)
+    sums = angle_sums(corner, corner[:, ::-1])  # each bench's corners in the other
+    overlap: list[bool] = np.any(sums >= 2.0 * np.pi - ANGLE_TOLERANCE, axis=(1, 2)).tolist()
+    return overlap

@@ -42,8 +42,7 @@ from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import TooLarge
 from core.motion.trajectory import bench_poses, trajectory
-from core.shapes.broad_phase import meeting_pairs
-from core.shapes.rectangles import CORNER_SIDES, frames, frames_separation
+from core.shapes.rectangles import CORNER_SIDES, frames, frames_separation, meeting_pairs
 from core.tolerance.reach import gains
 from core.tolerance.wobble import Wobble
 from core.values import Floats

@@ -99,8 +99,6 @@ SEARCH = {
 CROSS_CHECK = {
     "core.contact.cross_check",
     "core.motion.trajectory",
-    "core.shapes.angle_sum",
-    "core.shapes.broad_phase",
     "core.shapes.engines",
     "core.shapes.rectangles",
 }

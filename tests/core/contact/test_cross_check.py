@@ -27,8 +27,7 @@ from core.dragon import Dragon
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.engines import Engine
-from core.shapes.overlaps import Verdict
-from core.shapes.rectangles import separation
+from core.shapes.overlaps import Verdict, separation
 
 Floats = NDArray[np.float64]
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from core import kernels
-from core.shapes.broad_phase import meeting_pairs
-from core.shapes.rectangles import frames
+from core.shapes.rectangles import frames, meeting_pairs
 
 
 @pytest.mark.parametrize("count", [2, 5, 64, 301])

@@ -11,9 +11,15 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core.errors import InvalidValue
-from core.shapes.angle_sum import ANGLE_TOLERANCE, angle_sum_overlap, angle_sums, literal_corners, paper_corners
 from core.shapes.overlaps import Engine, overlaps
-from core.shapes.rectangles import corners
+from core.shapes.rectangles import (
+    ANGLE_TOLERANCE,
+    angle_sum_overlap,
+    angle_sums,
+    corners,
+    literal_corners,
+    paper_corners,
+)
 
 Floats = NDArray[np.float64]
 Scene = tuple[Floats, Floats, Floats]

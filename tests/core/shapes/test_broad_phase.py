@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core.errors import TooLarge
-from core.shapes.broad_phase import CROSS_CANDIDATES_MAX, PAIRS_MAX, meeting_pairs
-from core.shapes.overlaps import overlaps
-from core.shapes.rectangles import frames, separation
+from core.shapes.overlaps import overlaps, separation
+from core.shapes.rectangles import CROSS_CANDIDATES_MAX, PAIRS_MAX, frames, meeting_pairs
 from core.values import SIZE_MAX
 
 Floats = NDArray[np.float64]

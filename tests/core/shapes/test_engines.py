@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from core.budget import Budget
 from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, found_pairs, united
-from core.shapes.rectangles import separation
+from core.shapes.overlaps import separation
 from tests.depth import examples
 
 Floats = NDArray[np.float64]

@@ -15,8 +15,8 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
-from core.shapes.overlaps import Engine, Verdict, cross_check, overlaps, verdicts
-from core.shapes.rectangles import separation
+from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
+from core.values import SIZE_MAX, SIZE_MIN
 from tests.depth import examples
 
 Floats = NDArray[np.float64]
@@ -301,3 +301,49 @@ def test_a_bad_margin_is_refused(margin: float) -> None:
     with pytest.raises(InvalidValue) as caught:
         overlaps(*benches((0, 0, 0)), margin=margin)
     assert caught.value.field == "margin"
+
+
+BENCH = (2.2, 0.3)
+GOOD = ((0.0, 0.0, 0.0), BENCH)
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize(
+    ("pose", "size", "field", "said"),
+    [
+        ((math.nan, 0, 0), BENCH, "poses_a.0.x", "finite number, got nan m"),
+        ((0, math.inf, 0), BENCH, "poses_a.0.y", "finite number, got inf m"),
+        ((0, 0, -math.inf), BENCH, "poses_a.0.heading", "finite number, got -inf rad"),
+        ((1e308, 0, 0), BENCH, "poses_a.0.x", "from -1e+09 to 1e+09 m, got 1e+308 m"),
+        ((0, np.nextafter(-POSITION_MAX, -math.inf), 0), BENCH, "poses_a.0.y", "from -1e+09 to 1e+09 m"),
+        ((0, 0, 0), (2.2, -0.3), "sizes_a.0.width", "positive, got -0.3 m"),
+        ((0, 0, 0), (0.0, 0.3), "sizes_a.0.length", "positive, got 0 m"),
+        ((0, 0, 0), (np.nextafter(SIZE_MIN, 0), 0.3), "sizes_a.0.length", "from 0.001 to 10000 m"),
+        ((0, 0, 0), (np.nextafter(SIZE_MAX, math.inf), 0.3), "sizes_a.0.length", "from 0.001 to 10000 m"),
+        ((0, 0), BENCH, "poses_a", "shape (..., 3): x, y, heading, got (2,)"),
+        (0.0, BENCH, "poses_a", "shape (..., 3)"),
+        ((0, 0, 0), (2.2, 0.3, 1.0), "sizes_a", "shape (..., 2): length, width, got (3,)"),
+        (("left", 0, 0), BENCH, "poses_a", "must be numbers"),
+        (((0, 0, 0), (0, 0)), BENCH, "poses_a", "must be numbers"),
+        (np.zeros((2, 3)), np.ones((3, 2)), "sizes_a", "must broadcast"),
+    ],
+)  # fmt: skip
+def test_bad_rectangles_are_refused_by_name(pose: object, size: object, field: str, said: str) -> None:
+    with pytest.raises(InvalidValue) as caught:
+        separation(pose, size, *GOOD)
+    assert caught.value.field == field
+    assert said in caught.value.message
+
+
+@pytest.mark.uncompiled
+def test_pairs_that_do_not_broadcast_are_refused() -> None:
+    with pytest.raises(InvalidValue) as caught:
+        separation(np.zeros((2, 3)), BENCH, np.zeros((3, 3)), BENCH)
+    assert caught.value.field == "poses_b"
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize("size", [SIZE_MIN, SIZE_MAX])
+def test_sizes_and_positions_at_their_limits_are_accepted(size: float) -> None:
+    found = separation([-POSITION_MAX, 0, 0], [size, size], [POSITION_MAX, 0, 0], [size, size])
+    assert found.separation == pytest.approx(2 * POSITION_MAX - size, rel=1e-15)

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core import kernels
-from core.errors import InvalidValue
-from core.shapes.rectangles import POSITION_MAX, corners, frames, separation
+from core.shapes.overlaps import separation
+from core.shapes.rectangles import corners, frames
 from core.values import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
@@ -278,45 +278,3 @@ def test_corners_run_front_left_front_right_rear_right_rear_left() -> None:
     found = corners(np.array([[1.0, 2.0, math.pi / 2], [0.0, 0.0, 0.0]]), np.array([4.0, 2.0]))
     np.testing.assert_allclose(found[0], [[0, 4], [2, 4], [2, 0], [0, 0]], rtol=0, atol=ROUNDING)
     np.testing.assert_allclose(found[1], [[2, 1], [2, -1], [-2, -1], [-2, 1]], rtol=0, atol=0)
-
-
-GOOD = ((0.0, 0.0, 0.0), BENCH)
-
-
-@pytest.mark.parametrize(
-    ("pose", "size", "field", "said"),
-    [
-        ((math.nan, 0, 0), BENCH, "poses_a.0.x", "finite number, got nan m"),
-        ((0, math.inf, 0), BENCH, "poses_a.0.y", "finite number, got inf m"),
-        ((0, 0, -math.inf), BENCH, "poses_a.0.heading", "finite number, got -inf rad"),
-        ((1e308, 0, 0), BENCH, "poses_a.0.x", "from -1e+09 to 1e+09 m, got 1e+308 m"),
-        ((0, np.nextafter(-POSITION_MAX, -math.inf), 0), BENCH, "poses_a.0.y", "from -1e+09 to 1e+09 m"),
-        ((0, 0, 0), (2.2, -0.3), "sizes_a.0.width", "positive, got -0.3 m"),
-        ((0, 0, 0), (0.0, 0.3), "sizes_a.0.length", "positive, got 0 m"),
-        ((0, 0, 0), (np.nextafter(SIZE_MIN, 0), 0.3), "sizes_a.0.length", "from 0.001 to 10000 m"),
-        ((0, 0, 0), (np.nextafter(SIZE_MAX, math.inf), 0.3), "sizes_a.0.length", "from 0.001 to 10000 m"),
-        ((0, 0), BENCH, "poses_a", "shape (..., 3): x, y, heading, got (2,)"),
-        (0.0, BENCH, "poses_a", "shape (..., 3)"),
-        ((0, 0, 0), (2.2, 0.3, 1.0), "sizes_a", "shape (..., 2): length, width, got (3,)"),
-        (("left", 0, 0), BENCH, "poses_a", "must be numbers"),
-        (((0, 0, 0), (0, 0)), BENCH, "poses_a", "must be numbers"),
-        (np.zeros((2, 3)), np.ones((3, 2)), "sizes_a", "must broadcast"),
-    ],
-)  # fmt: skip
-def test_bad_rectangles_are_refused_by_name(pose: object, size: object, field: str, said: str) -> None:
-    with pytest.raises(InvalidValue) as caught:
-        separation(pose, size, *GOOD)
-    assert caught.value.field == field
-    assert said in caught.value.message
-
-
-def test_pairs_that_do_not_broadcast_are_refused() -> None:
-    with pytest.raises(InvalidValue) as caught:
-        separation(np.zeros((2, 3)), BENCH, np.zeros((3, 3)), BENCH)
-    assert caught.value.field == "poses_b"
-
-
-@pytest.mark.parametrize("size", [SIZE_MIN, SIZE_MAX])
-def test_sizes_and_positions_at_their_limits_are_accepted(size: float) -> None:
-    found = separation([-POSITION_MAX, 0, 0], [size, size], [POSITION_MAX, 0, 0], [size, size])
-    assert found.separation == pytest.approx(2 * POSITION_MAX - size, rel=1e-15)
