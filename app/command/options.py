@@ -15,8 +15,9 @@ from pydantic import BaseModel
 from rich.markup import escape
 
 from app.files.disk import object_words, read_dance
-from app.wire.dances import DanceQuery, Strays, TimeRange
+from app.wire.dances import TimeRange
 from app.wire.messages import checked
+from app.wire.models import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 

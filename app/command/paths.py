@@ -8,8 +8,7 @@ import typer
 from pydantic import Field
 
 from app.command.options import given, unused
-from app.wire.dances import DanceQuery
-from app.wire.models import TurningDiameter, measure
+from app.wire.models import DanceQuery, TurningDiameter, measure
 from app.wire.paths import EntryRadius, TurnFields
 from core import Dance
 

@@ -27,9 +27,8 @@ from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
 from app.questions.tolerance import CircleQuery
 from app.settings import Settings
-from app.wire.dances import DanceQuery, HeadSpeed, UniformDragon
 from app.wire.messages import checked
-from app.wire.models import Instant, Margin, Wire, measure
+from app.wire.models import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.paths import Circle, TurnFields
 from core import InvalidValue, Outcome
 from core.dance import Dance

@@ -10,8 +10,7 @@ import numpy as np
 
 import core
 from app.questions.question import Terms
-from app.wire.dances import DanceQuery
-from app.wire.models import Instant, SpeedLimit, TurningDiameter, measure
+from app.wire.models import DanceQuery, Instant, SpeedLimit, TurningDiameter, measure
 from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 

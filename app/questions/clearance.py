@@ -7,8 +7,8 @@ from pydantic import Field
 import core
 from app.questions.question import Question, Terms
 from app.wire.answers import Columns, Graze, Pair
-from app.wire.dances import DanceQuery, TimedDance, TimeRange, TimeSteps
-from app.wire.models import Answer, measure
+from app.wire.dances import TimedDance, TimeRange, TimeSteps
+from app.wire.models import Answer, DanceQuery, measure
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
 SECONDS_PER_CELL = 3e-6

@@ -9,8 +9,8 @@ from pydantic import Field
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
-from app.wire.dances import DanceFields, DanceQuery, SpanFields, Strays, UniformDragon
-from app.wire.models import Answer, CrossCheck, Margin, measure
+from app.wire.dances import DanceFields, SpanFields
+from app.wire.models import Answer, CrossCheck, DanceQuery, Margin, Strays, UniformDragon, measure
 from app.wire.paths import SpiralPath
 from core import Dance, Outcome
 

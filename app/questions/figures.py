@@ -6,8 +6,8 @@ from typing import Any
 
 from app.questions.pitch_scan import ScanFields
 from app.questions.question import FileFormat, Question, Terms
-from app.wire.dances import DanceQuery, DragonFields, PlacedDance, UniformDragon
-from app.wire.models import Instant, Margin, measure
+from app.wire.dances import DragonFields, PlacedDance
+from app.wire.models import DanceQuery, Instant, Margin, UniformDragon, measure
 from core.design.pitch_scan import scan_near_minimum
 
 

@@ -6,8 +6,8 @@ from pydantic import Field
 
 import core
 from app.questions.question import Question, Terms
-from app.wire.dances import DanceFields, UniformDragon
-from app.wire.models import Answer, Instant, SpeedLimit, Wire, measure
+from app.wire.dances import DanceFields
+from app.wire.models import Answer, Instant, SpeedLimit, UniformDragon, Wire, measure
 from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
 
 

@@ -9,8 +9,8 @@ from pydantic import Field
 import core
 from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import TOTAL_STRAY, Pair, PairCheck, Point
-from app.wire.dances import BenchByBench, DragonFields, Strays, UniformDragon
-from app.wire.models import PITCH_MAX, Answer, CrossCheck, measure
+from app.wire.dances import BenchByBench, DragonFields
+from app.wire.models import PITCH_MAX, Answer, CrossCheck, Strays, UniformDragon, measure
 from app.wire.paths import Circle, WayToCircle
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said

@@ -8,8 +8,8 @@ from pydantic import Field
 from app.questions.minimum_pitch import allowed
 from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import Columns, Pair, Point
-from app.wire.dances import DragonFields, UniformDragon
-from app.wire.models import Answer, measure
+from app.wire.dances import DragonFields
+from app.wire.models import Answer, UniformDragon, measure
 from app.wire.paths import Circle
 from core.design.pitch_scan import JUMP, pitches_near, scan_near_minimum
 

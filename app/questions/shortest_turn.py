@@ -10,8 +10,8 @@ import core
 from app.questions.question import Question, Terms
 from app.questions.turn import Turn
 from app.wire.answers import TOTAL_STRAY, Pair, Point
-from app.wire.dances import DragonFields, Strays, UniformDragon
-from app.wire.models import Margin, measure
+from app.wire.dances import DragonFields
+from app.wire.models import Margin, Strays, UniformDragon, measure
 from app.wire.paths import TurnCircle
 
 

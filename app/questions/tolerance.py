@@ -9,8 +9,8 @@ from pydantic import Field
 import core
 from app.questions.question import Question, Terms
 from app.wire.answers import Point
-from app.wire.dances import DanceQuery, PlacedDance, SpanFields
-from app.wire.models import Answer, TurningDiameter, Wire, measure
+from app.wire.dances import PlacedDance, SpanFields
+from app.wire.models import Answer, DanceQuery, TurningDiameter, Wire, measure
 from core import Exhibit, InvalidValue, Limit
 from core.tolerance.curve import time_on_circle
 

@@ -9,8 +9,8 @@ import core
 from app.questions.minimum_pitch import allowed
 from app.questions.question import Question, Terms
 from app.wire.answers import Columns
-from app.wire.dances import DragonFields, UniformDragon
-from app.wire.models import Answer, Pitch, measure
+from app.wire.dances import DragonFields
+from app.wire.models import Answer, Pitch, UniformDragon, measure
 from app.wire.paths import WayToCircle
 from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import said

@@ -25,9 +25,9 @@ from app.sweeps.rows import (
     overlaps_row,
     trajectory_row,
 )
-from app.wire.dances import DanceFields, DanceQuery
+from app.wire.dances import DanceFields
 from app.wire.messages import checked
-from app.wire.models import Answer
+from app.wire.models import Answer, DanceQuery
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 

@@ -11,8 +11,8 @@ from app.questions.check import LeastClearance
 from app.questions.question import Terms
 from app.questions.trajectory import TrajectoryRequest
 from app.wire.answers import Pair
-from app.wire.dances import DanceFields, DanceQuery
-from app.wire.models import Answer, measure
+from app.wire.dances import DanceFields
+from app.wire.models import Answer, DanceQuery, measure
 from core import InvalidValue
 
 

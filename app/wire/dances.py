@@ -1,12 +1,11 @@
-"""Dragons, instants and dances in requests, and their conversion to core.
+"""Dragons, instants and dances in request bodies, and their conversion to core.
 
-Queries are flat and bodies are nested; both consist of the same groups of fields and become the same dance.
+Queries are flat (models.py) and bodies are nested; both consist of the same groups of fields and become the same dance.
 """
 
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -18,18 +17,19 @@ from app.wire.benches import BenchCsv
 from app.wire.clocks import PassageBody, StartClock
 from app.wire.models import (
     Coordinates,
+    HeadSpeed,
     Instant,
     Length,
     Overhang,
+    UniformDragon,
     Width,
     Wire,
     check_limit,
     measure,
 )
-from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralFields, SpiralPath
-from core import Dance, Dragon, InvalidValue, Passage, Stray
+from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralPath
+from core import Dance, Dragon, InvalidValue, Passage
 from core.clock import PASSAGES_MAX
-from core.dragon import BENCHES_MAX
 from core.errors import said
 from core.values import Floats
 
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
 # The last instant of a range may miss `stop` by this share of a step, so that 0 to 0.3 by 0.1 has four instants.
 LAST_STEP_TOLERANCE = 1e-9
 FEWER_CELLS = "take a larger step, a shorter range or fewer benches"
-# Largest stray in a request [m]: half of the longest possible chord. The real limit is half of the shortest chord.
-STRAY_MAX = 25
 # Nesting depth of objects and lists: a collection of features of polygons has nine levels.
 VENUE_DEPTH_MAX = 20
 # Fields that only a dragon given bench by bench has.
@@ -51,29 +49,6 @@ Names = Annotated[
     list[str] | None,
     Field(description="Names of the benches, such as a household or a person, head first; empty: none"),
 ]
-
-
-# Most requests are about the same dragon, and laying one out is a twentieth of a quick answer.
-uniform_dragon = lru_cache(maxsize=4)(Dragon)
-
-
-class UniformDragon(Wire):
-    """A head and a body of equal benches."""
-
-    benches: int = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
-    head_length: Length = measure("m", "Length of the head's bench", 3.41)
-    body_length: Length = measure("m", "Length of every other bench", 2.20)
-    width: Width = measure("m", "Width of every bench", 0.30)
-    overhang: Overhang = measure("m", "Distance from a handle to the nearer end of its bench", 0.275)
-
-    def to_dragon(self, benches_max: int) -> Dragon:
-        """raises: TooLarge, InvalidValue"""
-        check_limit("dragon.benches", "benches", self.benches, benches_max, "shorten the dragon")
-        return uniform_dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
-
-    def most_benches(self, settings: Settings) -> int:
-        """Largest number of benches: equal benches repeat one another, so the limit is high."""
-        return settings.benches_max
 
 
 class BenchByBench(Wire, strict=True):
@@ -96,44 +71,6 @@ class BenchByBench(Wire, strict=True):
         """raises: TooLarge, InvalidValue"""
         check_limit("dragon.lengths", "benches", self.benches, benches_max, "shorten the dragon")
         return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names or ())
-
-
-class Strays(Wire):
-    """Largest distance of every hole from its place, by people and by the play of its pin."""
-
-    stray: float = measure(
-        "m", "How far each person may be from their place; the margin grows by what benches may then move", 0.0,
-        ge=0, le=STRAY_MAX,
-    )  # fmt: skip
-    hole: float = measure(
-        "m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0, ge=0, le=1
-    )
-    pin: float = measure(
-        "m", "Diameter of the pins in these holes; half of the difference adds to the stray", 0.0, ge=0, le=1
-    )
-
-    @property
-    def strays(self) -> bool:
-        """Whether any stray is asked for, which makes a search slower."""
-        return self.stray > 0.0 or self.hole > 0.0
-
-    @property
-    def total_stray(self) -> float | None:
-        """The stray in all, as an answer tells it; None for none [m]."""
-        return self.to_stray() or None
-
-    def to_stray(self) -> float:
-        """The stray in all, 0.0 for none [m]. raises: InvalidValue for a pin wider than its hole"""
-        if self.pin > self.hole:
-            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
-            raise InvalidValue("pin", rule, hole="hole")
-        return Stray(self.stray, self.hole, self.pin).total if self.strays else 0.0
-
-
-class HeadSpeed(Wire):
-    """Speed of the head."""
-
-    head_speed: float = measure("m/s", "Speed of the head", 1.0, ge=1e-3, le=20)
 
 
 class UniformBody(UniformDragon, strict=True):
@@ -327,11 +264,3 @@ class PlacedDance(DanceFields):
                 raise InvalidValue("coordinates", f"coordinates must stand beside the venue that they are of, {words}")
             return Place()
         return place_of(self.venue, self.coordinates, dragon)
-
-
-class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
-    """A uniform dragon on a spiral, as query parameters."""
-
-    def to_dance(self, benches_max: int) -> Dance:
-        """raises: TooLarge, InvalidValue"""
-        return Dance(self.to_dragon(benches_max), self.to_path(), self.head_speed)

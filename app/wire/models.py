@@ -1,4 +1,4 @@
-"""Base classes and common fields of requests and answers, with units and limits.
+"""Base classes and common fields of requests and answers, with units and limits; a dance as a flat query.
 
 The limits here are narrower than those of core: they fit a dance in a real place, so that a length in centimetres
 is noticed.
@@ -6,13 +6,17 @@ is noticed.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
-from core import TooLarge
+from app.settings import Settings
+from core import Dance, Dragon, InvalidValue, Spiral, Stray, TooLarge
+from core.dragon import BENCHES_MAX
+from core.errors import said
 
 JSON = "application/json"
 # An object with more names than this is refused without a look at its fields.
@@ -37,6 +41,8 @@ Length = Annotated[float, Field(ge=LENGTHS[0], le=LENGTHS[1])]
 Width = Annotated[float, Field(ge=WIDTHS[0], le=WIDTHS[1])]
 Overhang = Annotated[float, Field(ge=OVERHANGS[0], le=OVERHANGS[1])]
 PITCH_MAX = 10.0  # [m]
+# Largest stray in a request [m]: half of the longest possible chord. The real limit is half of the shortest chord.
+STRAY_MAX = 25
 Pitch = Annotated[float, measure("m", "Radial advance of the spiral per full turn", ge=1e-3, le=PITCH_MAX)]
 StartTurns = Annotated[float, measure("turns", "Turns between the centre and the start", gt=0, le=200)]
 Margin = Annotated[
@@ -94,3 +100,83 @@ class Answer(BaseModel):
     def known(cls, found: Any, **own: Any) -> Self:
         """This answer with the given fields, the others taken by name from a result of core."""
         return cls(**{name: getattr(found, name) for name in cls.model_fields if name not in own}, **own)
+
+
+# Most requests are about the same dragon, and laying one out is a twentieth of a quick answer.
+uniform_dragon = lru_cache(maxsize=4)(Dragon)
+
+
+class UniformDragon(Wire):
+    """A head and a body of equal benches."""
+
+    benches: int = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
+    head_length: Length = measure("m", "Length of the head's bench", 3.41)
+    body_length: Length = measure("m", "Length of every other bench", 2.20)
+    width: Width = measure("m", "Width of every bench", 0.30)
+    overhang: Overhang = measure("m", "Distance from a handle to the nearer end of its bench", 0.275)
+
+    def to_dragon(self, benches_max: int) -> Dragon:
+        """raises: TooLarge, InvalidValue"""
+        check_limit("dragon.benches", "benches", self.benches, benches_max, "shorten the dragon")
+        return uniform_dragon(self.benches, self.head_length, self.body_length, self.width, self.overhang)
+
+    def most_benches(self, settings: Settings) -> int:
+        """Largest number of benches: equal benches repeat one another, so the limit is high."""
+        return settings.benches_max
+
+
+class SpiralFields(Wire):
+    """The spiral of the dance."""
+
+    pitch: Pitch = 0.55
+    start_turns: StartTurns = 16.0
+
+    def to_path(self) -> Spiral:
+        """raises: InvalidValue"""
+        return Spiral(self.pitch, self.start_turns)
+
+
+class Strays(Wire):
+    """Largest distance of every hole from its place, by people and by the play of its pin."""
+
+    stray: float = measure(
+        "m", "How far each person may be from their place; the margin grows by what benches may then move", 0.0,
+        ge=0, le=STRAY_MAX,
+    )  # fmt: skip
+    hole: float = measure(
+        "m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0, ge=0, le=1
+    )
+    pin: float = measure(
+        "m", "Diameter of the pins in these holes; half of the difference adds to the stray", 0.0, ge=0, le=1
+    )
+
+    @property
+    def strays(self) -> bool:
+        """Whether any stray is asked for, which makes a search slower."""
+        return self.stray > 0.0 or self.hole > 0.0
+
+    @property
+    def total_stray(self) -> float | None:
+        """The stray in all, as an answer tells it; None for none [m]."""
+        return self.to_stray() or None
+
+    def to_stray(self) -> float:
+        """The stray in all, 0.0 for none [m]. raises: InvalidValue for a pin wider than its hole"""
+        if self.pin > self.hole:
+            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
+            raise InvalidValue("pin", rule, hole="hole")
+        return Stray(self.stray, self.hole, self.pin).total if self.strays else 0.0
+
+
+class HeadSpeed(Wire):
+    """Speed of the head."""
+
+    head_speed: float = measure("m/s", "Speed of the head", 1.0, ge=1e-3, le=20)
+
+
+class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
+    """A uniform dragon on a spiral, as query parameters."""
+
+    def to_dance(self, benches_max: int) -> Dance:
+        """raises: TooLarge, InvalidValue"""
+        return Dance(self.to_dragon(benches_max), self.to_path(), self.head_speed)

@@ -10,7 +10,18 @@ from typing import Annotated, Any, Literal, TypedDict
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
 import core
-from app.wire.models import Angle, Coordinate, Margin, Pitch, StartTurns, TurningDiameter, Wire, check_limit, measure
+from app.wire.models import (
+    Angle,
+    Coordinate,
+    Margin,
+    Pitch,
+    SpiralFields,
+    StartTurns,
+    TurningDiameter,
+    Wire,
+    check_limit,
+    measure,
+)
 from core import InvalidValue, Route, Spiral
 
 # A sharp zigzag of 1,000 points, or a route of 1,000 arcs, becomes a path in 0.02 s (measured 2026-11-21).
@@ -57,17 +68,6 @@ class Circle(WayToCircle):
             "start_turns": self.start_turns,
             "margin": self.margin,
         }
-
-
-class SpiralFields(Wire):
-    """The spiral of the dance."""
-
-    pitch: Pitch = 0.55
-    start_turns: StartTurns = 16.0
-
-    def to_path(self) -> Spiral:
-        """raises: InvalidValue"""
-        return Spiral(self.pitch, self.start_turns)
 
 
 class TurnCircle(Wire):

@@ -73,16 +73,14 @@ def note(frame, event, argument):
 """
 # The classes that hold the pair in contact.
 HOLDING = "name for name, known in seen.items() if tuple(answer['benches']) in known"
-# What every request passes; the question's own file; the fields of its dance; and how it is told, under any load.
+# What every request passes; the question's own file; the fields of its query; and how it is told, under any load.
 EDGE = {
     "app.questions.collision_time",
     "app.questions.question",
     "app.service.load",
     "app.service.middleware",
     "app.service.reply",
-    "app.wire.dances",
     "app.wire.models",
-    "app.wire.paths",
 }
 # What is asked about, checked and within a budget; and the search, with its claim in words.
 SEARCH = {
