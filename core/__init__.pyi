@@ -1,5 +1,4 @@
 from .budget import Budget
-from .clock import Passage
 from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from .contact.cross_check import ContactCheck, contact_check, pitch_check
@@ -24,6 +23,7 @@ from .motion.speed import (
     maximum_head_speed,
 )
 from .motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
+from .passages import Passage
 from .paths.legs import Legs
 from .paths.path import HeadState
 from .paths.pieces import Arc, Coil, Line, Piece, Waypoints

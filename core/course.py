@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.dance import tightest_bend
 from core.dragon import Dragon
+from core.paths.following import tightest_bend
 from core.paths.legs import Legs
 from core.paths.route import Route
 from core.paths.spiral import Spiral

@@ -1,22 +1,28 @@
-"""Dance: a dragon that follows a path, and the times of its run."""
+"""Dance: a dragon that follows a path, and the times of its run; Clock: the place of the head at a time.
+
+A dance is a motion of the head along its path, with a clock for its times. Contacts depend only on the place of the
+head. So searches for them work with places, and the clock turns a place into the first time at which the head is there.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from core import kernels
-from core.clock import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Clock, Passage, checked_passages
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said, said_bound
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, spoken
+from core.paths.following import earliest_place, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.sampling import bisected
 from core.shown import Shown
 from core.values import Floats, checked_number, checked_type
 
@@ -28,8 +34,8 @@ FOLD_ROUNDING = 1e-13
 # A run that stops nearer to its fold than this is searched up to the fold [m of head travel]. Handle speeds grow
 # without bound there, so steps would shrink to nothing; a bound on the remaining motion replaces them.
 NEAR_FOLD = 1e-5
-# Width of the bracket around the earliest place of the head: absolute [m], and relative to that place [1].
-ROOM_WIDTH = 1e-9
+# Largest relative error of a time that is turned into a place and back [1]: three operations each way.
+TIME_ROUNDING = 1e-15
 
 
 class EndReason(StrEnum):
@@ -59,6 +65,72 @@ class RunEnd(Shown):
         return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
 
 
+# The nodes are those of core/passages.py, without passages only time 0 at place 0. speeds[k] holds from node k - 1 to
+# node k, and head_speed before the first node and after the last one.
+class Clock:
+    """The place of the head at any time. Without passages the speed is head_speed, and a time is a place divided by it.
+
+    slowest: the lowest speed at which it moves [m/s]
+    """
+
+    def __init__(self, head_speed: float, passages: Sequence[Passage] = ()) -> None:
+        self.head_speed, self.passages = head_speed, passages
+        self.times, self.places = nodes(passages) if passages else ([0.0], [0.0])
+        self.speeds = [head_speed, *[passage.speed for passage in passages], head_speed]
+        self.slowest = min([speed for speed in self.speeds if speed > 0.0]) if passages else head_speed
+
+    def place(self, time: float) -> float:
+        """Place of the head at a time [m]."""
+        k = bisect_right(self.times, time)
+        node = max(k - 1, 0)
+        return self.places[node] + (time - self.times[node]) * self.speeds[k]
+
+    def time(self, place: float) -> float:
+        """First time at which the head is at a place [s]."""
+        k = bisect_left(self.places, place)
+        node = max(k - 1, 0)
+        time = self.times[node] + (place - self.places[node]) / self.speeds[k]
+        return min(time, self.times[k]) if k < len(self.times) else time
+
+    def steady(self, times: Floats) -> Floats:
+        """Times (...) at which the head would be at the same places with the constant speed head_speed [s]."""
+        if not self.passages:
+            return times
+        k = np.searchsorted(self.times, times, side="right")
+        node = np.maximum(k - 1, 0)
+        places = np.array(self.places)[node] + (times - np.array(self.times)[node]) * np.array(self.speeds)[k]
+        found: Floats = places / self.head_speed
+        return found
+
+    def of_steady(self, time: float) -> float:
+        """First time at which the head is at its place at a time of the steady dance [s]."""
+        return self.time(time * self.head_speed) if self.passages else time
+
+    def speed(self, times: Floats) -> Floats:
+        """Speed of the head at times (...) [m/s]; at a change the new speed."""
+        found: Floats = np.array(self.speeds)[np.searchsorted(self.times, times, side="right")]
+        return found
+
+    def rounding(self, until: float) -> float:
+        """Largest distance of the head from its place at a rounded time up to `until`, if there are passages [m]."""
+        return TIME_ROUNDING * max(self.speeds) * max(abs(until), *self.times) if self.passages else 0.0
+
+    def stretches(self, begin: float, until: float) -> Iterator[Stretch]:
+        """The stretches of one speed between two times [s], in order."""
+        edges = [begin, *(time for time in self.times if self.passages and begin < time < until), until]
+        for start, end in pairwise(edges):
+            k = bisect_right(self.times, start)
+            node, passage = max(k - 1, 0), k - 1 if 0 < k <= len(self.passages) else None
+            first, origin = self.place(start), (self.times[node], self.places[node])
+            last = self.place(end) if end == until else self.places[self.times.index(end)]
+            yield Stretch(start, end, first, last, self.speeds[k], passage, origin)
+
+    def words(self) -> str:
+        """The speeds of the head in a sentence."""
+        after = f"{said(self.head_speed)} m/s"
+        return spoken(self.passages, after) if self.passages else after
+
+
 @dataclass(frozen=True, repr=False)
 class Dance(Shown):
     """A dragon that follows a path. Every question about a given path takes a dance.
@@ -84,7 +156,8 @@ class Dance(Shown):
         checked_type("dragon", self.dragon, Dragon)
         checked_type("path", self.path, (Spiral, Route))
         object.__setattr__(self, "head_speed", checked_head_speed(self.head_speed))
-        object.__setattr__(self, "passages", checked_passages(self.passages))
+        if type(self.passages) is not tuple or self.passages:
+            object.__setattr__(self, "passages", checked_passages(self.passages))
         object.__setattr__(self, "end", _end(self.dragon, self.path, self.clock))
 
     def __repr__(self) -> str:
@@ -124,7 +197,7 @@ class Dance(Shown):
         """
         if not isinstance(self.path, Route) or self.path.tail_begin is None:
             return -TIME_MAX
-        return self.clock.time(_earliest_place(self.dragon, self.path, self.path.tail_begin))
+        return self.clock.time(earliest_place(self.dragon, self.path, self.path.tail_begin))
 
     @property
     def begin(self) -> float:
@@ -252,7 +325,7 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
 def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
     """End of the run."""
     if isinstance(path, Route):
-        _refuse_tight_bends(dragon, path)
+        refuse_tight_bends(dragon, path)
         return RunEnd(EndReason.END, clock.time(path.end), None, None)
     theta, bench = end_theta(dragon, path)
     if theta >= path.start_theta:
@@ -263,60 +336,6 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
         )
     time = clock.time(path.length - path.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
-
-
-def follows(dragon: Dragon, path: Route) -> bool:
-    """True if every bend of the route is wide enough for every chord."""
-    longest = float(dragon.chords[: dragon.uniform_from + 1].max())
-    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
-
-
-def tightest_bend(dragon: Dragon) -> tuple[float, int]:
-    """The least radius of a bend that every bench can follow [m], and the bench that needs that radius."""
-    bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
-    return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_BEND_LIMIT, bench
-
-
-def _refuse_tight_bends(dragon: Dragon, path: Route) -> None:
-    """Refuse a bend that a bench cannot follow.
-
-    With |curvature| chord / 2 below the limit, the next handle is unique and never moves backwards.
-    """
-    if follows(dragon, path):
-        return
-    curvature, s = path.sharpest
-    tightest, bench = tightest_bend(dragon)
-    chord = float(dragon.chords[bench])
-    x, y = path.position(s)
-    raise InvalidValue(
-        "path",
-        f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "
-        f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
-    )
-
-
-def _earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
-    """Place of the head when the last handle is at the beginning of the path [m].
-
-    A chord spans between 1 and pi / 2 times its own length of the path. These bounds, and the end of the path, give the
-    interval for a bisection of the place of the head.
-    """
-    sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
-    sizes[:, kernels.CHORD] = dragon.chords
-    chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
-
-    def has_room(s: float) -> bool:
-        return bool(kernels.route_tail(path.table, min(s, path.end), dragon.benches, sizes, chain) >= tail_begin)
-
-    low, straight = tail_begin, float(dragon.chords.sum())
-    high = low + 0.5 * math.pi * straight
-    if not has_room(high):
-        raise InvalidValue(
-            "path",
-            f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
-            f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
-        )
-    return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)
 
 
 def _instant(time: Floats, k: int) -> str:

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from core.budget import Budget
-from core.clock import TIME_MAX
 from core.contact.answer import FirstContact
 from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import first_contact
@@ -30,6 +29,7 @@ from core.motion.speed import (
     first_excess,
     highest_speed,
 )
+from core.passages import TIME_MAX
 from core.shown import Shown, worded
 from core.values import asked_of, checked_number, checked_type
 from core.venue import Venue

@@ -20,6 +20,7 @@ TESTED_WITH = {
     "kernels/stretches.py": "kernels/test_bounds.py",
     "kernels/faces.py": "kernels/test_hulls.py",
     "kernels/results.py": "kernels/test_marching.py",
+    "paths/following.py": "paths/test_route.py",
     "tolerance/exhibit.py": "tolerance/test_tolerance.py",
     "tolerance/safe.py": "tolerance/test_tolerance.py",
 }

@@ -29,8 +29,8 @@ from app.wire.models import (
 )
 from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralPath
 from core import Dance, Dragon, InvalidValue, Passage
-from core.clock import PASSAGES_MAX
 from core.errors import said
+from core.passages import PASSAGES_MAX
 from core.values import Floats
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from pydantic import BaseModel
 from app.wire.dances import TimeSteps
 from app.wire.paths import TurnFields
 from core import BenchDragonError, Dragon
-from core.dance import follows, tightest_bend
 from core.dragon import BENCHES_MAX
 from core.errors import said
+from core.paths.following import follows, tightest_bend
 
 # A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")

@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from core import plots
 from core.budget import Budget, bounded
-from core.clock import Clock
 from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES, Ended
 from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
-from core.dance import Dance, RunEnd
+from core.dance import Clock, Dance, RunEnd
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue
 from core.motion.trajectory import instants

@@ -16,14 +16,13 @@ from typing import Any
 
 from core import kernels
 from core.budget import Budget, bounded
-from core.clock import Clock
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold
 from core.contact.march import BRACKETS_GRAZING, TOUCHES, Ended
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
-from core.dance import Dance, EndReason, RunEnd
+from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import said
 from core.kernels.constants import FRONT, MX, UY

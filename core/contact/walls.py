@@ -9,13 +9,12 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget, bounded
-from core.clock import Clock
 from core.contact.answer import Outcome
 from core.contact.clearance import Pair, least_over
 from core.contact.fold import moved_until
 from core.contact.march import Ended
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
-from core.dance import Dance
+from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.frame import Frame

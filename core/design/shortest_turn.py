@@ -25,9 +25,10 @@ from core.contact.answer import FirstContact, Outcome
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact.first_contact import contact_within
 from core.contact.search import MARGIN_MAX
-from core.dance import Dance, follows
+from core.dance import Dance
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import InvalidValue, TooMuchWork, said
+from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected

@@ -8,11 +8,11 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget, bounded
-from core.clock import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.contact.search import Search
 from core.dance import Dance
 from core.errors import InvalidValue, said_bound
 from core.kernels.constants import EXCEEDED, KEPT
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.sampling import bisected
 from core.shown import Shown
 from core.values import asked_of, checked_number

@@ -85,7 +85,6 @@ EDGE = {
 # What is asked about, checked and within a budget; and the search, with its claim in words.
 SEARCH = {
     "core.budget",
-    "core.clock",
     "core.contact.first_contact",
     "core.contact.search",
     "core.dance",

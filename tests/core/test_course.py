@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, InvalidValue, Legs, Route, Spiral, Waypoints, course
-from core.dance import follows
+from core.paths.following import follows
 
 LONG, SHORT = Dragon(4), Dragon(4, head_length=0.9, body_length=0.9, overhang=0.1)
 CORNER = ((0.0, 0.0), (20.0, 0.0), (20.0, 20.0))

@@ -21,7 +21,7 @@ from core import (
     kernels,
     trajectory,
 )
-from core.clock import HEAD_SPEED_MAX, HEAD_SPEED_MIN
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled

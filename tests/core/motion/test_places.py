@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Spiral, Turn, trajectory
-from core.clock import Passage
 from core.motion.places import Passing, handle_places
+from core.passages import Passage
 
 # Rounding of places along a path [m], and how well a passing time is known [m of travel].
 PLACE_ROUNDING, PASSED = 1e-11, 0.01

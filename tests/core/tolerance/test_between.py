@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_outlines, trajectory
-from core.dance import follows
+from core.paths.following import follows
 from core.tolerance.between import _pulls, _sags, _smallest_circles, held_apart, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats

@@ -30,7 +30,7 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.clock import Clock
+from core.dance import Clock
 
 # Head at 0.5 m/s up to 20 m (40 s), still until 100 s, at 2 m/s up to 60 m (120 s), then at 1 m/s.
 PASSAGES = [Passage(0.5, until_s=20.0), Passage(0.0, until_time=100.0), Passage(2.0, until_s=60.0)]

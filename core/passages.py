@@ -1,0 +1,123 @@
+"""Passages: parts of a dance with other speeds of the head, and pauses; checked one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from core.errors import InvalidValue, said
+from core.shown import Shown
+from core.values import checked_number
+
+HEAD_SPEED_MIN = 1e-6  # [m/s]
+HEAD_SPEED_MAX = 1e4  # [m/s]
+TIME_MAX = 1e12  # [s]
+PLACE_MAX = 1e9  # [m]
+PASSAGES_MAX = 1_000
+# Most passages that a sentence lists one by one [1].
+LISTED = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Passage(Shown):
+    """A part of the dance with one speed of the head. It begins where the passage before it ends, or at time 0.
+
+    speed: [m/s], 0 for a pause; until_s: place of the head, or until_time: time, at which the passage ends [m], [s]
+    """
+
+    speed: float
+    until_s: float | None = None
+    until_time: float | None = None
+
+    def words(self) -> str:
+        """The passage in a sentence, with all its digits."""
+        end = f"{said(self.until_s)} m" if self.until_s is not None else f"{said(self.until_time or 0.0)} s"
+        return f"{said(self.speed)} m/s until {end}"
+
+
+class Stretch(NamedTuple):
+    """An interval of time with one speed of the head.
+
+    begin, end: [s]; first, last: places of the head then [m]; speed: [m/s]
+    passage: its index, None outside all passages; origin: a time [s] and its place [m], from which all others follow
+    """
+
+    begin: float
+    end: float
+    first: float
+    last: float
+    speed: float
+    passage: int | None
+    origin: tuple[float, float]
+
+    def time(self, place: float) -> float:
+        """Time at which the head is at a place of the stretch [s]."""
+        return min(max(self.origin[0] + (place - self.origin[1]) / self.speed, self.begin), self.end)
+
+    def place(self, time: float) -> float:
+        """Place of the head at a time of the stretch [m]."""
+        return self.origin[1] + (time - self.origin[0]) * self.speed
+
+
+# With passages 0 to n - 1, node k is the time and the place at which passage k begins, node n where the last one ends;
+# node 0 is time 0 at place 0.
+def nodes(passages: Sequence[Passage]) -> tuple[list[float], list[float]]:
+    """Times [s] and places [m] of the nodes. raises: InvalidValue for a passage that ends before it begins"""
+    times, places = [0.0], [0.0]
+    for k, passage in enumerate(passages):
+        time, place = _ended(k, passage, times[-1], places[-1])
+        times.append(time)
+        places.append(place)
+    return times, places
+
+
+def _ended(k: int, passage: Passage, time: float, place: float) -> tuple[float, float]:
+    """Time and place at which a passage ends that begins at these. raises: InvalidValue"""
+    if passage.until_time is not None:
+        if passage.until_time <= time:
+            rule = f"must be after the passage begins, at {said(time)} s"
+            raise InvalidValue.of(f"passages.{k}.until_time", rule, passage.until_time, "s")
+        return passage.until_time, place + (passage.until_time - time) * passage.speed
+    until = passage.until_s
+    assert until is not None
+    if until <= place:
+        rule = f"must be further than where the passage begins, at {said(place)} m"
+        raise InvalidValue.of(f"passages.{k}.until_s", rule, until, "m")
+    return time + (until - place) / passage.speed, until
+
+
+def checked_passages(given: object) -> tuple[Passage, ...]:
+    """Passages whose numbers are checked one by one. raises: InvalidValue"""
+    rule = "passages must be a list of Passage"
+    if not isinstance(given, (list, tuple)):
+        raise InvalidValue("passages", f"{rule}, got {given!r:.60}")
+    if len(given) > PASSAGES_MAX:
+        raise InvalidValue("passages", f"passages must be at most {PASSAGES_MAX}, got {len(given)}")
+    return tuple(_checked(f"passages.{k}", passage) for k, passage in enumerate(given))
+
+
+def _checked(name: str, passage: object) -> Passage:
+    if not isinstance(passage, Passage):
+        raise InvalidValue(name, f"{name} must be a Passage, got {passage!r:.60}")
+    speed = checked_number(f"{name}.speed", passage.speed, "m/s", 0.0, HEAD_SPEED_MAX)
+    if 0.0 < speed < HEAD_SPEED_MIN:
+        raise InvalidValue.of(
+            f"{name}.speed", f"must be 0, for a pause, or at least {HEAD_SPEED_MIN:g} m/s", speed, "m/s"
+        )
+    place, time = passage.until_s, passage.until_time
+    if (place is None) == (time is None):
+        got = "neither" if place is None else "both"
+        raise InvalidValue(name, f"{name} must end at until_s [m] or at until_time [s], got {got}")
+    if place is None:
+        return Passage(speed, None, checked_number(f"{name}.until_time", time, "s", -TIME_MAX, TIME_MAX))
+    if speed == 0.0:
+        raise InvalidValue(f"{name}.until_time", f"{name}.until_time must be given: a pause does not reach until_s")
+    return Passage(speed, checked_number(f"{name}.until_s", place, "m", -PLACE_MAX, PLACE_MAX))
+
+
+def spoken(passages: Sequence[Passage], after: str) -> str:
+    """The speeds of the head in a sentence. after: its speed after the passages, with the unit"""
+    if len(passages) > LISTED:
+        return f"{after} after {len(passages)} passages given one by one"
+    return f"{', '.join(passage.words() for passage in passages)}, and then at {after}"

@@ -1,0 +1,70 @@
+"""A dragon on a route: the bends that every bench can follow, and the head's place when the whole dragon has room."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from core import kernels
+from core.dragon import Dragon
+from core.errors import InvalidValue
+from core.paths.route import Route
+from core.sampling import bisected
+
+# Width of the bracket around the earliest place of the head: absolute [m], and relative to that place [1].
+ROOM_WIDTH = 1e-9
+
+
+def follows(dragon: Dragon, path: Route) -> bool:
+    """True if every bend of the route is wide enough for every chord."""
+    longest = float(dragon.chords[: dragon.uniform_from + 1].max())
+    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
+
+
+def tightest_bend(dragon: Dragon) -> tuple[float, int]:
+    """The least radius of a bend that every bench can follow [m], and the bench that needs that radius."""
+    bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
+    return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_BEND_LIMIT, bench
+
+
+def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
+    """Refuse a bend that a bench cannot follow.
+
+    With |curvature| chord / 2 below the limit, the next handle is unique and never moves backwards.
+    """
+    if follows(dragon, path):
+        return
+    curvature, s = path.sharpest
+    tightest, bench = tightest_bend(dragon)
+    chord = float(dragon.chords[bench])
+    x, y = path.position(s)
+    raise InvalidValue(
+        "path",
+        f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "
+        f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
+    )
+
+
+def earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
+    """Place of the head when the last handle is at the beginning of the path [m].
+
+    A chord spans between 1 and pi / 2 times its own length of the path. These bounds, and the end of the path, give the
+    interval for a bisection of the place of the head.
+    """
+    sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
+    sizes[:, kernels.CHORD] = dragon.chords
+    chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
+
+    def has_room(s: float) -> bool:
+        return bool(kernels.route_tail(path.table, min(s, path.end), dragon.benches, sizes, chain) >= tail_begin)
+
+    low, straight = tail_begin, float(dragon.chords.sum())
+    high = low + 0.5 * math.pi * straight
+    if not has_room(high):
+        raise InvalidValue(
+            "path",
+            f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
+            f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
+        )
+    return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)
