@@ -19,7 +19,7 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, said, said_bound
-from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, spoken
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, words
 from core.paths.following import earliest_place, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -128,7 +128,7 @@ class Clock:
     def words(self) -> str:
         """The speeds of the head in a sentence."""
         after = f"{said(self.head_speed)} m/s"
-        return spoken(self.passages, after) if self.passages else after
+        return words(self.passages, after) if self.passages else after
 
 
 @dataclass(frozen=True, repr=False)

@@ -116,7 +116,7 @@ def _checked(name: str, passage: object) -> Passage:
     return Passage(speed, checked_number(f"{name}.until_s", place, "m", -PLACE_MAX, PLACE_MAX))
 
 
-def spoken(passages: Sequence[Passage], after: str) -> str:
+def words(passages: Sequence[Passage], after: str) -> str:
     """The speeds of the head in a sentence. after: its speed after the passages, with the unit"""
     if len(passages) > LISTED:
         return f"{after} after {len(passages)} passages given one by one"
