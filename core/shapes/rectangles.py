@@ -38,8 +38,7 @@ from core.values import Floats
 
 Pairs = NDArray[np.int64]
 
-# Sides of the centre on which the corners lie, in units of (half length, half width): front-left, front-right,
-# rear-right, rear-left. This is also the order of eq. 12, where the length runs to the right.
+# Sides of the centre on which the corners lie, in units of (half length, half width).
 CORNER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 # Largest number of overlapping pairs in one answer: 10 for each of 100,000 benches; the search takes 200 MB for them.
@@ -62,6 +61,10 @@ ANGLE_TOLERANCE = 1e-12
 
 # Upper bound on the rounding of such a sum [rad].
 SUM_ROUNDING = 1e-13
+
+# Corners in the order of eq. 12: top right, bottom right, bottom left, top left, in units of (half length, half width),
+# with the length to the right. The rule shares nothing with the other engines, so it does not use CORNER_SIDES.
+PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -213,7 +216,7 @@ def literal_corners(poses: Floats, sizes: Floats) -> Floats:
 
 
 def _turned(poses: Floats, sizes: Floats, last: float) -> Floats:
-    half = 0.5 * CORNER_SIDES * sizes[..., None, :]
+    half = 0.5 * PAPER_SIDES * sizes[..., None, :]
     heading, along, across = poses[..., 2, None], half[..., 0], half[..., 1]
     cos, sin = np.cos(heading), np.sin(heading)
     x = poses[..., 0, None] + (cos * along - sin * across)
