@@ -63,7 +63,7 @@ ANGLE_TOLERANCE = 1e-12
 SUM_ROUNDING = 1e-13
 
 # Corners in the order of eq. 12: top right, bottom right, bottom left, top left, in units of (half length, half width),
-# with the length to the right. The rule shares nothing with the other engines, so it does not use CORNER_SIDES.
+# with the length to the right. Not CORNER_SIDES: the rule and the other engines share no corners.
 PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
