@@ -1,7 +1,7 @@
 """Feasible pitches, computed a second time slowly and plainly: no code of core, every pair, dense samples of the way.
 
-Every next handle is found by bisection, rectangles are compared corner by corner as in slow_search.py, and dips between
-samples are looked at again in finer ones.
+Handles are found and rectangles compared as in slow_search.py, and dips between samples are looked at again in finer
+ones.
 """
 
 from __future__ import annotations
@@ -10,12 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.core.slow_search import arc_length, chord_squared, rectangles_gap
+from tests.core.slow_search import arc_length, head_angle, next_delta, rectangles_gap
 
-# Half the range of delta is bisected to 2^-48 of it, about 1e-14.
-BISECTIONS = 48
-# The range of delta beyond half a turn is looked at on so many points, three times around the largest value [1].
-CREST_POINTS, CREST_ROUNDS = 200, 3
 # The way is sampled in such steps, in shortest chords, up to so many chords out from the circle, near which small
 # circles have two dips within a tenth of a chord; then further apart [1].
 STEPS = ((0.02, 2.0), (0.2, 30.0))
@@ -23,34 +19,6 @@ FAR_SAMPLES = 120
 # The deepest dips, and the steepest stretches, as towards a fold, are looked at again, in so many rounds of so many
 # samples.
 DIPS, STEEPEST, ROUNDS, SPLIT = 4, 3, 3, 24
-
-
-def next_delta(theta, chord):
-    """First delta at which points of r = theta are a chord apart; NaN where there is none before the first crest."""
-    low, high = np.zeros_like(theta), np.full_like(theta, np.pi)
-    beyond = np.flatnonzero(chord_squared(theta, high) < chord**2)
-    if beyond.size:
-        low[beyond], high[beyond] = beyond_half_a_turn(theta[beyond], chord)
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        short = chord_squared(theta, middle) < chord**2
-        low, high = np.where(short, middle, low), np.where(short, high, middle)
-    return 0.5 * (low + high)
-
-
-def beyond_half_a_turn(theta, chord):
-    """(low, high) around the first delta > pi; NaN where the distance falls again before it is a chord."""
-    start, end = np.full_like(theta, np.pi), np.full_like(theta, 2.0 * np.pi)
-    rows = np.arange(theta.size)
-    for _ in range(CREST_ROUNDS):
-        delta = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, CREST_POINTS)
-        value = chord_squared(theta[:, None], delta)
-        falls = np.diff(value, axis=1) < 0.0
-        crest = np.where(falls.any(axis=1), falls.argmax(axis=1), CREST_POINTS - 1)
-        top, reached = delta[rows, crest], value[rows, crest] >= chord**2
-        start = delta[rows, np.maximum(crest - 1, 0)]
-        end = delta[rows, np.minimum(crest + 1, CREST_POINTS - 1)]
-    return np.where(reached, np.pi, np.nan), np.where(reached, top, np.nan)
 
 
 @dataclass
@@ -83,10 +51,7 @@ class SlowWay:
         near = inner + np.unique(near) * self.chords.min() / self.growth
         arcs = np.concatenate([near, np.geomspace(near[-1], max(outer, near[-1]), FAR_SAMPLES)[1:], [outer]])
         arcs = np.unique(arcs[arcs <= outer])
-        theta = np.sqrt(2.0 * arcs)
-        for _ in range(60):
-            theta = theta - (arc_length(theta) - arcs) / np.sqrt(1.0 + theta**2)
-        return np.clip(theta, circle, start)
+        return np.clip(head_angle(arcs), circle, start)
 
     def handles(self, heads):
         """(T, n + 1, 2) [m]; NaN from where the chain folds."""

@@ -1,7 +1,7 @@
 """First contact, computed a second time slowly and plainly: no code of core, every pair, tiny steps.
 
-The head is found with scipy's brentq on the arc length, every next handle by plain bisection, many instants at once;
-rectangles are compared corner by corner. Dips between two steps are looked at again in smaller ones.
+The head and every next handle are roots in a bracket, of many instants at once; rectangles are compared corner by
+corner. Dips between two steps are looked at again in smaller ones.
 """
 
 from __future__ import annotations
@@ -9,10 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 from shapely.geometry import Polygon
 
-BISECTIONS = 58
+# A root is found to its last bits [1], in six or so steps of Newton's; by bisection alone it takes 53.
+LAST_BITS, STEPS_MOST = 3e-16, 200
+# The range of delta beyond half a turn is looked at on so many points, four times around the largest value [1].
+CREST_POINTS, CREST_ROUNDS = 100, 4
 # Times are found in so many rounds of SPLIT instants each: 40^8 is about 7e12.
 ROUNDS = 8
 # Steps of the head in the coarse pass, in shortest chords [1]; the smaller ones have SPLIT in two of these.
@@ -33,32 +36,57 @@ def chord_squared(theta, delta):
     return delta**2 + 4.0 * theta * (theta + delta) * np.sin(0.5 * delta) ** 2
 
 
-def first_rise(theta, chord):
-    """(low, high) around the first delta at which the points are a chord apart; NaN where there is none."""
+def root(rising, guess, low, high):
+    """Where something that rises from low to high is zero: Newton's steps, and the middle where one leaves the bracket.
+
+    rising: its value and its slope; NaN where an end is NaN
+    """
+    at = np.clip(guess, low, high)
+    for _ in range(STEPS_MOST):
+        value, slope = rising(at)
+        low, high = np.where(value < 0.0, at, low), np.where(value < 0.0, high, at)
+        step = value / slope
+        fine = ((low < at - step) & (at - step < high)) | (np.abs(step) <= LAST_BITS * at)
+        step = np.where(fine, step, at - 0.5 * (low + high))
+        at = at - step
+        if not (np.abs(step) > LAST_BITS * at).any():
+            break
+    return at
+
+
+def head_angle(arc):
+    """Angle of the spiral r = theta at a length from the centre."""
+    far = np.sqrt(2.0 * arc)
+    return root(lambda theta: (arc_length(theta) - arc, np.hypot(1.0, theta)), far, 0.0 * far, far + 1.0)
+
+
+def next_delta(theta, chord):
+    """First delta at which points of r = theta are a chord apart; NaN where there is none before the first crest."""
     low, high = np.zeros_like(theta), np.full_like(theta, np.pi)
-    for k in np.flatnonzero(chord_squared(theta, high) < chord**2):
-        delta = np.linspace(np.pi, 2.0 * np.pi, 400)
-        value = chord_squared(theta[k], delta)
-        crest = int(np.argmax(np.diff(value, append=-np.inf) < 0.0))
-        lowest, highest = delta[max(crest - 1, 0)], delta[min(crest + 1, 399)]
-        peak = minimize_scalar(
-            lambda d, t=theta[k]: -chord_squared(t, d),
-            bounds=(lowest, highest),
-            method="bounded",
-            options={"xatol": 1e-12},
-        )
-        top = peak.x if -peak.fun > value[crest] else delta[crest]
-        low[k], high[k] = (np.pi, top) if chord_squared(theta[k], top) >= chord**2 else (np.nan, np.nan)
-    return low, high
+    beyond = np.flatnonzero(chord_squared(theta, high) < chord**2)
+    if beyond.size:
+        low[beyond], high[beyond] = beyond_half_a_turn(theta[beyond], chord)
+
+    def rising(delta):
+        slope = delta + 2.0 * theta * np.sin(0.5 * delta) ** 2 + theta * (theta + delta) * np.sin(delta)
+        return chord_squared(theta, delta) - chord**2, 2.0 * slope
+
+    return root(rising, chord / np.hypot(1.0, theta), low, high)
 
 
-def next_theta(theta, chord):
-    low, high = first_rise(theta, chord)
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        short = chord_squared(theta, middle) < chord**2
-        low, high = np.where(short, middle, low), np.where(short, high, middle)
-    return theta + 0.5 * (low + high)
+def beyond_half_a_turn(theta, chord):
+    """(low, high) around the first delta > pi; NaN where the distance falls again before it is a chord."""
+    start, end = np.full_like(theta, np.pi), np.full_like(theta, 2.0 * np.pi)
+    rows = np.arange(theta.size)
+    for _ in range(CREST_ROUNDS):
+        delta = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, CREST_POINTS)
+        value = chord_squared(theta[:, None], delta)
+        falls = np.diff(value, axis=1) < 0.0
+        crest = np.where(falls.any(axis=1), falls.argmax(axis=1), CREST_POINTS - 1)
+        top, reached = delta[rows, crest], value[rows, crest] >= chord**2
+        start = delta[rows, np.maximum(crest - 1, 0)]
+        end = delta[rows, np.minimum(crest + 1, CREST_POINTS - 1)]
+    return np.where(reached, np.pi, np.nan), np.where(reached, top, np.nan)
 
 
 @dataclass
@@ -85,24 +113,23 @@ class SlowDance:
         return self.growth * arc_length(2.0 * np.pi * self.start_turns)
 
     def head(self, time):
-        left = (self.way - time) / self.growth
-        return brentq(lambda t: arc_length(t) - left, 0.0, np.sqrt(2.0 * left) + 1.0, xtol=1e-15, rtol=9e-16)
+        return head_angle((self.way - time) / self.growth)
 
-    def thetas(self, heads):
-        """(T, n + 1) angles for (T,) head angles; NaN from where the chain folds."""
+    def thetas(self, heads, benches=None):
+        """(T, n + 1) angles for (T,) head angles, of so many benches or all; NaN from where the chain folds."""
         columns = [np.asarray(heads, dtype=float)]
-        for chord in self.chords:
-            columns.append(next_theta(columns[-1], chord / self.growth))
+        for chord in self.chords[:benches]:
+            columns.append(columns[-1] + next_delta(columns[-1], chord / self.growth))
         return np.stack(columns, axis=1)
 
-    def handles(self, times):
+    def handles(self, times, benches=None):
         """(T, n + 1, 2) [m]"""
-        theta = self.thetas([self.head(time) for time in times])
+        theta = self.thetas(self.head(np.asarray(times)), benches)
         return self.growth * theta[..., None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
 
     def folds(self, times):
         """(T,) whether a chord finds no place any more."""
-        return np.isnan(self.thetas([self.head(time) for time in times])).any(axis=1)
+        return np.isnan(self.thetas(self.head(np.asarray(times)))).any(axis=1)
 
     def end(self):
         """The last time at which the whole chain follows without a jump [s], good to about 1e-9."""
@@ -140,7 +167,7 @@ class SlowDance:
 
     def pair_gap(self, time, pair):
         """Separation of one pair [m], distances by shapely."""
-        handles = self.handles([time])[0]
+        handles = self.handles([time], max(pair) + 1)[0]
         shapes = [self.polygon(handles, bench) for bench in pair]
         if shapes[0].intersection(shapes[1]).area > 0.0:
             centres = [0.5 * (handles[k] + handles[k + 1])[None] for k in pair]
@@ -158,6 +185,9 @@ class SlowDance:
 
     def first_touch(self, margin=0.0, until=None):
         """Time and pair of the first instant with a separation <= margin, None if there is none."""
+        gaps, pairs = self.clearance([0.0])
+        if gaps[0] <= margin:
+            return 0.0, tuple(pairs[0])
         stop = RUN * self.end() if until is None else until
         steps = 3 + int(stop / (STEP * self.chords.min()))
         last_two = np.empty(0)
@@ -166,8 +196,6 @@ class SlowDance:
             last_two = times[-2:]
             gaps, pairs = self.clearance(reach)
             gaps -= margin
-            if gaps[0] <= 0.0:
-                return reach[0], tuple(pairs[0])
             touching = np.flatnonzero(gaps <= 0.0)
             last = touching[0] if touching.size else len(reach) - 1
             lows = [k for k in range(1, last) if gaps[k - 1] > gaps[k] <= gaps[k + 1]]

@@ -104,9 +104,9 @@ def gradient() -> Results:
 
 
 def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
-    """Where excess changes its sign between low and high, for each instant."""
+    """Where excess changes its sign between low and high, for each instant, to 1e-11 of what is between."""
     sign = np.sign(excess(low))
-    for _ in range(60):
+    for _ in range(37):
         middle = 0.5 * (low + high)
         same = np.sign(excess(middle)) == sign
         low, high = np.where(same, middle, low), np.where(same, high, middle)
@@ -130,10 +130,10 @@ def wrong_ring(handle: int) -> Results:
     return position, right[1]
 
 
-def wrong_coil(handle: int) -> Results:
+def wrong_coil(handle: int, times: Floats) -> Results:
     """While the handle before is outside the turn, one is put on the other coil; those behind follow from there."""
-    path, (position, speed) = Turn(1.7), turn()
-    growth, s = 1.7 / (2.0 * math.pi), TURN_TIMES
+    path, (position, speed) = Turn(1.7), turn(times)
+    growth, s = 1.7 / (2.0 * math.pi), times
     position = position.copy()
     for k, chord in enumerate(Dragon().chords, start=1):
         point = position[:, k - 1]
@@ -154,7 +154,7 @@ def wrong_coil(handle: int) -> Results:
     return position, speed
 
 
-def semicircles() -> Results:
+def semicircles(times: Floats) -> Results:
     """A turn of two semicircles on the line from the entry to the exit, 3 m and 1.5 m: every handle by root finding."""
     path = Turn(1.7)
     entry = np.array(path.entry)
@@ -172,9 +172,9 @@ def semicircles() -> Results:
             return entry + 7.5 * along - 1.5 * (math.cos(angle) * along + math.sin(angle) * left)
         return np.asarray(path.position(path.length + s - 4.5 * math.pi))
 
-    right, chords = turn(), Dragon().chords
+    right, chords = turn(times), Dragon().chords
     position = right[0].copy()
-    for t, s in enumerate(TURN_TIMES):
+    for t, s in enumerate(times):
         if s <= 0.0:
             continue
         for k in range(224):
@@ -196,9 +196,9 @@ def semicircles() -> Results:
     return position, right[1]
 
 
-def mirrored_arcs() -> Results:
+def mirrored_arcs(times: Floats) -> Results:
     """Both arcs on the other side of the line from the entry to the exit, which they reach all the same."""
-    path, right = Turn(1.7), turn()
+    path, right = Turn(1.7), turn(times)
     along = np.array(path.exit) - np.array(path.entry)
     along /= np.linalg.norm(along)
 
@@ -208,7 +208,7 @@ def mirrored_arcs() -> Results:
         across = away - (away @ along)[:, None] * along
         return np.where(((s > 0.0) & (s < path.length))[:, None], point - 2.0 * across, point)
 
-    s, points = TURN_TIMES, [place(TURN_TIMES)]
+    s, points = times, [place(times)]
     for chord in Dragon().chords:
 
         def excess(u: Floats, point: Floats = points[-1], chord: float = chord) -> Floats:

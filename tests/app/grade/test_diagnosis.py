@@ -21,6 +21,7 @@ ONCE = Dragon(overhang=0.1375)
 # Most errors show in every tenth instant too, and a tenth of the lines is read in a tenth of the time; whole: for the
 # others.
 TENTH = slice(None, None, 10)
+FEWER = TURN_TIMES[TENTH]
 
 
 def first(results: students.Results, *, whole: bool = False) -> bytes:
@@ -52,8 +53,8 @@ KNOWN = {
     "other_start": lambda: first(spiral(start_turns=15.0)),
     "shifted_time": lambda: first(spiral(SPIRAL_TIMES + 1.0)),
     "ratio_inverted": lambda: fourth(turn(ratio=0.5)),
-    "arcs_not_tangent": lambda: fourth(students.semicircles()),
-    "wrong_centre": lambda: fourth(students.mirrored_arcs()),
+    "arcs_not_tangent": lambda: students.lines(students.semicircles(FEWER), FEWER),
+    "wrong_centre": lambda: students.lines(students.mirrored_arcs(FEWER), FEWER),
     "turn: shifted_time": lambda: fourth(turn(TURN_TIMES + 13.621245)),
     "turn: backward_difference": lambda: fourth(students.quotient(-0.01, 0.0, turn), whole=True),
     "contact: other_instant": lambda: students.contact_workbook(spiral(np.array([412.48]))),
@@ -136,7 +137,7 @@ def test_the_angle_that_was_rounded_is_told() -> None:
 
 
 def test_a_handle_on_the_wrong_coil_of_the_turn_is_told() -> None:
-    found = grade(fourth(students.wrong_coil(7)))
+    found = grade(students.lines(students.wrong_coil(7, FEWER), FEWER))
     [one] = found.diagnosis
     assert (found.workbook, one.error) == ("result4", "wrong_ring")
     assert one.evidence.startswith(

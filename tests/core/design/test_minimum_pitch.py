@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
+import core.design.ways
 from core import (
     Dance,
     Dragon,
@@ -361,18 +362,20 @@ TINY = {"body_length": 0.00390625, "head_length": 1.0, "overhang": 0.0}
 
 def test_tiny_benches_on_wide_spirals_are_answered() -> None:
     """Ways that begin kilometres further out than anything can touch took 1.4 s each, 30 minutes in all."""
-    found = minimum_pitch(Dragon(**TINY))
+    dragon = Dragon(20, **TINY)
+    found = minimum_pitch(dragon)
     assert (found.limited_by, found.benches, found.head_radius) == (LimitedBy.CIRCLE, (0, 2), 4.5)
     assert found.pitch - found.pitch_bracket[0] <= WIDE_BRACKET * found.pitch
-    low, high = (SlowWay.of(Dragon(60, **TINY), pitch, 16.0, 4.5).least() for pitch in found.pitch_bracket)
+    low, high = (SlowWay.of(dragon, pitch, 16.0, 4.5).least() for pitch in found.pitch_bracket)
     assert low < 0.0 < high
 
 
-def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error() -> None:
+def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(core.design.ways, "PITCH_WORK", 4e5)
     with pytest.raises(TooMuchWork) as caught:
         minimum_pitch(Dragon(body_length=0.001, overhang=0.0))
     assert caught.value.field == "dragon.body_length"
-    assert "4e+07 steps of work" in caught.value.message
+    assert "400000 steps of work" in caught.value.message
     assert "the shortest of 223 chords is 0.001 m long" in caught.value.message
     assert "must be larger, or benches fewer, got 0.001 m: " in caught.value.message
 

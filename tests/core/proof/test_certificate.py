@@ -17,6 +17,7 @@ from core.errors import ProofRefused
 from core.proof import Certificate, check, prove_collision_time, prove_minimum_pitch
 from tests.core.forgeries import FORGERIES, edit, through_json
 from tests.core.forgeries import put_at as at
+from tests.depth import examples
 
 ROOT = Path(__file__).parents[3]
 CONTACTS = {
@@ -45,9 +46,20 @@ def small() -> Certificate:
 
 
 @pytest.mark.uncompiled
-@pytest.mark.parametrize("name", ["default", "n_5", "head_spacing_1.00", "combo_b", "combo_e_body_longer_than_head"])
-def test_a_reference_contact_is_proven_and_checked(name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "benches"),
+    [
+        ("default", 223),
+        ("n_5", 5),
+        ("head_spacing_1.00", examples(20, 223)),
+        ("combo_b", examples(20, 400)),
+        ("combo_e_body_longer_than_head", examples(20, 120)),
+    ],
+)
+def test_a_reference_contact_is_proven_and_checked(name: str, benches: int) -> None:
+    """Twenty benches touch where the whole dragon does."""
     case = CONTACTS[name]
+    case = case | {"dragon": case["dragon"] | {"benches": benches}}
     certificate = through_json(proof_of(case, head_speed=case["head_speed"]))
     assert certificate["overlap"] == {"benches": case["benches"]}
     assert f"benches {case['benches'][0]} and {case['benches'][1]} overlap" in check(certificate).statement

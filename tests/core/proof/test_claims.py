@@ -13,7 +13,7 @@ from flint import arb, ctx
 
 from core import Dance, Dragon, Spiral, bench_poses, trajectory
 from core.errors import InvalidValue, ProofRefused
-from core.proof import check, prove_collision_time, prove_minimum_pitch
+from core.proof import Certificate, check, prove_collision_time, prove_minimum_pitch
 from core.proof.chain import Chain
 from core.proof.claims import check_near, head_theta, near_pair
 from core.proof.pairs import Unproven
@@ -34,13 +34,13 @@ def test_a_bracket_moved_off_the_contact_is_refused(later: float) -> None:
 def test_a_contact_that_is_not_the_first_is_refused() -> None:
     # At pitch 0.55 the benches part again from 415.02 to 415.375 s: a contact there, but not the first.
     with pytest.raises(ProofRefused, match="benches 0 and 8 overlap"):
-        prove_collision_time(Dance(Dragon(), Spiral()), 415.5)
+        prove_collision_time(Dance(Dragon(20), Spiral()), 415.5)
 
 
 @pytest.mark.parametrize(("more", "reason"), [(-1e-9, "overlap when handle 0"), (1.1e-6, "free of contact too")])
 def test_a_pitch_off_the_smallest_is_refused(more: float, reason: str) -> None:
     with pytest.raises(ProofRefused, match=reason):
-        prove_minimum_pitch(Dragon(), PITCHES["default R=6.36"]["pitch"] + more, turning_radius=6.36)
+        prove_minimum_pitch(Dragon(27), PITCHES["default R=6.36"]["pitch"] + more, turning_radius=6.36)
 
 
 @pytest.mark.parametrize(
@@ -57,6 +57,15 @@ def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> N
         prove_collision_time(Dance(Dragon(), Spiral()), time)
 
 
+@pytest.fixture(scope="module")
+def grazing() -> Certificate:
+    """A minimum pitch limited by a graze; proven."""
+    pitch = PITCHES["default R=6.36"]["pitch"] + PITCH_ROUNDING
+    certificate = through_json(prove_minimum_pitch(Dragon(27), pitch, turning_radius=6.36))
+    check(certificate)
+    return certificate
+
+
 @pytest.mark.parametrize(
     ("overlap", "reason"),
     [
@@ -65,12 +74,11 @@ def test_a_time_that_is_no_time_of_the_dance_is_an_invalid_value(time: Any) -> N
         ({"start_within_circle": True}, "not shown to lie within the circle"),
     ],
 )
-def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(overlap: dict[str, Any], reason: str) -> None:
-    pitch = PITCHES["default R=6.36"]["pitch"] + PITCH_ROUNDING
-    certificate = through_json(prove_minimum_pitch(Dragon(27), pitch, turning_radius=6.36))
-    check(certificate)
+def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(
+    grazing: Certificate, overlap: dict[str, Any], reason: str
+) -> None:
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(lambda content: content.__setitem__("overlap", overlap))(certificate))
+        check(edit(lambda content: content.__setitem__("overlap", overlap))(grazing))
 
 
 # -- pairs that are near --

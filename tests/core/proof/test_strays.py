@@ -151,10 +151,13 @@ def test_a_forged_certificate_of_a_stray_is_refused(small: Certificate, name: st
         check(edit(change)(small))
 
 
+@pytest.fixture(scope="module")
+def tiny() -> Certificate:
+    return through_json(prove_tolerance(Dance(Dragon(4), Spiral(0.6, 3.0)), 0.01, stop=1.0))
+
+
 @pytest.mark.parametrize("put", [None, [], -1, True, [1], 1e15], ids=repr)
-def test_no_change_of_any_member_escapes(put: Any) -> None:
-    dance = Dance(Dragon(4), Spiral(0.6, 3.0))
-    tiny = through_json(prove_tolerance(dance, 0.01, stop=4.0))
+def test_no_change_of_any_member_escapes(tiny: Certificate, put: Any) -> None:
     messages = [refusal(edit(at(*place, put=put))(tiny)) for place in places(tiny)[1:] if place != ("digest",)]
     assert [words for words in messages if "Error(" in words] == []
     assert sum(map(bool, messages)) > 20
