@@ -143,7 +143,8 @@ def test_workbook_refuses_more_instants_than_it_has_columns(instants: int, fits:
         np.zeros((instants, 2)),
     )
     if fits:
-        assert openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(still))).worksheets[0].max_column == 16_384
+        book = openpyxl.load_workbook(io.BytesIO(tables.trajectory_xlsx(still)), read_only=True)
+        assert len(next(book.worksheets[0].iter_rows(max_row=1))) == 16_384
     else:
         with pytest.raises(TooLarge, match="16383 instants"):
             tables.trajectory_xlsx(still)

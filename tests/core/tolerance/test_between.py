@@ -12,6 +12,7 @@ from core.paths.following import follows
 from core.tolerance.between import _pulls, _sags, _smallest_circles, held_apart, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats
+from tests.depth import examples
 
 CHORD_ERROR = 1e-12  # [m]
 FAR = 9.0  # a stray above all that are found [m]
@@ -26,25 +27,28 @@ def held(dragon: Dragon, radius: float) -> float:
     return held_apart(Dance(dragon, hairpin(radius)), 0.0, FAR, Budget())
 
 
-def strayed_three(rng: np.random.Generator, chords: Floats, places: Floats, stray: float, count: int) -> Floats:
-    """Handles (N, 4, 2) of three benches within the stray of their places, many of them at its edge [m]."""
-    seek = places.mean(axis=0)
-    found = np.empty((0, 4, 2))
-    moved = np.repeat(places[None], count, axis=0)
+def strayed_threes(rng: np.random.Generator, chords: Floats, places: Floats, stray: float, count: int) -> list[Floats]:
+    """Of every three benches with chords (R, 3) and places (R, 4, 2) the handles (N, 4, 2) of poses within the stray,
+    many of them at its edge [m]."""
+    seek, chords = places.mean(axis=1)[:, None, None], chords[:, None]
+    found: list[list[Floats]] = [[] for _ in places]
+    moved = np.repeat(places[:, None], count, axis=1)
     for spread in (1.0, 1.0, 0.5, 0.3, 0.1):
-        step = rng.normal(0.0, spread * stray, moved.shape) + rng.uniform(0.0, 0.6, (len(moved), 1, 1)) * (seek - moved)
-        moved = moved + step
+        step = rng.normal(0.0, spread * stray, moved.shape)
+        moved = moved + step + rng.uniform(0.0, 0.6, (*moved.shape[:2], 1, 1)) * (seek - moved)
         for _ in range(300):  # chords and discs, in turn
-            for k, chord in enumerate(chords):
-                link = moved[:, k] - moved[:, k + 1]
-                length = np.hypot(link[:, 0], link[:, 1])[:, None]
-                moved[:, k] += 0.5 * link * (chord / length - 1.0)
-                moved[:, k + 1] -= 0.5 * link * (chord / length - 1.0)
-            off = moved - places
-            moved = places + off * np.minimum(1.0, stray / np.maximum(np.linalg.norm(off, axis=-1), 1e-9))[..., None]
-        wrong = np.abs(np.linalg.norm(np.diff(moved, axis=1), axis=-1) - chords).max(axis=1)
-        found = np.concatenate([found, moved[wrong < 1e-6]])
-    return found
+            for k in range(3):
+                link = moved[..., k, :] - moved[..., k + 1, :]
+                half = 0.5 * link * (chords[..., k] / np.hypot(link[..., 0], link[..., 1]) - 1.0)[..., None]
+                moved[..., k, :] += half
+                moved[..., k + 1, :] -= half
+            off = moved - places[:, None]
+            far = np.hypot(off[..., 0], off[..., 1])
+            moved = places[:, None] + off * np.minimum(1.0, stray / np.maximum(far, 1e-9))[..., None]
+        wrong = np.abs(np.linalg.norm(np.diff(moved, axis=2), axis=-1) - chords).max(axis=-1)
+        for poses, off, kept in zip(moved, wrong, found, strict=True):
+            kept.append(poses[off < 1e-6])
+    return [np.concatenate(kept) for kept in found]
 
 
 @pytest.mark.parametrize(
@@ -62,15 +66,16 @@ def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon, least: 
     safe, rng = held(dragon, radius), np.random.default_rng(3)
     assert safe > least * dragon.chords.min()
     dance = Dance(dragon, hairpin(radius))
-    tried = 0
-    for time in (41.0, 42.5, 44.0):
-        handles = trajectory(dance, time).position
-        for k in (0, 1):
-            poses = strayed_three(rng, dragon.chords[k : k + 3], handles[k : k + 4], 0.999 * safe, 300)
-            tried += len(poses)
-            rows = np.array([bench_outlines(dragon.leading(k + 3), np.concatenate([handles[:k], p])) for p in poses])
-            assert not overlapping(rows[:, k], rows[:, k + 2]).any()
-    assert tried > 1_000
+    cases = [(handles, k) for handles in trajectory(dance, [41.0, 42.5, 44.0]).position for k in (0, 1)]
+    chords, places = (
+        np.array([row[k : k + size] for row, k in rows])
+        for rows, size in (([(dragon.chords, k) for _, k in cases], 3), (cases, 4))
+    )
+    strayed = strayed_threes(rng, chords, places, 0.999 * safe, examples(120, 300))
+    for (handles, k), poses in zip(cases, strayed, strict=True):
+        rows = np.array([bench_outlines(dragon.leading(k + 3), np.concatenate([handles[:k], p])) for p in poses])
+        assert not overlapping(rows[:, k], rows[:, k + 2]).any()
+    assert sum(map(len, strayed)) > 1_000
 
 
 def test_sags_are_those_of_the_handles() -> None:
@@ -101,7 +106,7 @@ def overlapping(a: Floats, b: Floats) -> Floats:
 def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
     dragon = Dragon(9, 2.2)
     dance, safe = Dance(dragon, hairpin(radius)), held(dragon, radius)
-    for time in np.linspace(40.0, 52.0, 7).tolist():
+    for time in np.linspace(40.0, 52.0, examples(3, 7)).tolist():
         handles = trajectory(dance, time).position
         shown = exhibit(dragon, handles, (1, 3), None, 0.0, safe, time)
         assert shown is not None

@@ -11,6 +11,7 @@ from core import Dragon, InvalidValue
 from core.kernels.constants import DIRECTIONS
 from core.tolerance.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
 from tests.core.tolerance.places import moved_points, random_strays
+from tests.depth import examples
 
 ROUNDING = 1e-11  # [m]
 TIGHT = 1e-3  # supports exceed what places reach by at most this of the stray [1]
@@ -39,7 +40,7 @@ def test_a_point_moves_by_what_the_derivation_says() -> None:
 def test_every_place_lies_in_one_of_the_hulls(chord: float, overhang: float, width: float, stray: float) -> None:
     hulls = bench_hulls(chord, overhang, 0.5 * width, stray)
     planes = (hulls * directions()).sum(axis=-1)
-    strays = random_strays(np.random.default_rng(2), chord, stray, 20_000)
+    strays = random_strays(np.random.default_rng(2), chord, stray, examples(4_000, 20_000))
     for point in outline(chord, overhang, 0.5 * width):
         moved = moved_points(point[None], strays, chord)[:, 0]
         within = (moved @ directions().T <= planes[:, None] + ROUNDING).all(axis=-1)
@@ -51,7 +52,7 @@ def test_supports_are_hardly_larger_than_what_places_reach(
     chord: float, overhang: float, width: float, stray: float
 ) -> None:
     corners = np.array([[0.5 * chord + overhang, 0.5 * width], [0.5 * chord, 0.5 * width]])
-    strays = random_strays(np.random.default_rng(3), chord, stray, 400_000)
+    strays = random_strays(np.random.default_rng(3), chord, stray, examples(100_000, 400_000))
     ahead = directions()[: DIRECTIONS // 4 + 1]
     reached = [(moved_points(corner[None], strays, chord)[:, 0] @ ahead.T).max(axis=0) for corner in corners]
     spare = supports(chord, overhang, 0.5 * width, stray)[:, : len(ahead)] - reached
