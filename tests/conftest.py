@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -106,7 +107,7 @@ def heed_ctrl_c() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def wait_until_live(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
+def wait_until_live(process: Any, port: int, log: Path) -> None:
     """Return when /healthz answers 200; fail with the server's log if it cannot start."""
     end = time.monotonic() + START_TIMEOUT
     while process.poll() is None and time.monotonic() < end:

@@ -337,7 +337,7 @@ function restyle() {
 async function readDocument() {
   const { paths } = await service.ask("openapi", "openapi.json");
   limits = limitsIn(paths);
-  map.units = Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say(unit) : unit]));
+  map.learn(Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say(unit) : unit])));
   controls.translate(limits);
   keep.offer(paths);
 }

@@ -19,8 +19,7 @@ const ERROR = "error.code";
 const shown = (number) => (number === null || number === undefined ? "–" : String(Number(Number(number).toPrecision(DIGITS))));
 
 export class SweepMap {
-  /** name -> unit in the service */
-  units = {};
+  #units = {};
   #table = null;
   #cell = null;
 
@@ -50,6 +49,13 @@ export class SweepMap {
     if (values.includes(own)) this.select.value = own;
     this.#cell = null;
     this.draw();
+  }
+
+  /** units: name -> unit in the service */
+  learn(units) {
+    this.#units = units;
+    this.draw();
+    this.#point(this.#cell);
   }
 
   /** Draw it again, also after a change of language, size or colours. */
@@ -101,7 +107,7 @@ export class SweepMap {
 
   /** Name and unit of a parameter. */
   #label(name) {
-    const unit = this.units[name] ? ` [${this.units[name]}]` : "";
+    const unit = this.#units[name] ? ` [${this.#units[name]}]` : "";
     return FIELDS.some((field) => field.name === name) ? say(name) + unit : name;
   }
 

@@ -1,9 +1,10 @@
-"""The command bench-dragon, asked from Python by run() and from a shell by the `bench-dragon` in bin_folder().
+"""The command bench-dragon, asked from Python by run() and from a shell by the `bench-dragon` in bin_folder(); and
+`bench-dragon serve`, started by serve().
 
 A new process takes longer to start Python and to import the command than to answer. So one process imports every
 command and is forked for each run; everything after the import is the run's own: arguments, folder, environment,
-standard input, output and error, exit code. Where the start itself matters, a whole new process runs: for a service,
-for another path of modules, and in the tests of signals, terminals and pipes.
+standard input, output and error, exit code. Where the start itself matters, a whole new process runs: for a service of
+several processes, for another path of modules, and in the tests of signals, terminals and pipes.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -39,7 +40,7 @@ PATIENCE = 300.0  # [s]: only against a test that would hang
 USED = ("dxf", "figures", "proof", "sweep", "xlsx")
 LAZY = ("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg")
 # Modules of other programs, and the compiled loops.
-NEVER = ("app.service", "app.jobs", "app.sweeps.worker", "app.sweeps.cluster", "core.kernels.")
+NEVER = ("app.sweeps.worker", "app.sweeps.cluster", "core.kernels.")
 WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
 # The command for a shell: it hands what it is given to the process that forks, and ends with the exit code of the run.
 SCRIPT = """#!{python} -IS
@@ -70,14 +71,70 @@ def run(*arguments: str, text: str | None = None, **environment: str) -> subproc
 
 def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO]) -> int:
     """Exit code of a run in this folder with these files as its standard input, output and error."""
-    with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
-        peer.connect(f"{bin_folder()}/door")
-        words = json.dumps([str(Path.cwd()), dict(environment), arguments]).encode()
-        socket.send_fds(peer, [words], [file.fileno() for file in files])
+    with _asked(str(Path.cwd()), arguments, environment, [file.fileno() for file in files]) as peer:
         code = peer.recv(9)
     if not code:
         raise subprocess.TimeoutExpired([COMMAND, *arguments], PATIENCE)
     return int(code)
+
+
+def _asked(folder: str, arguments: Sequence[str], environment: Mapping[str, str], files: list[int]) -> socket.socket:
+    """The connection to a new run, over which its exit code comes."""
+    peer = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    peer.connect(f"{bin_folder()}/door")
+    socket.send_fds(peer, [json.dumps([folder, dict(environment), arguments]).encode()], files)
+    return peer
+
+
+class Serving:
+    """A service that runs: its number and its end, in the words of subprocess.Popen."""
+
+    returncode: int | None = None
+
+    def __init__(self, peer: socket.socket) -> None:
+        self._peer, self._signal = peer, signal.SIGKILL
+        self.pid = int(peer.recv(9))
+
+    def poll(self) -> int | None:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            return self.wait(0.0)
+        return None
+
+    def wait(self, timeout: float | None = None) -> int:
+        if self.returncode is None:
+            if not select.select([self._peer], [], [], timeout)[0]:
+                raise subprocess.TimeoutExpired([COMMAND, "serve"], timeout or 0.0)
+            self.returncode = int(self._peer.recv(9) or -self._signal)
+            self._peer.close()
+        return self.returncode
+
+    def send_signal(self, number: signal.Signals) -> None:
+        if self.poll() is None:
+            self._signal = number
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(self.pid, number)
+
+    def terminate(self) -> None:
+        self.send_signal(signal.SIGTERM)
+
+    def kill(self) -> None:
+        self.send_signal(signal.SIGKILL)
+
+
+Process = Serving | subprocess.Popen[bytes]
+
+
+def serve(
+    port: int, workers: int, environment: Mapping[str, str], log: Path, limit: Callable[[], object] | None = None
+) -> Process:
+    """`bench-dragon serve`, which writes into a log. limit: called in its process before it starts"""
+    words = ["serve", "--port", str(port), "--workers", str(workers)]
+    with log.open("wb") as output:
+        if workers > 1 or limit:
+            given: dict[str, Any] = {"cwd": ROOT, "env": environment, "preexec_fn": limit}
+            return subprocess.Popen([COMMAND, *words], stdout=output, stderr=output, **given)
+        with open(os.devnull) as nothing:
+            return Serving(_asked(str(ROOT), words, environment, [nothing.fileno(), output.fileno(), output.fileno()]))
 
 
 @cache
@@ -113,16 +170,15 @@ def main() -> None:
     gc.collect()
     gc.freeze()  # The collector of a run leaves the imported modules alone.
     sys.modules["__main__"].__package__ = None  # click names the program by its script, not by `python -m`
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nothing stays of a run that has ended
     with socket.socket(fileno=int(sys.argv[1])) as door:
         while sys.stdin not in select.select([door, sys.stdin], [], [])[0]:
             peer, _ = door.accept()
             if os.fork() == 0:
+                signal.signal(signal.SIGCHLD, signal.SIG_DFL)
                 door.close()
                 _answer(peer, commands.app)
             peer.close()
-            with contextlib.suppress(ChildProcessError):
-                while os.waitpid(-1, os.WNOHANG)[0]:
-                    pass
 
 
 def _build(model: Any) -> None:
@@ -138,6 +194,9 @@ def _answer(peer: socket.socket, app: Any) -> None:
     signal.alarm(int(PATIENCE))
     words, files, _, _ = socket.recv_fds(peer, WORDS_MAX, 3)
     here, environment, arguments = json.loads(words)
+    if arguments[:1] == ["serve"]:
+        signal.alarm(0)
+        peer.send(str(os.getpid()).encode())
     for number, file in enumerate(files):
         os.dup2(file, number)
         os.close(file)

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import os
 import socket
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
-
-COMMAND = [sys.executable, "-c", "from app.command.main import app; app()", "serve"]
+from tests.app.command import Process, serve
+from tests.conftest import STOP_TIMEOUT, wait_until_live
 
 
 @dataclass
@@ -21,7 +18,7 @@ class Service:
     """A running service: where it answers, its first process, and the file of its log."""
 
     url: str
-    process: subprocess.Popen[bytes]
+    process: Process
     log: Path
 
     @property
@@ -38,11 +35,7 @@ def serving(
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     given = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
-    command = [*COMMAND, "--port", str(port), "--workers", str(workers)]
-    with log.open("wb") as output:
-        process = subprocess.Popen(
-            command, cwd=ROOT, env=os.environ | given, stdout=output, stderr=output, preexec_fn=limit
-        )
+    process = serve(port, workers, os.environ | given, log, limit)
     try:
         wait_until_live(process, port, log)
         yield Service(f"http://127.0.0.1:{port}", process, log)

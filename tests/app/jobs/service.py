@@ -6,8 +6,6 @@ import contextlib
 import os
 import signal
 import socket
-import subprocess
-import sys
 import tempfile
 import time
 from dataclasses import dataclass
@@ -17,7 +15,8 @@ from typing import Any, Self
 import httpx
 
 from app.files.tables import XLSX_TYPE
-from tests.conftest import ROOT, STOP_TIMEOUT, wait_until_live
+from tests.app.command import serve
+from tests.conftest import STOP_TIMEOUT, wait_until_live
 
 PATIENCE = 60.0  # [s] for what is coming
 LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a busy machine
@@ -68,13 +67,9 @@ class Service:
         self.client.close()
 
     def start(self) -> None:
-        options = ["--port", str(self.port), "--workers", str(self.workers)]
-        command = [str(Path(sys.executable).with_name("bench-dragon")), "serve", *options]
         self.scratch = tempfile.TemporaryDirectory()
         log = Path(self.scratch.name) / "service.log"
-        with log.open("wb") as output:
-            environment = self.environment | {"TMPDIR": self.scratch.name}
-            self.process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=output, stderr=output)
+        self.process = serve(self.port, self.workers, self.environment | {"TMPDIR": self.scratch.name}, log)
         wait_until_live(self.process, self.port, log)
 
     def stop(self) -> None:
@@ -91,9 +86,10 @@ class Service:
 
     def processes(self) -> list[Process]:
         """All processes of this service that live, wherever they belong by now."""
-        found = []
+        first = self.process.pid
+        found = [Process("parent", first)] if self.process.poll() is None else []
         for entry in Path("/proc").iterdir():
-            if entry.name.isdigit():
+            if entry.name.isdigit() and int(entry.name) != first:
                 with contextlib.suppress(OSError):
                     if f"TEST_MARK={self.mark}".encode() in (entry / "environ").read_bytes():
                         words = (entry / "cmdline").read_bytes().decode()
@@ -101,8 +97,6 @@ class Service:
         return found
 
     def _role(self, pid: int, words: str) -> str:
-        if pid == self.process.pid:
-            return "parent"
         if "app.jobs.work" in words and not _has_job(pid):
             return "spare"
         marks = {"app.jobs.runner": "runner", "app.jobs.work": "child", "resource_tracker": "tracker"}
