@@ -13,7 +13,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from urllib.parse import urlencode, urlsplit
 
-from app.files.tables import XLSX_TYPE
+from app.files.tables import CSV_TYPE, XLSX_TYPE
 
 Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
 ATTACKS: dict[str, Attack] = {}
@@ -159,9 +159,14 @@ def tiny_chunks(url: str, seconds: float) -> None:
 
 @attack
 def large_csv(url: str, seconds: float) -> None:
-    """Tables of a million cells, 24 at once."""
+    """Tables of a million cells, eight at once for each second, and 24 at most."""
+    tables(url, min(round(8 * seconds), 24), CSV_TYPE)
+
+
+def tables(url: str, count: int, accept: str) -> None:
+    """So many tables of a million cells at once."""
     body = json.dumps({"times": {"start": 0, "stop": 400, "step": 0.09}}).encode()
-    at_once([lambda: ask(url, "POST", "/trajectory", body, timeout=60.0, accept="text/csv")] * 24)
+    at_once([lambda: ask(url, "POST", "/trajectory", body, timeout=60.0, accept=accept)] * count)
 
 
 @attack

@@ -13,10 +13,12 @@ import signal
 import socket
 import struct
 import subprocess
+import sys
 import tempfile
 import termios
 import time
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +32,13 @@ from app.settings import Settings
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
 
+# The service, which replaces a process that is silent for so long [s].
+SILENT = 2.0
+IMPATIENT = (
+    sys.executable,
+    "-c",
+    f"from app.service import workers; workers.SILENT_SECONDS = {SILENT}; from app.command.entry import main; main()",
+)
 HEALTH_COUNT = 'bench_dragon_requests_total{path="/healthz"'
 CROSSED = {
     "benches": [
@@ -45,6 +54,10 @@ def answer_of(*arguments: str, **keywords: Any) -> str:
     done = run(*arguments, **keywords)
     assert (done.returncode, done.stderr) == (0, "")
     return done.stdout
+
+
+# One run for all tests that ask the same.
+shown = cache(answer_of)
 
 
 def served(client: httpx.Client, method: str, target: str, body: object = None) -> Any:
@@ -78,7 +91,7 @@ def served(client: httpx.Client, method: str, target: str, body: object = None) 
 def test_json_is_the_answer_of_the_service(
     client: httpx.Client, arguments: list[str], method: str, target: str, body: object
 ) -> None:
-    assert json.loads(answer_of(*arguments, "--json")) == served(client, method, target, body)
+    assert json.loads(shown(*arguments, "--json")) == served(client, method, target, body)
 
 
 def test_overlaps_reads_benches_from_a_file_or_a_pipe(client: httpx.Client, tmp_path: Path) -> None:
@@ -124,7 +137,7 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
     ids=lambda value: " ".join(value),
 )
 def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str], words: list[str]) -> None:
-    table = answer_of(*arguments)
+    table = shown(*arguments)
     assert [word for word in words if word not in table] == []
 
 
@@ -223,19 +236,26 @@ def test_the_limits_are_those_of_the_settings() -> None:
     assert done.stderr == "Error: benches must be at most 10 here, got 11: shorten the dragon\n"
 
 
-@pytest.mark.parametrize("command", ["collision-time", "serve"])
-def test_a_setting_that_cannot_be_is_one_line_that_names_it(command: str) -> None:
-    done = run(command, BENCH_DRAGON_BENCHES_MAX="many")
+def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
+    done = run("collision-time", BENCH_DRAGON_BENCHES_MAX="many")
     assert done.returncode == 2
     assert done.stderr.startswith("Error: BENCH_DRAGON_BENCHES_MAX must be a valid integer")
     assert done.stderr.count("\n") == 1
 
 
+NO_SCHEDULER = "BENCH_DRAGON_DASK must be the address of a scheduler, as tcp://scheduler:8786, got "
+
+
+def test_a_setting_that_cannot_be_is_refused_at_the_start_of_the_service() -> None:
+    done = run("serve", BENCH_DRAGON_DASK="http://foo:8786")
+    assert (done.returncode, done.stderr) == (2, f"Error: {NO_SCHEDULER}'http://foo:8786'\n")
+
+
 @pytest.mark.parametrize("address", ["foo", "tcp://", "tcp://foo", "tcp://foo:x", "tcp://foo:70000", "http://foo:8786"])
-def test_an_address_without_a_scheduler_is_refused_at_the_start_of_the_service(address: str) -> None:
-    done = run("serve", BENCH_DRAGON_DASK=address)
-    words = f"BENCH_DRAGON_DASK must be the address of a scheduler, as tcp://scheduler:8786, got {address!r}"
-    assert (done.returncode, done.stderr) == (2, f"Error: {words}\n")
+def test_an_address_without_a_scheduler_is_no_setting(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("BENCH_DRAGON_DASK", address)
+    with pytest.raises(core.InvalidValue, match=re.escape(f"{NO_SCHEDULER}{address!r}") + "$"):
+        Settings()
 
 
 @pytest.mark.parametrize("address", ["", "local", "tcp://10.0.0.1:8786", "scheduler:8786", "tls://[::1]:1"])
@@ -447,7 +467,7 @@ def test_ctrl_c_while_modules_are_imported_ends_without_a_word(tmp_path: Path) -
 
 @contextlib.contextmanager
 def serving(
-    *options: str, on_sigint: signal.Handlers = signal.SIG_DFL
+    *options: str, program: tuple[str, ...] = (COMMAND,), on_sigint: signal.Handlers = signal.SIG_DFL
 ) -> Iterator[tuple[subprocess.Popen[str], str, list[str]]]:
     """`bench-dragon serve`, its base URL, and the lines that it wrote up to when all its processes answer.
 
@@ -456,7 +476,7 @@ def serving(
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    command = [COMMAND, "serve", "--port", str(port), *options]
+    command = [*program, "serve", "--port", str(port), *options]
     scratch = tempfile.TemporaryDirectory()  # what a killed service leaves behind goes with it
     environment = ENVIRONMENT | {"TMPDIR": scratch.name}
     process = subprocess.Popen(
@@ -496,43 +516,43 @@ def becomes(url: str, name: str, expected: float) -> bool:
     return False
 
 
+def starts(process: subprocess.Popen[str]) -> bool:
+    """True as soon as one more process of the service answers."""
+    assert process.stderr is not None
+    return any("Application startup complete" in line for line in process.stderr)
+
+
 @pytest.mark.parametrize("workers", [1, 2])
-def test_serve_answers_replaces_a_process_that_dies_and_keeps_its_counts_and_ctrl_c_ends_it(workers: int) -> None:
-    with serving("--workers", str(workers)) as (process, url, lines):
-        assert sum("Started server process" in line for line in lines) == workers
+def test_serve_answers_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(
+    workers: int,
+) -> None:
+    with serving("--workers", str(workers), program=IMPATIENT) as (process, url, lines):
+        pids = [int(one[1]) for line in lines if (one := re.search(r"Started server process \[(\d+)\]", line))]
+        assert len(pids) == workers
         for k in range(1, 4):
             assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
             assert becomes(url, HEALTH_COUNT, k)
         if workers > 1:
-            first = next(int(one[1]) for line in lines if (one := re.search(r"Started server process \[(\d+)\]", line)))
-            os.kill(first, signal.SIGKILL)
-            assert process.stderr is not None
-            assert any("Application startup complete" in line for line in process.stderr)
+            os.kill(pids[0], signal.SIGKILL)
+            assert starts(process)
             assert becomes(url, HEALTH_COUNT, 3)
+            time.sleep(2.0)  # all have answered their parent
+            os.kill(pids[1], signal.SIGSTOP)
+            stopped = time.monotonic()
+            assert process.stderr is not None
+            assert any(f"[{pids[1]}] died" in line for line in process.stderr)
+            assert SILENT < time.monotonic() - stopped < SILENT_SECONDS < START_SECONDS
+            assert starts(process)
+            assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does
         _, rest = process.communicate(timeout=PATIENCE)
         assert process.returncode == 0
         assert "Traceback" not in rest
 
 
-def test_a_process_that_hangs_is_replaced_within_seconds() -> None:
-    with serving("--workers", "2") as (process, url, lines):
-        first = next(int(one[1]) for line in lines if (one := re.search(r"Started server process \[(\d+)\]", line)))
-        time.sleep(4.0)  # both have answered their parent
-        os.kill(first, signal.SIGSTOP)
-        stopped = time.monotonic()
-        assert process.stderr is not None
-        assert any(f"[{first}] died" in line for line in process.stderr)
-        assert time.monotonic() - stopped < 2.0 * SILENT_SECONDS < START_SECONDS
-        assert any("Application startup complete" in line for line in process.stderr)
-        assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
-
-
-@pytest.mark.parametrize("options", [["--workers", "1"], []], ids=["one", "default"])
-def test_a_service_in_the_background_ends_on_sigterm(options: list[str]) -> None:
-    with serving(*options, on_sigint=signal.SIG_IGN) as (process, url, lines):
-        workers = 1 if options else len(os.sched_getaffinity(0))
-        assert sum("Started server process" in line for line in lines) == workers
+def test_a_service_in_the_background_ends_on_sigterm() -> None:
+    with serving(on_sigint=signal.SIG_IGN) as (process, url, lines):
+        assert sum("Started server process" in line for line in lines) == len(os.sched_getaffinity(0))
         assert httpx.get(f"{url}/healthz").json()["status"] == "ok"
         process.terminate()
         _, rest = process.communicate(timeout=PATIENCE)
@@ -627,8 +647,8 @@ def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
 
 
 def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side() -> None:
-    answer = json.loads(answer_of("collision-time", "--json"))
-    said = answer_of("collision-time")
+    answer = json.loads(shown("collision-time", "--json"))
+    said = shown("collision-time")
     assert f"{answer['time_bracket'][0]!r}, {answer['time_bracket'][1]!r} s" in said
     assert re.search(rf"clear until +{re.escape(repr(answer['certificate']['clear_until']))} s", said)
 

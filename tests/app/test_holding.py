@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -274,7 +275,10 @@ STOPS = [
 
 @pytest.mark.parametrize(("workers", "stop"), some(STOPS, 3))
 def test_the_service_leaves_with_heavy_work_running(tmp_path: Path, workers: int, stop: signal.Signals) -> None:
-    with serving(tmp_path / "log", workers=workers, grace_seconds=GRACE_SECONDS) as service, socket.socket() as peer:
+    given: dict[str, Any] = {"workers": workers, "grace_seconds": GRACE_SECONDS}
+    # A shell that starts the service in its background has Ctrl-C ignored.
+    ignored = partial(signal.signal, signal.SIGINT, signal.SIG_IGN) if stop == signal.SIGTERM else None
+    with serving(tmp_path / "log", limit=ignored, **given) as service, socket.socket() as peer:
         peer.connect(service.address)
         peer.sendall(f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
         time.sleep(1.0)
