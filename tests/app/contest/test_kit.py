@@ -28,12 +28,14 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.questions.question import Terms
 from tests.app.command import COMMAND, run
+from tests.test_docs import KITS, assert_alike
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 # Half of the last of six decimals, and the rounding of that decimal text [m and m/s].
 SIX_DECIMALS = 0.5e-6 + 1e-14
 WORKBOOKS = ("result1", "result2", "result4")
 FIGURES = ("positions", "snapshots", "clearance", "staircase", "geometry", "amplification", "sensitivity")
+CHINESE = ("--language", "zh", "--no-films")
 TABLES = ("positions", "speeds", "contact", "turn-positions", "turn-speeds")
 
 
@@ -68,8 +70,9 @@ def made(language: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (folder / "report.md").is_file():  # written last
             zh = language == "zh"
-            done = run("contest", str(folder), "--language", "zh", "--no-films") if zh else without_fonts(folder, "en")
+            done = run("contest", str(folder), *CHINESE) if zh else without_fonts(folder, "en")
             assert done.returncode == 0, done.stderr
+            folder.with_suffix(".txt").write_text(done.stdout, encoding="utf-8")
     return folder
 
 
@@ -104,6 +107,13 @@ def written(folder: Path, name: str) -> tuple[list[str], list[list[tuple[str, st
 
 def numbers(sheet: Any) -> np.ndarray[Any, Any]:
     return np.array([row[1:] for row in sheet.iter_rows(min_row=2, values_only=True)])
+
+
+def test_the_readme_shows_the_last_line_that_the_command_prints(chinese: Path) -> None:
+    [(_, session)] = KITS
+    command, shown = session.splitlines()
+    assert command == f"$ bench-dragon contest kit {' '.join(CHINESE)} 2>/dev/null | tail -1"
+    assert_alike(chinese.with_suffix(".txt").read_text(encoding="utf-8").splitlines()[-1], shown)
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
