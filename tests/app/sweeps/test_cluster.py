@@ -26,7 +26,7 @@ def test_a_local_cluster_answers_as_this_process_does_and_leaves_no_worker(tmp_p
     before = {child.pid for child in psutil.Process().children(recursive=True)}
     spec = spec_of(LAND)
     told: list[Progress] = []
-    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 2), progress=told.append)
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1), progress=told.append)
     assert told[-1].designs == 60
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
     left = [child for child in psutil.Process().children(recursive=True) if child.pid not in before]
@@ -41,7 +41,7 @@ def address() -> Iterator[str]:
         "silence_logs": logging.ERROR,
         "scheduler_kwargs": {"allowed_failures": 0},
     }
-    with LocalCluster(n_workers=2, threads_per_worker=1, **given) as cluster:
+    with LocalCluster(n_workers=1, threads_per_worker=1, **given) as cluster:
         yield cluster.scheduler_address
 
 

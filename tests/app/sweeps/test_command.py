@@ -64,7 +64,7 @@ def undisturbed(answered: Path, tmp_path_factory: pytest.TempPathFactory) -> byt
 
 def table(spec: Path, folder: Path) -> bytes:
     """Bytes of the table of a sweep that is gone on with and compacted."""
-    done = sweep("run", spec, "--output", folder)
+    done = sweep("run", spec, "--output", folder, "--workers", 1)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
     assert done.stderr == f"{folder}: 400 designs in {SHARDS} shards\n"
     assert sweep("compact", folder).returncode == 0
@@ -72,43 +72,38 @@ def table(spec: Path, folder: Path) -> bytes:
 
 
 def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None]) -> tuple[int, str]:
-    """Exit code and last words of the command, stopped after its first part."""
+    """Exit code and last words of the command, stopped after its first part; what there was before stays."""
+    before = len(parts(folder)) if folder.is_dir() else 0
     command = [COMMAND, "sweep", "run", str(spec), "--output", str(folder), "--workers", "2"]
     process = psutil.Popen(command, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, preexec_fn=heed_ctrl_c)
     end = time.monotonic() + PATIENCE
-    while not (folder.is_dir() and parts(folder)) and time.monotonic() < end:
+    while not (folder.is_dir() and len(parts(folder)) > before) and time.monotonic() < end:
         time.sleep(0.01)
     stop(process)
     _, said = process.communicate(timeout=PATIENCE)
-    assert 0 < len(parts(folder)) < SHARDS
+    assert before < len(parts(folder)) < SHARDS
     return process.returncode, said
 
 
-def test_ctrl_c_leaves_a_folder_that_goes_on_to_the_same_bytes(spec: Path, tmp_path: Path, undisturbed: bytes) -> None:
+def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same_bytes(
+    spec: Path, tmp_path: Path, undisturbed: bytes
+) -> None:
     children: list[psutil.Process] = []
 
     def interrupt(process: psutil.Popen) -> None:
         children.extend(process.children())
         process.send_signal(signal.SIGINT)
 
-    said = f"Stopped: the same command continues {tmp_path / 'a'}\n"
-    assert stopped(spec, tmp_path / "a", interrupt) == (130, said)
-    assert len(children) == 2
-    assert not psutil.wait_procs(children, 5.0)[1]
-    assert table(spec, tmp_path / "a") == undisturbed
-
-
-def test_workers_leave_when_the_command_is_killed_and_it_goes_on_to_the_same_bytes(
-    spec: Path, tmp_path: Path, undisturbed: bytes
-) -> None:
-    children: list[psutil.Process] = []
-
     def kill(process: psutil.Popen) -> None:
         children.extend(process.children())
         process.kill()
 
-    assert stopped(spec, tmp_path / "a", kill)[0] == -signal.SIGKILL
+    said = f"Stopped: the same command continues {tmp_path / 'a'}\n"
+    assert stopped(spec, tmp_path / "a", interrupt) == (130, said)
     assert len(children) == 2
+    assert not psutil.wait_procs(children, 5.0)[1]
+    assert stopped(spec, tmp_path / "a", kill)[0] == -signal.SIGKILL
+    assert len(children) == 4
     assert not psutil.wait_procs(children, 5.0)[1]
     assert table(spec, tmp_path / "a") == undisturbed
 
@@ -128,7 +123,7 @@ def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> 
 
 def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
     parent, child = pty.openpty()
-    command = [COMMAND, "sweep", "run", str(spec), "--output", str(tmp_path / "a")]
+    command = [COMMAND, "sweep", "run", str(spec), "--output", str(tmp_path / "a"), "--workers", "1"]
     process = subprocess.Popen(command, stderr=child, env=ENVIRONMENT | {"TERM": "xterm", "COLUMNS": "120"})
     os.close(child)
     said = b""

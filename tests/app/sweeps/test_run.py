@@ -30,7 +30,7 @@ class Shared(Processes):
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Shared]:
-    """One process for the runs that only need an engine."""
+    """One process for the runs that need no more, which is replaced when a design kills it."""
     engine = Shared(1)
     yield engine
     Processes.close(engine)
@@ -53,9 +53,9 @@ def undisturbed(folder: Path, spec: Spec, question: Question) -> bytes:
     return compacted(folder, spec)
 
 
-def test_a_run_writes_every_part_and_says_how_far_it_is(tmp_path: Path) -> None:
+def test_a_run_writes_every_part_and_says_how_far_it_is(shared: Shared, tmp_path: Path) -> None:
     spec, told = spec_of(LAND), list[Progress]()
-    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=lambda: Processes(2))
+    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=lambda: shared)
     assert sorted(file.name for file in (tmp_path / "a").iterdir()) == [
         *(shards.part_name(shard) for shard in range(10)),
         "sweep.json",
@@ -105,25 +105,27 @@ def test_killed_workers_change_no_byte(tmp_path: Path) -> None:
         return engines[-1]
 
     def kill(progress: Progress) -> None:
-        if engines and len(killed) < 3 and progress.designs >= 20 * len(killed):
+        if engines and len(killed) < 2 and progress.designs >= 20 * len(killed):
             killed.append(chance.choice(engines[0].pids))
             psutil.Process(killed[-1]).kill()
 
     run(spec, tmp_path / "a", question=SLOW, progress=kill, engine=engine)
-    assert len(set(killed)) == 3
+    assert len(set(killed)) == 2
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, SLOW)
 
 
 @pytest.mark.parametrize("question", [LAND, INTERRUPTED], ids=["exit", "signal"])
-def test_designs_that_kill_their_process_are_found_and_the_others_answered(question: Question, tmp_path: Path) -> None:
-    told = {"question": question.name, "over": {"x": list(range(11, 19))}, "request": {"y": 2.0, "deadly": [16.0]}}
-    spec = Spec.of(told | {"shard_size": 4}, question)
-    run(spec, tmp_path / "a", question=question, engine=lambda: Processes(2))
+def test_designs_that_kill_their_process_are_found_and_the_others_answered(
+    shared: Shared, question: Question, tmp_path: Path
+) -> None:
+    told = {"question": question.name, "over": {"x": list(range(12, 18))}, "request": {"y": 2.0, "deadly": [16.0]}}
+    spec = Spec.of(told | {"shard_size": 2}, question)
+    run(spec, tmp_path / "a", question=question, engine=lambda: shared)
     rows = Sweep(tmp_path / "a", spec).table().to_pylist()
-    assert [row["x"] for row in rows] == list(range(11, 19))
+    assert [row["x"] for row in rows] == list(range(12, 18))
     errors = {row["x"]: row["error.code"] for row in rows if row["error.code"]}
     assert errors == {13: "invalid-value", 14: "internal-error", 16: "killed"}
-    assert [row["height"] for row in rows] == [22.0, 24.0, None, None, 30.0, None, 34.0, 36.0]
+    assert [row["height"] for row in rows] == [24.0, None, None, 30.0, None, 34.0]
 
 
 def test_processes_that_cannot_start_end_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -143,7 +145,7 @@ def test_no_process_is_left(tmp_path: Path) -> None:
     engines: list[Processes] = []
 
     def engine() -> Processes:
-        engines.append(Processes(2))
+        engines.append(Processes(1 + len(engines)))
         return engines[-1]
 
     def stop(progress: Progress) -> None:
