@@ -277,7 +277,7 @@ def test_a_stretch_too_wide_to_be_shown_at_once_is_halved(verify: ModuleType, sm
     """Neighbouring stretches with the same faces may be joined: what is claimed stays true."""
     alike = [k for k, (one, after) in enumerate(itertools.pairwise(stretches(small))) if one[2] == after[2]]
     refused_by_core = 0
-    for k in some(alike, 8):
+    for k in some(alike, 4):
         joined = edit(lambda c, k=k: stretches(c)[k].__setitem__(1, stretches(c).pop(k + 1)[1]))(small)
         assert "benches 0 and 4 overlap" in verify.verified(copy.deepcopy(joined))
         try:

@@ -250,8 +250,9 @@ def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
 
 
 def test_a_spiral_keeps_its_place_in_the_world() -> None:
-    known = shapely_distances(Dragon(), Spiral(), VENUE_ROUND.square, np.linspace(0.0, 400.0, 1_500))
-    found = venue_clearance(Dance(Dragon(), Spiral()), VENUE_ROUND, stop=400.0)
+    dragon = Dragon(40)
+    known = shapely_distances(dragon, Spiral(), VENUE_ROUND.square, np.linspace(0.0, 400.0, 1_500))
+    found = venue_clearance(Dance(dragon, Spiral()), VENUE_ROUND, stop=400.0)
     nearest = found.areas[0].nearest
     assert found.misplaced is None
     assert nearest.distance <= known.min() + SAME_DISTANCE

@@ -332,7 +332,10 @@ def test_other_numbers_give_other_answers_and_without_a_chinese_font_all_but_pic
 
 
 @pytest.mark.parametrize(("pitch", "count"), [(0.55, 6), (0.8, 4)])
-def test_sensitivity_shows_first_contact_where_there_is_one(pitch: float, count: int) -> None:
+def test_sensitivity_shows_first_contact_where_there_is_one(
+    pitch: float, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.contest.sensitivity.VALUES", 7)
     asked = ContestRequest(benches=40, pitch=pitch, stop=10.0, span=10.0)
     shown = panels(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
     assert len(shown) == count

@@ -28,6 +28,7 @@ from core import (
 from tests.core.slow_pitch import SlowWay
 from tests.core.slow_search import SlowDance, chord_squared
 from tests.core.sweep_pitch import random_case
+from tests.depth import examples
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 # Pitches are promised to this [m].
@@ -194,7 +195,7 @@ def test_a_start_less_than_a_turn_out_is_proven_for_every_larger_pitch(turns: fl
     assert found.pitch == 4.5 / turns
     assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.START, "bound", None)
     short = Dragon(40)  # a slow scan of all 223 takes minutes
-    for pitch in np.geomspace(found.pitch, WIDEST, 8):
+    for pitch in np.geomspace(found.pitch, WIDEST, examples(4, 8)):
         assert SlowWay.of(short, pitch, turns, 4.5).least() > 0.0
 
 
@@ -267,7 +268,7 @@ def test_benches_that_meet_on_a_straight_line_are_refused(
     ("dragon", "margin", "field", "words"),
     [
         (Dragon(5, 2.2, 2.2, 0.3, 0.54999), 0.0, "dragon.overhang", ("must be smaller, got 0.54999 m", "4e-05 m")),
-        (Dragon(), 1.0999, "margin", ("must be smaller, got 1.0999 m", "nearer than that", "1.1 m apart")),
+        (Dragon(40), 1.0999, "margin", ("must be smaller, got 1.0999 m", "nearer than that", "1.1 m apart")),
         (listed(0.7999999), 0.0, "dragon.overhangs.0", ("must be smaller, got 0.2 m + 0.7999999 m",)),
     ],
 )

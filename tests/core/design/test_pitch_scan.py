@@ -62,7 +62,7 @@ def test_radii_are_those_of_first_contact_also_beside_jumps() -> None:
     chosen = sorted(beside | set(range(0, len(scan.pitch), 8)))
     assert len(chosen) >= 100
     stops = Stops(Dragon(), 0.0)
-    for pitch in some(scan.pitch[chosen].tolist(), 50):
+    for pitch in some(scan.pitch[chosen].tolist(), 20):
         head = first_contact(Dance(Dragon(), Spiral(pitch))).head
         assert head is not None
         assert stops.radius(Spiral(pitch)) == pytest.approx(head.radius, rel=0.0, abs=RADIUS_WIDTH), pitch

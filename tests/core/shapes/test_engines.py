@@ -41,7 +41,7 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
     truth = [[close_pairs(pose, size, margin) for pose in poses] for poses, size in scenes]
     assert sum(len(pairs) for instants in truth for pairs in instants) > 1_000
     random = np.random.default_rng(5)
-    order = random.integers(0, (len(scenes), 3), (examples(150, 400), 2)).tolist()
+    order = random.integers(0, (len(scenes), 3), (examples(60, 400), 2)).tolist()
 
     def found(asked: list[int]) -> set[tuple[int, int]]:
         scene, instant = asked
