@@ -34,22 +34,28 @@ help:
 	@echo 'make lock     new exact versions in requirements.lock'
 	@echo 'make clean    remove everything that make created'
 
-setup: $(VENV)/compiled
+# Packages are installed while the kernels are compiled: both wait for the disk now and then.
+setup:
+	@$(MAKE) --no-print-directory --jobs=2 $(VENV)/installed $(VENV)/compiled
 
-# The locked pip first, which needs half the processor time of that of Python 3.11. Without bytecode: Python writes it at
-# the first import, and most installed modules are never imported.
-$(VENV)/installed: requirements.lock
+# The locked pip first, which needs half the processor time of that of Python 3.11, and what the kernels need. Without
+# bytecode: Python writes it at the first import, and most installed modules are never imported.
+$(VENV)/tools: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
 	@echo 'Installing the locked packages into $(VENV) (some minutes, once)'
 	@$(PIP) install --no-compile "$$(grep '^pip==' requirements.lock)"
+	@grep -iE '^(cython|setuptools)==' requirements.lock | xargs $(PIP) install --no-deps --no-compile
+	@touch $@
+
+$(VENV)/installed: $(VENV)/tools
 	@grep -v '^#' requirements.lock | xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.
-$(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pyproject.toml $(VENV)/installed
+$(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pyproject.toml $(VENV)/tools
 	@rm -f core/kernels.*.so core/kernels/*.so
 	@$(PIP) install --no-build-isolation --no-deps -e .
-	@$(BIN)/python -c "from core.kernels import COMPILED; raise SystemExit(not COMPILED)" || printf '%s\n' \
+	@ls core/kernels/*.so >/dev/null 2>&1 || printf '%s\n' \
 		'No C compiler with the headers of Python was found. Everything works, but many times slower.' \
 		'For full speed: apt install gcc python3-dev, then: make clean setup' >&2
 	@touch $@
