@@ -36,7 +36,7 @@ help:
 
 # Packages are installed while the kernels are compiled: both wait for the disk now and then.
 setup:
-	@$(MAKE) --no-print-directory --jobs=2 $(VENV)/installed $(VENV)/compiled
+	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/installed $(VENV)/compiled
 
 # The locked pip first, which needs half the processor time of that of Python 3.11, and what the kernels need. Without
 # bytecode: Python writes it at the first import, and most installed modules are never imported.
