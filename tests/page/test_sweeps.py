@@ -13,7 +13,7 @@ from playwright.sync_api import expect
 from tests.app.jobs.service import SHORT, Service, wait_for
 from tests.page import polite
 from tests.page.axe import serious
-from tests.page.pending import reached
+from tests.page.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 WIDE = {"width": 1440, "height": 900}
@@ -185,6 +185,7 @@ def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service
     expect(row.get_by_role("button")).to_have_text(["Remove"])
     # So is that of a spiral, which can be cancelled.
     page.locator("[data-path=spiral]").click()
+    settled(page)
     page.get_by_role("button", name="Film of the dance, GIF").click()
     films = page.locator("#jobs li", has_text="Film of the dance")
     expect(films).to_have_count(2)
