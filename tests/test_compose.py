@@ -70,11 +70,11 @@ def command_of(name: str, places: dict[str, str]) -> list[str]:
 
 @pytest.fixture
 def started(tmp_path: Path) -> Iterator[httpx.Client]:
-    """A client of the service, which runs with the scheduler and as many workers as the file says."""
+    """A client of the service, which runs with the scheduler and one worker."""
     ports = {"8786": str(free_port()), "8000": str(free_port())}
     places = {"0.0.0.0": "127.0.0.1", "scheduler:": "127.0.0.1:", "/tmp": str(tmp_path), **ports}
     given = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{ports['8786']}"}
-    names = ["scheduler", *["worker"] * SERVICES["worker"]["deploy"]["replicas"], "service"]
+    names = ["scheduler", "worker", "service"]
     running: list[subprocess.Popen[bytes]] = []
     try:
         for k, name in enumerate(names):
@@ -93,12 +93,10 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
             process.wait(STOP_TIMEOUT)
 
 
-def test_the_commands_run_and_the_workers_answer_a_sweep_of_the_service(started: httpx.Client, tmp_path: Path) -> None:
+def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service(started: httpx.Client, tmp_path: Path) -> None:
     spec = {"question": "turn", "over": {"pitch": {"start": 1.5, "stop": 2.0, "count": 40}}, "shard_size": 1}
     address = started.post("/sweeps", json=spec | {"accept": "text/csv"}).headers["location"]
     wait_for(lambda: started.get(address).json()["status"] not in ("accepted", "running"))
     assert started.get(address).json()["status"] == "successful"
     assert len(started.get(f"{address}/result").text.splitlines()) == 41
-    for log in tmp_path.glob("*-worker.log"):
-        assert "Registered to" in log.read_text()
-    assert len(list(tmp_path.glob("*-worker.log"))) == 2
+    assert "Registered to" in (tmp_path / "1-worker.log").read_text()

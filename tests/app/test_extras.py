@@ -7,7 +7,8 @@ import os
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,7 @@ DISPENSABLE = {"uvloop"}
 # Python's search for modules, but for the ones that are hidden: they are not there, as before any extra. For each line
 # of standard input a run is forked: its arguments, its folder, and the folder for what it says.
 HIDDEN = f"""
-import json, os, sys
+import contextlib, json, os, sys
 from importlib.machinery import PathFinder
 
 class Plain(PathFinder):
@@ -36,7 +37,11 @@ class Plain(PathFinder):
 
 sys.meta_path[:] = [Plain if finder is PathFinder else finder for finder in sys.meta_path]
 sys.argv[0] = "bench-dragon"
+import core
 from app.command.main import app
+for name in core.__all__:
+    with contextlib.suppress(core.BenchDragonError):
+        getattr(core, name)
 for line in sys.stdin:
     arguments, here, said = json.loads(line)
     if os.fork() == 0:
@@ -157,12 +162,16 @@ def distributions(extra: str) -> set[str]:
     return found
 
 
+@cache
+def providers() -> Mapping[str, list[str]]:
+    return packages_distributions()
+
+
 def test_every_extra_for_users_is_known_to_the_command() -> None:
     assert set(MODULES) == set(PROJECT["optional-dependencies"]) - {"dev"}
 
 
 @pytest.mark.parametrize("extra", MODULES)
 def test_an_extra_brings_the_modules_that_it_is_asked_for(extra: str) -> None:
-    providers = packages_distributions()
-    brought = {canonicalize_name(name) for module in MODULES[extra] for name in providers[module]}
+    brought = {canonicalize_name(name) for module in MODULES[extra] for name in providers()[module]}
     assert brought == distributions(extra) - DISPENSABLE

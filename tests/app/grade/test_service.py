@@ -95,13 +95,14 @@ def test_a_process_that_is_killed_costs_no_answer_and_none_is_left() -> None:
         return [child for child in psutil.Process().children() if "app.service.graders" in child.cmdline()]
 
     with closing(Graders()) as graders:
-        for _ in range(2):
-            answer = graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
-            assert answer.verdict == "unreadable"
-            [process] = processes()
-            process.kill()
-            process.wait()
         graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
+        [process] = processes()
+        process.kill()
+        process.wait()
+        answer = graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
+        assert answer.verdict == "unreadable"
+        [other] = processes()
+        assert other != process
     assert processes() == []
 
 

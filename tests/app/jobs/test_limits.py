@@ -14,7 +14,7 @@ from tests.app.jobs.service import ENDLESS, LONG, SHORT, Service, wait_for
 TOKEN = "correct horse"
 BEARER = {"Authorization": f"Bearer {TOKEN}"}
 RESULT_BYTES_MAX = 5_000
-AGE = 3.0  # [s] that a finished job is kept
+AGE = 2.0  # [s] that a finished job is kept
 
 
 @pytest.fixture(scope="module")

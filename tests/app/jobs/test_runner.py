@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from app.files.tables import ARROW_TYPE
 from app.jobs import runner
 from app.jobs.store import Store
 from app.settings import Settings
@@ -64,19 +65,15 @@ def test_a_job_goes_on_when_a_process_is_killed(service: Service, scan: bytes, r
     assert is_answered(service, address, scan)
 
 
-def test_a_process_does_one_job_after_another(tmp_path: Path) -> None:
-    with Service(tmp_path) as service:
+def test_a_process_does_one_job_after_another_until_one_needs_much_memory(tmp_path: Path) -> None:
+    large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}, "accept": ARROW_TYPE}
+    with Service(tmp_path, cells_max=10**7) as service:
         done = set()
         for pitch in (0.5, 0.51):
             service.finished(service.post(SHORT | {"request": {"pitch": pitch}}))
             wait_for(lambda: service.of("spare"))
             done |= {process.pid for process in service.of("spare")}
         assert len(done) == 1
-
-
-def test_a_process_that_needed_much_memory_does_no_other_job(tmp_path: Path) -> None:
-    large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}}
-    with Service(tmp_path, cells_max=10**7) as service:
         assert service.finished(service.post(large))["status"] == "successful"
         wait_for(lambda: not service.of("child") + service.of("spare"), 0.5 * runner.IDLE_SECONDS)
 
