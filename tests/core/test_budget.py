@@ -85,7 +85,7 @@ QUESTIONS: dict[str, Question] = {
     "quick_check": lambda budget: quick_check(SPIRAL, venue=SQUARE, speed_limit=2.0, budget=budget),
     "venue_clearance": lambda budget: venue_clearance(SPIRAL, SQUARE, stop=50.0, budget=budget),
     "tolerance": lambda budget: tolerance(SPIRAL, SQUARE, stop=50.0, budget=budget),
-    "envelope": lambda budget: envelope(SPIRAL, stop=50.0, budget=budget),
+    "envelope": lambda budget: envelope(SPIRAL, stop=2.0, budget=budget),
     "tolerance_curve": lambda budget: tolerance_curve(Dragon(30), PITCHES, budget=budget),
     "contact_probability": lambda budget: contact_probability(SPIRAL, Wobble(), 20, 1, stop=50.0, budget=budget),
     "first_contact with a stray": lambda budget: first_contact(SPIRAL, stray=0.02, budget=budget),
