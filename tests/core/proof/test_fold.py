@@ -19,6 +19,7 @@ from core.proof.fold import check_fold
 from core.proof.pairs import Unproven
 from tests.core.forgeries import edit, places, refusal, stretches, through_json
 from tests.core.forgeries import put_at as at
+from tests.depth import some
 
 DRAGON, RADIUS, TURNS = Dragon(14, 2.21, 1.47, 0.06, 0.12), 0.85, 5.0
 ONE = Dragon(1, 2.21, 1.47, 0.06, 0.12)
@@ -113,7 +114,9 @@ def random_case(seed: int) -> tuple[Dragon, float, float, float]:
 FOLDS = {0: (11, 15, 62, 113), 1: (3, 25, 121), 2: (70, 92, 135)}
 
 
-@pytest.mark.parametrize(("seed", "bench"), [(seed, bench) for bench, seeds in FOLDS.items() for seed in seeds])
+@pytest.mark.parametrize(
+    ("seed", "bench"), [(seed, bench) for bench, seeds in FOLDS.items() for seed in some(seeds, 2)]
+)
 def test_the_fold_of_any_bench_is_proven(seed: int, bench: int) -> None:
     dragon, radius, turns, margin = random_case(seed)
     found = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
