@@ -46,8 +46,8 @@ def strayed_threes(rng: np.random.Generator, chords: Floats, places: Floats, str
             far = np.hypot(off[..., 0], off[..., 1])
             moved = places[:, None] + off * np.minimum(1.0, stray / np.maximum(far, 1e-9))[..., None]
         wrong = np.abs(np.linalg.norm(np.diff(moved, axis=2), axis=-1) - chords).max(axis=-1)
-        for poses, off, kept in zip(moved, wrong, found, strict=True):
-            kept.append(poses[off < 1e-6])
+        for kept, poses, bad in zip(found, moved, wrong, strict=True):
+            kept.append(poses[bad < 1e-6])
     return [np.concatenate(kept) for kept in found]
 
 
@@ -67,10 +67,8 @@ def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon, least: 
     assert safe > least * dragon.chords.min()
     dance = Dance(dragon, hairpin(radius))
     cases = [(handles, k) for handles in trajectory(dance, [41.0, 42.5, 44.0]).position for k in (0, 1)]
-    chords, places = (
-        np.array([row[k : k + size] for row, k in rows])
-        for rows, size in (([(dragon.chords, k) for _, k in cases], 3), (cases, 4))
-    )
+    chords = np.array([dragon.chords[k : k + 3] for _, k in cases])
+    places = np.array([handles[k : k + 4] for handles, k in cases])
     strayed = strayed_threes(rng, chords, places, 0.999 * safe, examples(120, 300))
     for (handles, k), poses in zip(cases, strayed, strict=True):
         rows = np.array([bench_outlines(dragon.leading(k + 3), np.concatenate([handles[:k], p])) for p in poses])
