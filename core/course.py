@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.dragon import Dragon
+from core.errors import checked_type
 from core.paths.following import tightest_bend
 from core.paths.legs import Legs
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
-from core.values import Floats, checked_type
+from core.values import Floats
 
 # Distance between drawn points [m], and their largest number: a path longer than 750 m is drawn more coarsely.
 STEP, POINTS_MAX = 0.25, 3_000

@@ -18,13 +18,13 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, OutsideRun, said, said_bound
+from core.errors import InvalidValue, OutsideRun, checked_number, checked_type, said, said_bound
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, words
 from core.paths.following import earliest_place, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shown import Shown
-from core.values import Floats, checked_number, checked_type
+from core.values import Floats
 
 # Length of the default table of whole seconds, as in the contest [s].
 DEFAULT_SPAN = 300

@@ -9,10 +9,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.errors import InvalidValue
+from core.errors import InvalidValue, checked_name, checked_point, checked_type, listed
 from core.shapes.engines import polygon_fault
 from core.shown import Shown, extent
-from core.values import Floats, Point, checked_name, checked_point, checked_type, listed
+from core.values import Floats, Point
 
 Ring = tuple[Point, ...]
 

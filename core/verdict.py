@@ -12,6 +12,7 @@ from core.contact.first_contact import first_contact
 from core.contact.walls import VenueClearance, is_clear_beyond, venue_clearance, venue_end
 from core.dance import Dance, EndReason
 from core.dragon import Stray, checked_stray
+from core.errors import asked_of, checked_number, checked_type
 from core.failures import (
     Failure,
     FailureKind,
@@ -31,7 +32,6 @@ from core.motion.speed import (
 )
 from core.passages import TIME_MAX
 from core.shown import Shown, worded
-from core.values import asked_of, checked_number, checked_type
 from core.venue import Venue
 
 # Length of the judged interval if benches already touch at the start [s].

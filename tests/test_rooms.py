@@ -23,6 +23,7 @@ TESTED_WITH = {
     "paths/following.py": "paths/test_route.py",
     "tolerance/exhibit.py": "tolerance/test_tolerance.py",
     "tolerance/safe.py": "tolerance/test_tolerance.py",
+    "values.py": "test_errors.py",
 }
 MODULES = [path.relative_to(CORE) for path in sorted(CORE.rglob("*.py")) if path.name != "__init__.py"]
 

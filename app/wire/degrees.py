@@ -15,7 +15,8 @@ import numpy as np
 from app.wire.geojson import Polygon, Scale, Thing, outlined, read_things, venue_of
 from app.wire.models import Coordinates
 from core import Dragon, InvalidValue, Venue
-from core.values import Floats, checked_number
+from core.errors import checked_number
+from core.values import Floats
 from core.venue import Ring
 
 # The ellipsoid of WGS 84: half of its long axis [m], and its flattening [1]. CGCS2000 differs by 0.1 mm.

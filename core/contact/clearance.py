@@ -17,12 +17,12 @@ from core.contact.march import TOUCHES, Ended
 from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Clock, Dance, RunEnd
 from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue
+from core.errors import InvalidValue, asked_of
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Shown, counted, worded
 from core.tables import data_frame, data_set
-from core.values import Floats, asked_of
+from core.values import Floats
 
 if TYPE_CHECKING:
     import pandas

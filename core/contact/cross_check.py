@@ -17,6 +17,7 @@ from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
+from core.errors import asked_of, checked_number, checked_type
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
@@ -24,7 +25,7 @@ from core.shapes.overlaps import Verdict
 from core.shapes.rectangles import Pairs, corners, frames, frames_separation, meeting_pairs
 from core.shown import Shown, worded
 from core.tolerance.reach import SHORT, Reach, reach
-from core.values import Floats, asked_of, checked_number, checked_type
+from core.values import Floats
 
 Pair = tuple[int, int]
 Indices = NDArray[np.int64]

@@ -24,12 +24,11 @@ from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import said
+from core.errors import asked_of, checked_number, said
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
 from core.paths.spiral import Spiral
-from core.values import asked_of, checked_number
 
 # Distance ahead at which a search that gave up first tests for a certain overlap [m of head travel].
 BEYOND = 1e-3

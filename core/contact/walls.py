@@ -16,6 +16,7 @@ from core.contact.march import Ended
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
+from core.errors import asked_of, checked_number, checked_type
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.frame import Frame
 from core.paths.pieces import Coil
@@ -23,7 +24,7 @@ from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside
 from core.shown import Shown, worded
-from core.values import Floats, Point, asked_of, checked_number, checked_type
+from core.values import Floats, Point
 from core.venue import Area, Venue
 
 # Length of a spiral beyond the last instant, so that rounding cannot put that instant outside it [m].

@@ -27,14 +27,13 @@ from core.contact.first_contact import contact_within
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import InvalidValue, TooMuchWork, said
+from core.errors import InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, said
 from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected
 from core.shown import Shown, worded
 from core.tolerance.reach import reach
-from core.values import asked_of, checked_number, checked_size
 
 # Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
 ENTRY_STEP = 0.01

@@ -48,7 +48,7 @@ from core import kernels
 from core.budget import Budget, bounded, within
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
 from core.ground.tracks import Track, last_theta, tracks
 from core.kernels.constants import (
     CHAIN_COLUMNS,
@@ -68,7 +68,7 @@ from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shown import Shown, counted
-from core.values import Floats, asked_of, checked_number, checked_point, listed
+from core.values import Floats
 
 # Least and largest excess that a question may ask for [m].
 EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0

@@ -11,10 +11,11 @@ from core.budget import Budget, bounded
 from core.contact.clearance import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
+from core.errors import asked_of
 from core.motion.trajectory import trajectory
 from core.sampling import dips
 from core.shown import Shown
-from core.values import Floats, asked_of
+from core.values import Floats
 
 # Refinement of a peak to 1e-9 of a step: instants of one round around it, in steps; number of rounds; and number of
 # highest peaks to refine.

@@ -10,12 +10,11 @@ from core import kernels
 from core.budget import Budget, bounded
 from core.contact.search import Search
 from core.dance import Dance
-from core.errors import InvalidValue, said_bound
+from core.errors import InvalidValue, asked_of, checked_number, said_bound
 from core.kernels.constants import EXCEEDED, KEPT
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.sampling import bisected
 from core.shown import Shown
-from core.values import asked_of, checked_number
 
 # Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9

@@ -12,13 +12,13 @@ from core import kernels, plots
 from core.budget import BATCH_WORK, Budget, bounded
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, asked_of
 from core.paths.frame import WORLD
 from core.paths.route import Route
 from core.shapes.rectangles import corners
 from core.shown import Shown, extent, worded
 from core.tables import data_frame, data_set
-from core.values import Floats, asked_of
+from core.values import Floats
 
 if TYPE_CHECKING:
     import pandas

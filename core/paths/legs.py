@@ -12,11 +12,11 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget
-from core.errors import InvalidValue, spoken
+from core.errors import InvalidValue, checked_number, checked_point, checked_size, listed, spoken
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints
 from core.paths.route import Route
 from core.shown import REPR_MOST, Shown
-from core.values import Floats, Point, checked_number, checked_point, checked_size, listed
+from core.values import Floats, Point
 
 # Default radius of an arc at a corner [m].
 RADIUS = 5.0

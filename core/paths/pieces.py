@@ -9,10 +9,10 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget
-from core.errors import InvalidValue
+from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, listed
 from core.paths.cubics import cut
 from core.shown import REPR_MOST, Shown
-from core.values import Floats, Point, checked_angle, checked_number, checked_point, checked_size, listed
+from core.values import Floats, Point
 
 # Least distance of two consecutive waypoints [m]: nearer ones are a mistake.
 WAYPOINT_GAP = 1e-3

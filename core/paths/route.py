@@ -10,12 +10,12 @@ import numpy as np
 
 from core import kernels
 from core.budget import Budget, Halted
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, checked_number, listed, said
 from core.paths.frame import WORLD
 from core.paths.path import HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
-from core.values import Floats, checked_number, listed
+from core.values import Floats
 
 # Largest drawn distance from the start of a route [m], and number of points.
 DRAWN = 2_000.0

@@ -12,12 +12,12 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
 from core.paths.frame import WORLD, Frame
 from core.paths.path import HeadState
 from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
-from core.values import Floats, Point, checked_angle, checked_number, checked_point, checked_size
+from core.values import Floats, Point
 
 START_TURNS_MAX = 1e5
 # Number of points in each drawn turn of a spiral.

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from core import kernels
 from core.budget import Budget, Halted
 from core.dance import Dance
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, asked_of, checked_type, said
 from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
@@ -30,7 +30,7 @@ from core.tolerance.safe import safe_words
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
-from core.values import Floats, asked_of, checked_type
+from core.values import Floats
 
 # Number of instants whose numbers come from one counter [1]. It is part of the definition of a sample: another value
 # changes the samples.

@@ -12,12 +12,12 @@ from core import plots
 from core.budget import Budget
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork, said
+from core.errors import InvalidValue, TooMuchWork, asked_of, checked_size, said
 from core.paths.spiral import Spiral
 from core.shown import Shown, extent
 from core.tables import data_frame
 from core.tolerance.tolerance import Tolerance, tolerance
-from core.values import Floats, asked_of, checked_size
+from core.values import Floats
 
 if TYPE_CHECKING:
     import pandas

@@ -17,7 +17,7 @@ from core.budget import Budget, bounded
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges, venue_route
 from core.dance import Dance
-from core.errors import said
+from core.errors import asked_of, checked_type, said
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.frame import Frame
@@ -25,7 +25,6 @@ from core.shapes.rectangles import frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, Found, held_stray, safe_words
-from core.values import asked_of, checked_type
 from core.venue import Venue
 
 

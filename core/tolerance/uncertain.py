@@ -24,10 +24,10 @@ import numpy as np
 from core import kernels
 from core.contact.search import Search
 from core.dragon import Dragon
+from core.errors import asked_of, checked_number, checked_size
 from core.paths.spiral import Spiral
 from core.sampling import bisected
 from core.tolerance.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
-from core.values import asked_of, checked_number, checked_size
 
 # Width to which the largest stray is bisected, relative to half a chord [1].
 WIDTH = 1e-6

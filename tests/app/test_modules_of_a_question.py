@@ -90,7 +90,6 @@ SEARCH = {
     "core.dance",
     "core.errors",
     "core.paths.spiral",
-    "core.values",
 }
 # Where everyone is just before and after, and the four engines.
 CROSS_CHECK = {
