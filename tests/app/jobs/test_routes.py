@@ -119,9 +119,17 @@ def test_a_job_that_fails_answers_the_problem_of_its_call(service: Service) -> N
     assert kept.content == asked.content
 
 
-def test_events_tell_every_change_and_go_on_after_the_last_one_seen(service: Service) -> None:
+@pytest.fixture(scope="module")
+def followed(service: Service) -> tuple[str, list[tuple[int, Any]]]:
+    """The address and the events of a job that takes a moment."""
     address = service.post(SCAN)
-    told = events_of(service, address)
+    return address, events_of(service, address)
+
+
+def test_events_tell_every_change_and_go_on_after_the_last_one_seen(
+    service: Service, followed: tuple[str, list[tuple[int, Any]]]
+) -> None:
+    address, told = followed
     numbers, statuses = [number for number, _ in told], [status for _, status in told]
     assert numbers == list(range(1, len(told) + 1))
     assert [status["status"] for status in statuses][:2] == ["accepted", "running"]
@@ -153,9 +161,8 @@ def test_a_stream_that_breaks_is_taken_up_where_it_broke(service: Service) -> No
     assert rest[-1][1]["status"] == "successful"
 
 
-def test_progress_comes_with_a_rate_and_the_time_left(service: Service) -> None:
-    told = [status for _, status in events_of(service, service.post(SCAN))]
-    between = [status for status in told if status["rate"] is not None]
+def test_progress_comes_with_a_rate_and_the_time_left(followed: tuple[str, list[tuple[int, Any]]]) -> None:
+    between = [status for _, status in followed[1] if status["rate"] is not None]
     assert between
     for status in between:
         left = (100 - status["progress"]) / status["rate"]
