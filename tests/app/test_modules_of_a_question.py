@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -9,35 +10,34 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent.parent
-# Asks the service in this process, and gives every call and return of a function to note(), in every thread.
+# Asks the service in this process, and gives every call and return of a function to note, in every thread.
 ASKED = """
-import asyncio, sys, threading, types, httpx
+import asyncio, json, sys, threading, types, httpx
 from app.service.main import create_app
 
-seen = {{}}
+seen = {}
 
 def ours(name):
     return name.partition(".")[0] in ("app", "core")
 
-{noted}
-
-async def ask():
+async def ask(query, note):
     transport = httpx.ASGITransport(create_app())
     async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
-        (await client.get(sys.argv[1] + "0.551")).raise_for_status()
+        (await client.get(query + "0.551")).raise_for_status()
         seen.clear()
         sys.setprofile(note)
-        answer = await client.get(sys.argv[1] + "0.552")
+        answer = await client.get(query + "0.552")
         sys.setprofile(None)
     return answer.raise_for_status().json()
 
-threading.setprofile(note)
-answer = asyncio.run(ask())
-print(*sorted({told}))
+def asked(cross_check, note, told):
+    threading.setprofile(note)
+    answer = asyncio.run(ask(f"/collision-time?cross_check={cross_check}&pitch=", note))
+    return told(answer)
 """
 # Every module of ours.
 COUNTED = """
-def note(frame, event, argument):
+def counted(frame, event, argument):
     module = frame.f_globals.get("__name__", "")
     if event == "call" and ours(module) and frame.f_code.co_filename[0] != "<":
         seen[module] = True
@@ -62,7 +62,7 @@ def pairs(value):
     listed.append((fields.get("first"), fields.get("second")))
     return {tuple(one) for one in listed if all(type(k) is int for k in one)}
 
-def note(frame, event, argument):
+def represented(frame, event, argument):
     if event == "return" and ours(frame.f_globals.get("__name__", "")):
         values = [argument, frame.f_locals.get("self"), *(argument if type(argument) is tuple else ())]
         values += [inner for one in values if ours(type(one).__module__) for inner in held(one).values()]
@@ -72,7 +72,18 @@ def note(frame, event, argument):
                 seen.setdefault(name, set()).update(pairs(value))
 """
 # The classes that hold the pair in contact.
-HOLDING = "name for name, known in seen.items() if tuple(answer['benches']) in known"
+HOLDING = """
+def holding(answer):
+    return [name for name, known in seen.items() if tuple(answer["benches"]) in known]
+"""
+TOLD = """
+found = {
+    "none": asked("none", counted, lambda _: list(seen)),
+    "dragon": asked("dragon", counted, lambda _: list(seen)),
+    "represented": asked("dragon", represented, holding),
+}
+print(json.dumps(found))
+"""
 # What every request passes; the question's own file; the fields of its query; and how it is told, under any load.
 EDGE = {
     "app.questions.collision_time",
@@ -100,18 +111,22 @@ CROSS_CHECK = {
 }
 
 
-def seen_while_asking(noted: str, told: str, query: str) -> set[str]:
-    source = ASKED.format(noted=noted, told=told)
-    return set(subprocess.check_output([sys.executable, "-c", source, query], cwd=ROOT, text=True).split())
+@pytest.fixture(scope="module")
+def seen() -> dict[str, list[str]]:
+    """Modules while a question is asked, without and with a cross-check, and classes that hold the contact."""
+    source = ASKED + COUNTED + REPRESENTED + HOLDING + TOLD
+    return dict(json.loads(subprocess.check_output([sys.executable, "-c", source], cwd=ROOT, text=True)))
 
 
 @pytest.mark.parametrize(("asked", "passed"), [("none", EDGE | SEARCH), ("dragon", EDGE | SEARCH | CROSS_CHECK)])
-def test_a_collision_time_goes_through_no_other_modules(asked: str, passed: set[str]) -> None:
-    assert seen_while_asking(COUNTED, "seen", f"/collision-time?cross_check={asked}&pitch=") == passed
+def test_a_collision_time_goes_through_no_other_modules(
+    seen: dict[str, list[str]], asked: str, passed: set[str]
+) -> None:
+    assert set(seen[asked]) == passed
 
 
-def test_a_contact_has_three_representations_of_a_march_of_core_and_of_the_answer() -> None:
-    assert seen_while_asking(REPRESENTED, HOLDING, "/collision-time?cross_check=dragon&pitch=") == {
+def test_a_contact_has_three_representations_of_a_march_of_core_and_of_the_answer(seen: dict[str, list[str]]) -> None:
+    assert set(seen["represented"]) == {
         "core.kernels.results.Marched",
         "core.contact.answer.FirstContact",
         "app.questions.collision_time.CollisionTime",
