@@ -9,9 +9,9 @@ from numbers import Integral
 
 import numpy as np
 
-from core.errors import InvalidValue, checked_name, checked_number, checked_size, said
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, checked_name, checked_number, checked_size, said
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
-from core.values import SIZE_MAX, SIZE_MIN, Floats
+from core.values import Floats
 
 BENCHES_MAX = 10_000_000
 # Decimals of a sum in metres [1], so that 1 cm and 0.5 cm give 0.015 m, not 0.015000000000000001 m.

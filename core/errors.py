@@ -17,13 +17,26 @@ import re
 from collections.abc import Callable, Mapping
 from functools import wraps
 from numbers import Real
-from typing import Any, ParamSpec, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 from unicodedata import category
 
-from core.values import ANGLE_MAX, COORDINATE_MAX, NAME_MAX, NOT_PLAIN, SIZE_MAX, SIZE_MIN, Point
+if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs jobs.
+    from core.values import Point
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+# Smallest and largest size [m]: sizes outside describe no dance, and lose digits in c^2 / b^2.
+SIZE_MIN = 1e-3
+SIZE_MAX = 1e4
+# Largest coordinate [m]: larger ones lose the digits that the chords need.
+COORDINATE_MAX = 1e5
+# Largest angle [rad]: larger ones lose the digits that the joints need.
+ANGLE_MAX = 1e6
+# Longest name of a bench or an area [characters].
+NAME_MAX = 200
+# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
+NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 
 
 class BenchDragonError(Exception):

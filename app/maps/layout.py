@@ -21,9 +21,9 @@ from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.models import Coordinates
 from app.wire.paths import POINTS_MAX, AnyPath
 from core import InvalidValue, Route, Spiral, Venue
-from core.errors import said
+from core.errors import NAME_MAX, NOT_PLAIN, said
 from core.shown import counted
-from core.values import NAME_MAX, NOT_PLAIN, Floats
+from core.values import Floats
 
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1

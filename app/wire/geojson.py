@@ -14,9 +14,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from core import Area, Envelope, InvalidValue, Venue
-from core.errors import checked_name, checked_number
+from core.errors import COORDINATE_MAX, checked_name, checked_number
 from core.shapes.engines import thickened
-from core.values import COORDINATE_MAX, Point
+from core.values import Point
 from core.venue import Ring, refuse_many_edges
 
 # Name and rings.

@@ -16,11 +16,10 @@ from core.design.pitch_bands import BORDER_WIDTH
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import InvalidValue, asked_of, checked_number, checked_size, said
+from core.errors import SIZE_MAX, InvalidValue, asked_of, checked_number, checked_size, said
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.sampling import bisected
 from core.shown import Shown, worded
-from core.values import SIZE_MAX
 
 # Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].
 PASSED_OVER = 1e-9

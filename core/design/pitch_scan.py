@@ -17,11 +17,11 @@ from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork, asked_of, checked_number, checked_size
+from core.errors import SIZE_MIN, InvalidValue, TooMuchWork, asked_of, checked_number, checked_size
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, extent
 from core.tables import data_frame
-from core.values import SIZE_MIN, Floats
+from core.values import Floats
 
 if TYPE_CHECKING:
     import pandas

@@ -8,9 +8,9 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, said
+from core.errors import SIZE_MAX, InvalidValue, said
 from core.kernels.constants import FREE
-from core.values import SIZE_MAX, Floats
+from core.values import Floats
 
 # Rounding of the bound, in units of the lengths in its sums, u = 2^-53 [1]. The relative error of k is at most 8 u,
 # that of angles 14 u, that of 1 - cos phi 12 u + 14 u phi sin phi; so every factor of a length is good to fewer than 60

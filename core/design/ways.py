@@ -12,10 +12,9 @@ from core.contact.search import Search, before_fold
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
-from core.errors import TooMuchWork
+from core.errors import SIZE_MIN, TooMuchWork
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral
-from core.values import SIZE_MIN
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11

@@ -7,11 +7,11 @@ import math
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_number, checked_size
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, checked_number, checked_size
 from core.paths.pieces import LENGTH_MIN, Arc, Coil
 from core.paths.route import Route
 from core.shown import TABLE_DIGITS, worded
-from core.values import SIZE_MAX, SIZE_MIN, Floats, Point
+from core.values import Floats, Point
 
 RATIO_MIN = 0.01
 RATIO_MAX = 100.0

@@ -13,7 +13,7 @@ from flint import arb
 from core.contact.search import MARGIN_MAX
 from core.dance import checked_head_speed, end_theta
 from core.dragon import Dragon
-from core.errors import ProofRefused, checked_number, checked_size, said
+from core.errors import SIZE_MIN, ProofRefused, checked_number, checked_size, said
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import check_fold
@@ -21,7 +21,6 @@ from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisected
-from core.values import SIZE_MIN
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"

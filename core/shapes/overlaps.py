@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.budget import Budget, bounded
-from core.errors import InvalidValue, checked_number, said
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, checked_number, said
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
 from core.shown import Shown, counted, worded
-from core.values import SIZE_MAX, SIZE_MIN, Floats
+from core.values import Floats
 
 # Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
 POSITION_MAX = 1e9

@@ -6,10 +6,9 @@ import math
 from dataclasses import dataclass
 
 from core.dance import Dance
-from core.errors import InvalidValue, checked_number, said
+from core.errors import SIZE_MAX, InvalidValue, checked_number, said
 from core.paths.spiral import Spiral
 from core.shown import Shown
-from core.values import SIZE_MAX
 
 # Least number of instants in a correlation time [1].
 INSTANTS_PER_TIME = 5

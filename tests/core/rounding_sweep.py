@@ -17,8 +17,8 @@ from flint import arb
 
 from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.contact.search import Search
+from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
-from core.values import SIZE_MAX, SIZE_MIN
 from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
 
 # Gaps compared in every chain, half of them of pairs behind the head.

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core import Dragon, InvalidValue, Stray
 from core.dragon import BENCHES_MAX, checked_stray
-from core.values import SIZE_MAX, SIZE_MIN
+from core.errors import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
 

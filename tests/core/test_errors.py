@@ -16,6 +16,8 @@ import pytest
 import core.errors
 from core import Spiral
 from core.errors import (
+    SIZE_MAX,
+    SIZE_MIN,
     BenchDragonError,
     InvalidValue,
     TooLarge,
@@ -27,7 +29,6 @@ from core.errors import (
     said_bound,
     spoken,
 )
-from core.values import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
 

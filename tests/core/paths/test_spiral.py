@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from core import InvalidValue, Spiral
+from core.errors import SIZE_MAX, SIZE_MIN
 from core.paths.spiral import START_TURNS_MAX
-from core.values import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
 

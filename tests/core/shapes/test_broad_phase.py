@@ -10,10 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from core.errors import TooLarge
+from core.errors import SIZE_MAX, TooLarge
 from core.shapes.overlaps import overlaps, separation
 from core.shapes.rectangles import CROSS_CANDIDATES_MAX, PAIRS_MAX, frames, meeting_pairs
-from core.values import SIZE_MAX
 
 Floats = NDArray[np.float64]
 Pairs = NDArray[np.int64]

@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from core import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooLarge
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, TooLarge
 from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
-from core.values import SIZE_MAX, SIZE_MIN
 from tests.depth import examples
 
 Floats = NDArray[np.float64]

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core import kernels
+from core.errors import SIZE_MAX, SIZE_MIN
 from core.shapes.overlaps import separation
 from core.shapes.rectangles import corners, frames
-from core.values import SIZE_MAX, SIZE_MIN
 
 pytestmark = pytest.mark.uncompiled
 
