@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from core import (
@@ -314,7 +314,8 @@ def test_a_larger_margin_is_never_met_later(one: float, other: float) -> None:
 DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 0))
 
 
-@settings(max_examples=25, deadline=None)
+# Three random dances in ten have a contact: about once in a hundred runs fifty without one come before ten with one.
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 @given(DANCES)
 def test_all_is_clear_just_before_first_contact_and_not_just_after(dance: tuple[Dragon, Spiral]) -> None:
     dragon, spiral = dance
