@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
+from pydantic import Field
 
 import core
 from app.questions.question import Terms
@@ -28,7 +29,7 @@ class ContestRequest(DanceQuery):
     stop: Instant = measure("s", "Last second of question 1", 300.0, gt=0)
     turning_diameter: TurningDiameter = measure("m", "Diameter of the turning circle of questions 3 and 4", 9.0)
     turn_pitch: float = measure("m", "Pitch of the coils of question 4", 1.7, ge=1e-3, le=10)
-    ratio: float = measure("1", "Radius of the first arc divided by that of the second", 2.0, ge=0.01, le=100)
+    ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc divided by that of the second")
     span: Instant = measure("s", "Time before and after the turn that question 4 shows", 100.0, gt=0)
     speed_limit: SpeedLimit = measure("m/s", "Highest speed of any handle in question 5", 2.0)
 

@@ -244,14 +244,16 @@ class _PitchSearch:
             state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         if state is Ended.REACHED:
             state, found = self.ways.march(infeasible, width=CONTACT_WIDTH)
-        pair = found.benches
+        if state is Ended.STUCK and found.touching is None:  # but a contact at an end of the way is never hidden
+            state, found = self.ways.march(infeasible)
         if state is Ended.TOUCHED_AT_START:
-            return LimitedBy.START, pair, self.search.growth * 2.0 * math.pi * self.start_turns
+            return LimitedBy.START, found.benches, self.search.growth * 2.0 * math.pi * self.start_turns
         if state is Ended.FOLDED:
             return LimitedBy.FOLD, None, self.radius
-        assert found.touching is not None
-        travel = found.touching - (CONTACT_WIDTH if state is Ended.TOUCHED else 0.0)
-        return self._met(travel, travel + BOTTOM_WITHIN, pair)
+        if found.touching is None:
+            raise Halted(self.search.budget)  # rounding hides whether any pitch below is feasible
+        travel = found.touching - CONTACT_WIDTH * (state is Ended.TOUCHED)
+        return self._met(travel, travel + BOTTOM_WITHIN, found.benches)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
         """Limit of a pair that meets after a travel: contact on the circle, or a graze at its dip before `end` [m]."""

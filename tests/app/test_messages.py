@@ -1,17 +1,21 @@
-"""Suggestions for an unknown name: only names that the call itself has at that place."""
+"""Names and units in messages. For an unknown name only names are suggested that the call itself has at that place."""
 
 from __future__ import annotations
 
+from importlib import import_module
+from pkgutil import walk_packages
 from typing import Any
 
 import httpx
 import pytest
 
+import app
 from app.questions.check import CheckRequest
 from app.questions.collision_time import CollisionQuery
 from app.questions.overlaps import OverlapsRequest
 from app.questions.trajectory import TrajectoryRequest
 from app.wire.messages import names_at
+from app.wire.models import Wire, unit_of
 
 
 @pytest.mark.parametrize(
@@ -69,3 +73,20 @@ def test_the_names_of_a_place_are_those_of_its_type() -> None:
     assert names_at(TrajectoryRequest, ("times", "range")) == ["start", "stop", "step"]
     assert names_at(OverlapsRequest, ("benches", 0))[:3] == ["x", "y", "heading"]
     assert names_at(CheckRequest, ("venue", "features")) == []
+
+
+def test_a_name_has_the_same_unit_in_all_requests() -> None:
+    """Sentences take the unit from the name, whichever requests this process knows; pieces of a path say their kind."""
+    for room in walk_packages(app.__path__, "app."):
+        if not room.name.startswith(("app.sweeps.worker", "app.sweeps.cluster")):
+            import_module(room.name)
+    units: dict[str, set[str]] = {}
+
+    def collect(model: type[Wire]) -> None:
+        for kind in model.__subclasses__():
+            for name, field in {} if "kind" in kind.model_fields else kind.model_fields.items():
+                units.setdefault(name, set()).add(unit_of(field))
+            collect(kind)
+
+    collect(Wire)
+    assert {name: found for name, found in units.items() if len(found) > 1} == {}
