@@ -20,10 +20,10 @@ from app.questions import check as checks
 from app.questions import figures
 from app.questions.check import CheckRequest, LeastClearance, Nearest, Report
 from app.questions.figures import Format, TrajectoryFigureRequest
-from app.questions.question import Terms
 from app.settings import Settings
 from app.wire.dances import TimeRange
 from app.wire.messages import checked
+from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import FailureKind, InvalidValue, Judgement
 from core.errors import said, said_bound

@@ -10,7 +10,7 @@ from app.questions import clearance as clearances
 from app.questions import collision_time as collisions
 from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
-from app.questions.question import Terms
+from app.wire.question import Terms
 from core.errors import said
 
 

@@ -10,9 +10,9 @@ from app.questions import shortest_turn as shortest
 from app.questions import turn as turns
 from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
 from app.questions.minimum_pitch import MinimumPitchQuery
-from app.questions.question import Terms
 from app.questions.shortest_turn import ShortestTurnQuery
 from app.questions.turn import TurnQuery
+from app.wire.question import Terms
 from core.errors import said
 
 

@@ -14,7 +14,7 @@ from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.files.outlines import WRITERS
 from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, swept
-from app.questions.question import Terms
+from app.wire.question import Terms
 
 
 @asks(EnvelopeQuery, EnvelopeRequest)

@@ -16,7 +16,7 @@ from app.extras import require
 from app.files.disk import checked_output, write_whole
 from app.questions import figures as drawn
 from app.questions.figures import Format
-from app.questions.question import Terms
+from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 

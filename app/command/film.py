@@ -16,7 +16,7 @@ from app.files.disk import checked_output, write_whole
 from app.files.shooting import ENDINGS, GIF_TYPE
 from app.questions import films
 from app.questions.films import FilmFields, FilmRequest
-from app.questions.question import Terms
+from app.wire.question import Terms
 
 
 class FilmOptions(FilmFields, PathOptions):

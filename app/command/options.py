@@ -17,7 +17,7 @@ from rich.markup import escape
 from app.files.disk import object_words, read_dance
 from app.wire.dances import TimeRange
 from app.wire.messages import checked
-from app.wire.models import DanceQuery, Strays
+from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 

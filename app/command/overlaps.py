@@ -13,8 +13,8 @@ from app.files.disk import read_json
 from app.questions import overlaps as together
 from app.questions.figures import InstantQuery
 from app.questions.overlaps import OverlapsAnswer, OverlapsRequest
-from app.questions.question import Terms
 from app.wire.messages import checked
+from app.wire.question import Terms
 from core.errors import said
 
 

@@ -14,7 +14,7 @@ from app.files.tables import Language
 from app.grade.words import say
 from app.questions import paper as papers
 from app.questions.paper import PaperNumber, PublishedNumber
-from app.questions.question import Terms
+from app.wire.question import Terms
 
 
 def paper(

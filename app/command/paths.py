@@ -8,8 +8,8 @@ import typer
 from pydantic import Field
 
 from app.command.options import given, unused
-from app.wire.models import DanceQuery, TurningDiameter, measure
 from app.wire.paths import EntryRadius, TurnFields
+from app.wire.question import DanceQuery, TurningDiameter, measure
 from core import Dance
 
 TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius")

@@ -18,9 +18,8 @@ from app.maps.layout import Found
 from app.maps.places import Places, read_map
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
 from app.questions.maps import maps as maps_of
-from app.questions.question import Terms
 from app.wire.messages import checked
-from app.wire.models import Coordinates
+from app.wire.question import Coordinates, Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 from core.shown import counted

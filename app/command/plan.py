@@ -14,8 +14,8 @@ from app.files.disk import checked_output, object_words, read_dance, write_whole
 from app.files.tables import Language
 from app.questions.plan import PlanRequest
 from app.questions.plan import plan as plan_of
-from app.questions.question import Terms
 from app.wire.messages import checked
+from app.wire.question import Terms
 from app.wire.refusals import refusing
 
 

@@ -28,8 +28,8 @@ from app.questions.check import CheckRequest
 from app.questions.tolerance import CircleQuery
 from app.settings import Settings
 from app.wire.messages import checked
-from app.wire.models import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.paths import Circle, TurnFields
+from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from core import InvalidValue, Outcome
 from core.dance import Dance
 from core.errors import ProofRefused, said

@@ -16,7 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 from app.wire import answers
-from app.wire.models import Answer, unit_of
+from app.wire.question import Answer, unit_of
 from core.errors import said
 from core.shown import counted
 

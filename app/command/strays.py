@@ -10,9 +10,9 @@ from app.questions import contact_probability as chances
 from app.questions import tolerance as tolerances
 from app.questions import tolerance_curve as curves
 from app.questions.contact_probability import ContactProbabilityQuery, ContactProbabilityRequest
-from app.questions.question import Terms
 from app.questions.tolerance import ToleranceQuery, ToleranceRequest
 from app.questions.tolerance_curve import ToleranceCurveQuery
+from app.wire.question import Terms
 from core.errors import said
 
 

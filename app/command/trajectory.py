@@ -22,7 +22,7 @@ from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import TimeRange
 from app.wire.messages import checked
-from app.wire.models import measure
+from app.wire.question import measure
 from core import Dance, Dragon, InvalidValue, RunEnd, Spiral, Trajectory
 from core.shown import counted
 from core.values import Floats

@@ -26,7 +26,7 @@ from app.files.lock import FolderLock
 from app.files.tables import XLSX_DECIMALS, Language, instant_sheet, trajectory_sheets
 from app.files.words import Say
 from app.files.workbooks import workbook
-from app.questions.question import Terms
+from app.wire.question import Terms
 from core import InvalidValue
 
 FIGURES, TABLES = "figures", "tables"

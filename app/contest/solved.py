@@ -10,8 +10,7 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.questions.question import Terms
-from app.wire.models import DanceQuery, Instant, SpeedLimit, TurningDiameter, measure
+from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
 from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 

@@ -18,7 +18,7 @@ from app.grade.rubric import Criterion, rubric_of
 from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn, right_answer
 from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, worst_of
 from app.grade.words import Note, note, say
-from app.wire.models import Answer
+from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
 from core.budget import Halted
 

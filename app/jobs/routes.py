@@ -33,7 +33,6 @@ from app.jobs.wire import (
     pointer_in_sweep,
     status,
 )
-from app.questions.question import FileFormat
 from app.questions.registry import CALLS
 from app.service.bodies import BodyRoute
 from app.service.problems import Refused, answer_of, problem
@@ -42,8 +41,8 @@ from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
 from app.wire.messages import shown
-from app.wire.models import JSON, check_limit
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, problem_of
+from app.wire.question import JSON, FileFormat, check_limit
 from core import BenchDragonError
 
 logger = logging.getLogger("uvicorn.error")

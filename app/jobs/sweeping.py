@@ -20,8 +20,8 @@ from app.sweeps.run import SPEC_FILE, Progress, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from app.wire.faults import in_body, refused
-from app.wire.models import JSON
 from app.wire.problem import Problem, problem_of
+from app.wire.question import JSON
 from core import BenchDragonError
 
 # Errors that stop a sweep although its spec is valid.

@@ -8,11 +8,11 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any, Self
 
-from app.questions.question import Terms
 from app.questions.registry import CALLS
 from app.settings import Settings
 from app.wire.faults import in_body, in_query, refused
 from app.wire.problem import Problem
+from app.wire.question import Terms
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget
 

@@ -11,8 +11,8 @@ from app.files.tables import CSV_TYPE, PARQUET_TYPE
 from app.jobs.job import Job, JobState
 from app.sweeps.spec import Spec
 from app.wire.faults import pointer
-from app.wire.models import JSON, measure
 from app.wire.problem import Problem
+from app.wire.question import JSON, measure
 
 EVENTS_TYPE = "text/event-stream"
 # Formats of the table of a sweep.

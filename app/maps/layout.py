@@ -18,8 +18,8 @@ from app.maps.features import MARK, PATH, SQUARE, Drawing, Feature, area_of, hol
 from app.maps.marks import line_of
 from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
-from app.wire.models import Coordinates
 from app.wire.paths import POINTS_MAX, AnyPath
+from app.wire.question import Coordinates
 from core import InvalidValue, Route, Spiral, Venue
 from core.errors import NAME_MAX, NOT_PLAIN, said
 from core.shown import counted

@@ -10,7 +10,7 @@ import numpy as np
 from app.maps.features import Drawing, Feature, features_of
 from app.wire.degrees import Origin, Plane
 from app.wire.geojson import Thing
-from app.wire.models import check_limit
+from app.wire.question import check_limit
 from core import Dance
 from core.motion.places import handle_places
 from core.paths.path import Path

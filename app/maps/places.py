@@ -16,7 +16,7 @@ from app.maps import dxf, geojson, kml
 from app.maps.features import features_of
 from app.maps.layout import Found, Reading, checked_path
 from app.wire.degrees import Place, place_of
-from app.wire.models import Answer, Coordinates
+from app.wire.question import Answer, Coordinates
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 
 # Longest file [bytes].

@@ -8,13 +8,12 @@ from pydantic import Field
 
 import core
 from app.questions.collision_time import CollisionTime, Contact
-from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire import degrees
 from app.wire.answers import Head, Pair, Point
 from app.wire.clocks import time_of_day
 from app.wire.dances import PlacedDance, SpanFields
-from app.wire.models import Answer, SpeedLimit, measure
 from app.wire.paths import WaypointsPath
+from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
 from core import Outcome
 
 

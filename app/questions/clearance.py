@@ -5,10 +5,9 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.wire.answers import Columns, Graze, Pair
 from app.wire.dances import TimedDance, TimeRange, TimeSteps
-from app.wire.models import Answer, DanceQuery, measure
+from app.wire.question import Answer, DanceQuery, Question, Terms, measure
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
 SECONDS_PER_CELL = 3e-6

@@ -7,11 +7,21 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
 from app.wire.dances import DanceFields, SpanFields
-from app.wire.models import Answer, CrossCheck, DanceQuery, Margin, Strays, UniformDragon, measure
 from app.wire.paths import SpiralPath
+from app.wire.question import (
+    UNKNOWN_COST,
+    Answer,
+    CrossCheck,
+    DanceQuery,
+    Margin,
+    Question,
+    Strays,
+    Terms,
+    UniformDragon,
+    measure,
+)
 from core import Dance, Outcome
 
 # Most benches of a dragon that are all judged; of a longer dragon only those near the contact are [1].

@@ -8,11 +8,10 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.questions.tolerance import CircleQuery, SpanOrCircle, span_asked
 from app.wire.answers import Pair
 from app.wire.dances import DanceFields
-from app.wire.models import Answer, Wire, check_limit, measure
+from app.wire.question import Answer, Question, Terms, Wire, check_limit, measure
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 
 # Quantiles of the times of first contact in the answer [1].

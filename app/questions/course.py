@@ -7,11 +7,10 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.wire.answers import Point
 from app.wire.dances import DragonFields
-from app.wire.models import Answer, measure
 from app.wire.paths import BY_KIND, AnyPath, SpiralPath
+from app.wire.question import Answer, Question, Terms, measure
 
 # A route of 1,000 points, measured 2026-11-22 [s].
 SECONDS = 0.02

@@ -10,12 +10,11 @@ from pydantic import Field
 
 import core
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_dxf, envelope_geojson
-from app.questions.question import Question, Terms
 from app.wire.answers import MultiPolygon, Polygon
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.geojson import geometry_of
-from app.wire.models import JSON, Answer, DanceQuery, Instant, measure
 from app.wire.paths import Point
+from app.wire.question import JSON, Answer, DanceQuery, Instant, Question, Terms, measure
 
 # Largest number of points of a line of spectators.
 LINE_MOST = 1_000

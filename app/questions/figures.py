@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from app.questions.pitch_scan import ScanFields
-from app.questions.question import FileFormat, Question, Terms
 from app.wire.dances import DragonFields, PlacedDance
-from app.wire.models import DanceQuery, Instant, Margin, UniformDragon, measure
+from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, measure
 from core.design.pitch_scan import scan_near_minimum
 
 

@@ -6,9 +6,8 @@ from pydantic import Field
 
 from app.files.shooting import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, Shooting
 from app.files.tables import Language
-from app.questions.question import Question, Terms
 from app.wire.dances import PlacedDance
-from app.wire.models import Instant, Wire, check_limit, measure
+from app.wire.question import Instant, Question, Terms, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, first_contact
 from core.errors import said
 

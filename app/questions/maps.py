@@ -10,9 +10,8 @@ from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.maps import dxf, geojson, kml
 from app.maps.marks import drawing_of, in_degrees, marks_of
 from app.questions.check import CheckRequest
-from app.questions.question import FileFormat, Question, Terms
 from app.wire import degrees
-from app.wire.models import Wire, measure
+from app.wire.question import FileFormat, Question, Terms, Wire, measure
 from core import InvalidValue
 
 KML_TYPE = "application/vnd.google-earth.kml+xml"

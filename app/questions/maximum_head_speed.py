@@ -5,10 +5,9 @@ from __future__ import annotations
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.wire.dances import DanceFields
-from app.wire.models import Answer, Instant, SpeedLimit, UniformDragon, Wire, measure
 from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
+from app.wire.question import Answer, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
 
 
 class Limit(Wire):

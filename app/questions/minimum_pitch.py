@@ -7,11 +7,20 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import TOTAL_STRAY, Pair, PairCheck, Point
 from app.wire.dances import BenchByBench, DragonFields
-from app.wire.models import PITCH_MAX, Answer, CrossCheck, Strays, UniformDragon, measure
 from app.wire.paths import Circle, WayToCircle
+from app.wire.question import (
+    PITCH_MAX,
+    UNKNOWN_COST,
+    Answer,
+    CrossCheck,
+    Question,
+    Strays,
+    Terms,
+    UniformDragon,
+    measure,
+)
 from core import Dragon, InvalidValue, LimitedBy
 from core.errors import said
 

@@ -9,9 +9,8 @@ from pydantic import Field
 
 import core
 from app.questions.figures import InstantQuery
-from app.questions.question import Question, Terms
 from app.wire.answers import LEFT_OUT, Pair, Point
-from app.wire.models import Answer, Coordinate, Length, Margin, Width, Wire, check_limit, measure
+from app.wire.question import Answer, Coordinate, Length, Margin, Question, Terms, Width, Wire, check_limit, measure
 from core import Engine
 from core.values import Floats
 

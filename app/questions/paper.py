@@ -27,8 +27,7 @@ from app.grade.contacts import (
 )
 from app.grade.report import DiagnosisAnswer, typed
 from app.grade.words import say
-from app.questions.question import Question, Terms
-from app.wire.models import Answer, Wire
+from app.wire.question import Answer, Question, Terms, Wire
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import stop_radius

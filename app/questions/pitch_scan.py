@@ -6,11 +6,10 @@ import numpy as np
 from pydantic import Field
 
 from app.questions.minimum_pitch import allowed
-from app.questions.question import UNKNOWN_COST, Question, Terms
 from app.wire.answers import Columns, Pair, Point
 from app.wire.dances import DragonFields
-from app.wire.models import Answer, UniformDragon, measure
 from app.wire.paths import Circle
+from app.wire.question import UNKNOWN_COST, Answer, Question, Terms, UniformDragon, measure
 from core.design.pitch_scan import JUMP, pitches_near, scan_near_minimum
 
 # Time of a first contact near the minimum pitch, measured 2026-11-22 [s].

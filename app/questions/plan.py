@@ -13,8 +13,7 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps.marks import marks_of
 from app.questions.maps import Marked
-from app.questions.question import Question, Terms
-from app.wire.models import measure
+from app.wire.question import Question, Terms, measure
 from core import Dance, FailureKind, Judgement
 from core.errors import said
 from core.shapes.engines import widened

@@ -27,7 +27,7 @@ from app.questions import (
     trajectory,
     turn,
 )
-from app.questions.question import Call, Question, calls_of
+from app.wire.question import Call, Question, calls_of
 
 # In the order in which they are documented.
 _ALL = (

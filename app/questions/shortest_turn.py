@@ -7,12 +7,11 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.questions.turn import Turn
 from app.wire.answers import TOTAL_STRAY, Pair, Point
 from app.wire.dances import DragonFields
-from app.wire.models import Margin, Strays, UniformDragon, measure
 from app.wire.paths import TurnCircle
+from app.wire.question import Margin, Question, Strays, Terms, UniformDragon, measure
 
 
 class ShortestTurnFields(Strays, TurnCircle):

@@ -7,10 +7,9 @@ from typing import Annotated, Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
-from app.wire.models import Answer, DanceQuery, TurningDiameter, Wire, measure
+from app.wire.question import Answer, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
 from core import Exhibit, InvalidValue, Limit
 from core.tolerance.curve import time_on_circle
 

@@ -7,11 +7,10 @@ from pydantic import Field
 
 import core
 from app.questions.minimum_pitch import allowed
-from app.questions.question import Question, Terms
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields
-from app.wire.models import Answer, Pitch, UniformDragon, measure
 from app.wire.paths import WayToCircle
+from app.wire.question import Answer, Pitch, Question, Terms, UniformDragon, measure
 from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import said
 from core.values import Floats

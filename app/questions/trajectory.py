@@ -9,9 +9,8 @@ from pydantic import Field
 
 import core
 from app.files import tables
-from app.questions.question import Question, Terms
 from app.wire.dances import TimedDance, TimeSteps
-from app.wire.models import JSON, Answer, measure
+from app.wire.question import JSON, Answer, Question, Terms, measure
 
 
 class TrajectoryRequest(TimedDance):

@@ -7,10 +7,9 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.question import Question, Terms
 from app.wire.answers import Point
-from app.wire.models import Answer, Wire, measure
 from app.wire.paths import TurnFields, TurnPath
+from app.wire.question import Answer, Question, Terms, Wire, measure
 
 
 class TurnQuery(TurnFields):

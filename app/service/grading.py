@@ -21,8 +21,8 @@ from app.service.problems import Refused
 from app.service.reply import GUARDED, client_of, guard
 from app.service.routes import FILE, PROBLEM, PROBLEMS
 from app.settings import Settings
-from app.wire.models import JSON, Wire, measure
 from app.wire.problem import ErrorItem
+from app.wire.question import JSON, Wire, measure
 from core import Budget
 from core.budget import Halted
 

@@ -35,8 +35,8 @@ from app.service.middleware import HeadAsGet, Metrics, Mistakes, OriginForm, Req
 from app.service.pages import add_pages
 from app.service.reply import VERSION, build, refuse_query
 from app.settings import SHARED_COUNTS, Settings
-from app.wire.models import JSON, Answer
 from app.wire.problem import Problem
+from app.wire.question import JSON, Answer
 from core import Dragon, Spiral, contact_check, first_contact, trajectory
 from core.dance import Dance
 

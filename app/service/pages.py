@@ -23,7 +23,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from app.service.reply import GZIPPED, accepted, tags_in
-from app.wire.models import JSON
+from app.wire.question import JSON
 
 PAGE = Path(__file__).parent.parent / "page"
 # Swagger UI comes from a pip package; its start script is a separate file because the policy forbids inline scripts.

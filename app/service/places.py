@@ -17,8 +17,8 @@ from app.service.problems import Refused
 from app.service.reply import GUARDED, client_of
 from app.service.routes import FILE, PROBLEM, PROBLEMS
 from app.settings import Settings
-from app.wire.models import JSON, Coordinates, Wire
 from app.wire.problem import ErrorItem
+from app.wire.question import JSON, Coordinates, Wire
 from core.budget import Halted
 
 # Accepted media types; the form of a map follows from its first bytes, whichever of these is given.

@@ -22,13 +22,12 @@ from starlette.datastructures import Headers
 from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
-from app.questions.question import UNKNOWN_COST, FileFormat, Terms
 from app.questions.registry import CALLS, Call
 from app.service.load import GLANCE, Glances, Handler, KeptAnswers, Lanes, watched
 from app.service.problems import Refused
 from app.settings import Settings
-from app.wire.models import JSON, Wire
 from app.wire.problem import ERRORS_MAX, ErrorItem
+from app.wire.question import JSON, UNKNOWN_COST, FileFormat, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, TooMuchWork
 

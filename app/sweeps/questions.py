@@ -14,7 +14,6 @@ from pydantic import BaseModel
 
 from app.questions import registry
 from app.questions.check import LeastClearance
-from app.questions.question import Terms
 from app.settings import Settings
 from app.sweeps.rows import (
     ClearanceRow,
@@ -27,7 +26,7 @@ from app.sweeps.rows import (
 )
 from app.wire.dances import DanceFields
 from app.wire.messages import checked
-from app.wire.models import Answer, DanceQuery
+from app.wire.question import Answer, DanceQuery, Terms
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 

@@ -8,11 +8,10 @@ from pydantic import Field
 import core
 from app.questions import clearance, overlaps
 from app.questions.check import LeastClearance
-from app.questions.question import Terms
 from app.questions.trajectory import TrajectoryRequest
 from app.wire.answers import Pair
 from app.wire.dances import DanceFields
-from app.wire.models import Answer, DanceQuery, measure
+from app.wire.question import Answer, DanceQuery, Terms, measure
 from core import InvalidValue
 
 

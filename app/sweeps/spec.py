@@ -19,7 +19,7 @@ import core
 from app.sweeps.questions import Question, question_of
 from app.wire.dances import AXIS
 from app.wire.messages import checked
-from app.wire.models import measure
+from app.wire.question import measure
 from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8

@@ -13,7 +13,7 @@ import orjson
 from pydantic import Field
 
 import core
-from app.wire.models import Answer, measure
+from app.wire.question import Answer, measure
 from core import Engine
 
 Pair = tuple[int, int]

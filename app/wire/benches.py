@@ -11,7 +11,7 @@ from typing import Annotated, NamedTuple
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from app.wire.models import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
+from app.wire.question import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from core import Dragon, InvalidValue
 from core.errors import said
 

@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
-from app.wire.models import Instant, Wire, measure
+from app.wire.question import Instant, Wire, measure
 from core import Passage
 
 DAY = 86_400  # [s]

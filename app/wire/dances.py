@@ -1,6 +1,7 @@
 """Dragons, instants and dances in request bodies, and their conversion to core.
 
-Queries are flat (models.py) and bodies are nested; both consist of the same groups of fields and become the same dance.
+Queries are flat (question.py) and bodies are nested; both consist of the same groups of fields and become the same
+dance.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from pydantic_core import PydanticCustomError
 from app.settings import Settings
 from app.wire.benches import BenchCsv
 from app.wire.clocks import PassageBody, StartClock
-from app.wire.models import (
+from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralPath
+from app.wire.question import (
     Coordinates,
     HeadSpeed,
     Instant,
@@ -27,7 +29,6 @@ from app.wire.models import (
     check_limit,
     measure,
 )
-from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralPath
 from core import Dance, Dragon, InvalidValue, Passage
 from core.errors import said
 from core.passages import PASSAGES_MAX

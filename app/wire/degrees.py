@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.wire.geojson import Polygon, Scale, Thing, outlined, read_things, venue_of
-from app.wire.models import Coordinates
+from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.errors import checked_number
 from core.values import Floats

@@ -14,8 +14,8 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin
 from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
-from app.wire.models import Wire, unit_of
 from app.wire.paths import KINDS
+from app.wire.question import Wire, unit_of
 from core import InvalidValue
 from core.errors import said, spoken
 

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, TypedDict
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
 import core
-from app.wire.models import (
+from app.wire.question import (
     Angle,
     Coordinate,
     Margin,

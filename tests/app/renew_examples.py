@@ -11,7 +11,7 @@ import httpx
 from app.service.examples import FILE
 from app.service.main import create_app
 from app.settings import Settings
-from app.wire.models import JSON
+from app.wire.question import JSON
 
 # Values that fit into a line of so many characters stay on one.
 WIDTH = 120

@@ -8,7 +8,7 @@ import pytest
 
 import app.service.main  # noqa: F401  so that every answer is known
 from app.questions.collision_time import Certificate
-from app.wire.models import Answer
+from app.wire.question import Answer
 
 TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 # What is said of a touch alone, of both by `nearest`, or of no contact.

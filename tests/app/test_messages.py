@@ -15,7 +15,7 @@ from app.questions.collision_time import CollisionQuery
 from app.questions.overlaps import OverlapsRequest
 from app.questions.trajectory import TrajectoryRequest
 from app.wire.messages import names_at
-from app.wire.models import Wire, unit_of
+from app.wire.question import Wire, unit_of
 
 
 @pytest.mark.parametrize(

@@ -87,11 +87,10 @@ print(json.dumps(found))
 # What every request passes; the question's own file; the fields of its query; and how it is told, under any load.
 EDGE = {
     "app.questions.collision_time",
-    "app.questions.question",
     "app.service.load",
     "app.service.middleware",
     "app.service.reply",
-    "app.wire.models",
+    "app.wire.question",
 }
 # What is asked about, checked and within a budget; and the search, with its claim in words.
 SEARCH = {

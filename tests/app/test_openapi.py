@@ -17,7 +17,7 @@ from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES, FILE
 from app.service.main import create_app
 from app.settings import Settings
-from app.wire.models import JSON
+from app.wire.question import JSON
 from tests.app.conftest import ANSWER_TIMEOUT
 from tests.app.renew_examples import text
 from tests.depth import examples

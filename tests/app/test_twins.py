@@ -8,8 +8,8 @@ import httpx
 import pytest
 
 import core
-from app.questions.question import Question
 from app.questions.registry import QUESTIONS
+from app.wire.question import Question
 from core.tolerance.curve import time_on_circle
 
 # Flat values of a question, and the same in a body.

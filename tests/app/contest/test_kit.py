@@ -26,7 +26,7 @@ from app.contest.solved import ContestRequest, solve
 from app.contest.tables import paper_tables
 from app.files.tables import Language
 from app.files.words import Say
-from app.questions.question import Terms
+from app.wire.question import Terms
 from tests.app.command import COMMAND, run
 from tests.test_docs import KITS, assert_alike
 

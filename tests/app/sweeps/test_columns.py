@@ -9,9 +9,9 @@ import pytest
 import core
 from app.questions.check import CheckRequest, Report
 from app.questions.collision_time import CollisionQuery, CollisionTime
-from app.questions.question import Terms
 from app.sweeps.columns import Column, answer_columns, value_type
 from app.sweeps.questions import QUESTIONS, question_of
+from app.wire.question import Terms
 from tests.app.sweeps.odd_questions import Height
 
 

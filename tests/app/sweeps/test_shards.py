@@ -15,11 +15,11 @@ import pytest
 
 import core
 from app.questions.collision_time import CollisionQuery, CollisionTime
-from app.questions.question import Terms
 from app.questions.registry import CALLS
 from app.sweeps.questions import NO_ROWS, QUESTIONS, Question, question_of
 from app.sweeps.shards import OtherVersion, Piece, checked_part, part_name, parts, write_part
 from app.sweeps.spec import Spec
+from app.wire.question import Terms
 from core import InvalidValue
 from tests.app.sweeps.odd_questions import LAND
 
