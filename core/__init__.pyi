@@ -22,7 +22,7 @@ from .motion.speed import (
     highest_speed,
     maximum_head_speed,
 )
-from .motion.trajectory import Trajectory, bench_outlines, bench_poses, trajectory
+from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
 from .paths.legs import Legs
 from .paths.path import HeadState
@@ -32,7 +32,7 @@ from .paths.spiral import Spiral
 from .paths.turn import Turn
 from .shapes.engines import Engine
 from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, separation, verdicts
-from .shapes.rectangles import Separation
+from .shapes.rectangles import Separation, bench_outlines, bench_poses
 from .tolerance.chance import ContactProbability, contact_probability
 from .tolerance.curve import ToleranceCurve, tolerance_curve
 from .tolerance.exhibit import Exhibit

@@ -10,8 +10,9 @@ from core import plots
 from core.contact.clearance import Graze
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue, said
-from core.motion.trajectory import bench_outlines, trajectory
+from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
+from core.shapes.rectangles import bench_outlines
 from core.shown import Shown, worded
 
 if TYPE_CHECKING:

@@ -18,11 +18,10 @@ from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
-from core.motion.trajectory import bench_poses, trajectory
 from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
-from core.shapes.rectangles import Pairs, corners, frames, frames_separation, meeting_pairs
+from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs
 from core.shown import Shown, worded
 from core.tolerance.reach import SHORT, Reach, reach
 from core.values import Floats
@@ -167,10 +166,19 @@ def pitch_check(
     return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
 
 
+@bounded("the trajectory was not computed")
 def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
-    """Poses (T, n, 3) of the dragon at instants, moved into the run if they are outside."""
-    held = [min(max(time, dance.earliest), dance.end.time) for time in times]
-    return bench_poses(trajectory(dance, held, budget=budget).position)
+    """Poses (T, n, 3) of the steady dragon at instants, moved into the run if they are outside."""
+    held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
+    shape = (held.size, dragon.benches + 1)
+    position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
+    s, last, columns = held * dance.head_speed, dance.end.theta or 0.0, (position, velocity, speed)
+    budget.afford(float(speed.size))
+    before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, *columns, budget.halt)
+    budget.look()
+    if before_fold < held.size:
+        raise dance.after_the_end(held, before_fold)
+    return bench_poses(position)
 
 
 def judged_contact(

@@ -17,12 +17,13 @@ from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
-from core.motion.trajectory import bench_poses, trajectory
+from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside
+from core.shapes.rectangles import bench_poses
 from core.shown import Shown, worded
 from core.values import Floats, Point
 from core.venue import Area, Venue

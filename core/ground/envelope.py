@@ -62,11 +62,11 @@ from core.kernels.constants import (
     RADIUS,
     SIZE_COLUMNS,
 )
-from core.motion.trajectory import bench_outlines
 from core.paths.frame import Frame
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
+from core.shapes.rectangles import bench_outlines
 from core.shown import Shown, counted
 from core.values import Floats
 
@@ -223,10 +223,10 @@ class _Lone:
         )
         self.last = last_theta(path, self.chord) if isinstance(path, Spiral) else 0.0
         self.radius = 0.5 * math.hypot(length, width)
-        self.sizes, self.motion = np.zeros((2, SIZE_COLUMNS)), np.zeros((2, MOTION_COLUMNS))
+        sizes, self.motion = np.zeros((2, SIZE_COLUMNS)), np.zeros((2, MOTION_COLUMNS))
         columns = [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]
-        self.sizes[0, columns] = self.chord, 0.5 * length, 0.5 * width, self.radius
-        scene = kernels.Scene(path.curve, path.place, kernels.Rings(), self.sizes, 1, 0)
+        sizes[0, columns] = self.chord, 0.5 * length, 0.5 * width, self.radius
+        scene = kernels.Scene(path.curve, path.place, kernels.Rings(), sizes, 1, 0)
         before, after = np.zeros((2, 2, CHAIN_COLUMNS))
         self.interval = kernels.Interval(scene, before, after, self.motion)
 
@@ -288,13 +288,8 @@ class _Lone:
         """Corners (N, 4, 2) at places (N,) [m]."""
         shape = (s.size, 2)
         position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-        if isinstance(self.path, Route):
-            chain = np.empty((2, CHAIN_COLUMNS))
-            kernels.route_trajectory(self.path.table, s, 1.0, self.sizes, chain, position, velocity, speed)
-        else:
-            head, chords = np.maximum(self.path.theta(s), self.last), self.dragon.chords
-            kernels.spiral_trajectory(self.path.growth, head, chords, 1.0, position, velocity, speed, self.budget.halt)
-            self.budget.look()
+        self.path.handles(s, self.last, self.dragon.chords, 1.0, position, velocity, speed, self.budget.halt)
+        self.budget.look()
         outlines: Floats = bench_outlines(self.dragon, position)[:, 0]
         return outlines
 

@@ -1,4 +1,4 @@
-"""Position and velocity of every handle, and pose of every bench."""
+"""Position and velocity of every handle."""
 
 from __future__ import annotations
 
@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from core import kernels, plots
+from core import plots
 from core.budget import BATCH_WORK, Budget, bounded
 from core.dance import Dance
-from core.dragon import Dragon
-from core.errors import InvalidValue, asked_of
+from core.errors import asked_of
 from core.paths.frame import WORLD
-from core.paths.route import Route
-from core.shapes.rectangles import corners
+from core.shapes.rectangles import bench_outlines
 from core.shown import Shown, extent, worded
 from core.tables import data_frame, data_set
 from core.values import Floats
@@ -117,7 +115,7 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
         TooMuchWork
     source: Yang et al., section 2.3, whose eqs. 6-7 divide a sum of speeds by 2 dt where a distance is meant
 
-    >>> from core import Spiral
+    >>> from core import Dragon, Spiral
     >>> dance = Dance(Dragon(), Spiral())
     >>> trajectory(dance, [0.0]).position[0, 1].round(6)
     array([8.363824, 2.826544])
@@ -128,13 +126,15 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     time, handles = dance.clock.steady(asked.reshape(-1)), dragon.benches + 1
     shape = (time.size, handles)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-    # whole blocks of instants on a spiral, because the kernels solve them together
-    block = 1 if isinstance(dance.path, Route) else kernels.LANES_PER_BLOCK
+    block = dance.path.block
     batch = block * max(1, BATCH_WORK // (block * handles))
     for first in range(0, time.size, batch):
         rows = slice(first, first + batch)
         budget.afford(float(handles * time[rows].size))
-        before_fold = _fill(dance, budget, time[rows], position[rows], velocity[rows], speed[rows])
+        s, columns = time[rows] * dance.head_speed, (position[rows], velocity[rows], speed[rows])
+        before_fold = dance.path.handles(
+            s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, *columns, budget.halt
+        )
         budget.look()
         if before_fold < time[rows].size:
             raise dance.after_the_end(asked, first + before_fold)
@@ -148,57 +148,6 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
     return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
 
 
-def _fill(dance: Dance, budget: Budget, time: Floats, position: Floats, velocity: Floats, speed: Floats) -> int:
-    """Fill in a trajectory of the steady dance at times (T,) [s]; returns the number of times before a fold."""
-    dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
-    if isinstance(path, Route):
-        sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
-        sizes[:, kernels.CHORD] = dragon.chords
-        chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
-        kernels.route_trajectory(path.table, time * head_speed, head_speed, sizes, chain, position, velocity, speed)
-        return time.size
-    head = np.maximum(path.theta(time * head_speed), dance.end.theta or 0.0)
-    chords, halt = dragon.chords, budget.halt
-    return kernels.spiral_trajectory(path.growth, head, chords, head_speed, position, velocity, speed, halt)
-
-
-def bench_poses(handles: Floats) -> Floats:
-    """Pose of every bench from the handles at its two ends.
-
-    handles: (..., n + 1, 2) [m], head first, world frame
-    returns: (..., n, 3) x [m], y [m], heading [rad] in [-pi, pi], from rear to front handle
-    source:  Yang et al., section 2.4.1, steps 1-2
-    raises:  InvalidValue (handles)
-
-    >>> bench_poses(np.array([[2.0, 0.0], [0.0, 0.0]]))
-    array([[1., 0., 0.]])
-    """
-    handles = _checked_handles(handles)
-    front, rear = handles[..., :-1, :], handles[..., 1:, :]
-    middle = 0.5 * (front + rear)
-    along = front - rear
-    heading = np.arctan2(along[..., 1], along[..., 0])
-    return np.concatenate([middle, heading[..., None]], axis=-1)
-
-
-@asked_of("dragon", Dragon)
-def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
-    """Corners of every bench: front-left, front-right, rear-right, rear-left.
-
-    handles: (..., n + 1, 2) [m], head first
-    returns: (..., n, 4, 2) [m]
-    raises:  InvalidValue
-
-    >>> bench_outlines(Dragon(1), np.array([[2.86, 0.0], [0.0, 0.0]])).round(3).tolist()
-    [[[3.135, 0.15], [3.135, -0.15], [-0.275, -0.15], [-0.275, 0.15]]]
-    """
-    poses = bench_poses(handles)
-    if poses.shape[-2] != dragon.benches:
-        count = poses.shape[-2] + 1
-        raise InvalidValue("handles", f"handles must be {dragon.benches + 1}, one more than benches, got {count}")
-    return corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
-
-
 def instants(time: Floats) -> str:
     """Number and range of instants, in words.
 
@@ -208,14 +157,3 @@ def instants(time: Floats) -> str:
     if time.size < 2:
         return f"{time.size} instants" if not time.size else f"1 instant at {worded(time.item(0), 's')}"
     return f"{time.size} instants from {extent(time, 's')}"
-
-
-def _checked_handles(handles: object) -> Floats:
-    try:
-        places = np.asarray(handles)
-    except ValueError as error:
-        raise InvalidValue("handles", "handles must be places of shape (..., n + 1, 2) in metres") from error
-    if places.dtype.kind not in "iuf" or places.ndim < 2 or places.shape[-1] != 2:
-        words = "handles must be places of shape (..., n + 1, 2) in metres"
-        raise InvalidValue("handles", f"{words}, got {places.dtype.name} of shape {places.shape}")
-    return places.astype(np.float64, copy=False)

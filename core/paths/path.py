@@ -32,6 +32,7 @@ class Path(Protocol):
     curve, place: the path in the form of the kernels, and their place for s = 0 [m]: the arc length from the centre of
         a spiral, 0 on a route
     slide: largest distance of a point from its s along the path, in addition to the rounding of s [m]
+    block: number of places of the head for which handles() is quick, and multiples of it
     frame: the own frame, in which everything is computed; standard: the path in that frame
     """
 
@@ -52,6 +53,8 @@ class Path(Protocol):
     @property
     def slide(self) -> float: ...
     @property
+    def block(self) -> int: ...
+    @property
     def frame(self) -> Frame: ...
     @property
     def standard(self) -> Self: ...
@@ -67,6 +70,24 @@ class Path(Protocol):
 
     def head(self, s: float) -> HeadState:
         """The head at arc length s [m]."""
+
+    def handles(
+        self,
+        s: Floats,
+        last: float,
+        chords: Floats,
+        head_speed: float,
+        position: Floats,
+        velocity: Floats,
+        speed: Floats,
+        halt: kernels.Halt,
+    ) -> int:
+        """Fill in all handles in the own frame; returns the number of places before a fold.
+
+        s: (T,) of the head [m]; last: least polar angle of the head on a spiral [rad]; chords: (n,) [m]
+        position: (T, n + 1, 2) [m]; velocity: (T, n + 1, 2), speed: (T, n + 1) [m/s]
+        halt: of a budget, which the caller looks at afterwards
+        """
 
     def calm(self, curvature: float) -> float:
         """Part of the path where handles are no faster than their leaders, in the form of kernels.Peak.

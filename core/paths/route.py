@@ -39,7 +39,7 @@ class Route(Shown):
     """
 
     # For the kernels: places are minus s, and a search may pass the end a little.
-    growth, place, limit = 1.0, 0.0, math.inf
+    growth, place, limit, block = 1.0, 0.0, math.inf, 1
     frame = WORLD
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0, *, budget: Budget | None = None) -> None:
@@ -154,6 +154,24 @@ class Route(Shown):
         """The head at arc length s [m]."""
         x, y = self.position(s).tolist()
         return HeadState(None, math.hypot(x, y), x, y)
+
+    def handles(
+        self,
+        s: Floats,
+        last: float,
+        chords: Floats,
+        head_speed: float,
+        position: Floats,
+        velocity: Floats,
+        speed: Floats,
+        halt: kernels.Halt,
+    ) -> int:
+        """Fill in all handles, see Path; no bench folds on a route."""
+        sizes = np.zeros((chords.size, kernels.SIZE_COLUMNS))
+        sizes[:, kernels.CHORD] = chords
+        chain = np.empty((chords.size + 1, kernels.CHAIN_COLUMNS))
+        kernels.route_trajectory(self.table, s, head_speed, sizes, chain, position, velocity, speed)
+        return s.size
 
     def calm(self, curvature: float) -> float:
         """1 if no handle on the first piece is faster than its leader, else 0, in the form of kernels.Peak."""

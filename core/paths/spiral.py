@@ -78,6 +78,7 @@ class Spiral(Shown):
     begin = 0.0
     tail_begin = None
     slide = 0.0  # points are exact except for the rounding of s
+    block = kernels.LANES_PER_BLOCK  # the kernels solve so many places together
 
     @property
     def end(self) -> float:
@@ -141,6 +142,21 @@ class Spiral(Shown):
         radius = self.growth * theta
         x, y = radius * math.cos(theta), radius * math.sin(theta)
         return HeadState(theta, radius, *((x, y) if self.frame == WORLD else self.frame.point(x, y)))
+
+    def handles(
+        self,
+        s: Floats,
+        last: float,
+        chords: Floats,
+        head_speed: float,
+        position: Floats,
+        velocity: Floats,
+        speed: Floats,
+        halt: kernels.Halt,
+    ) -> int:
+        """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
+        head = np.maximum(self.theta(s), last)
+        return kernels.spiral_trajectory(self.growth, head, chords, head_speed, position, velocity, speed, halt)
 
     def calm(self, curvature: float) -> float:
         """Radius outside which the |curvature| is at most this [1/m], in the form of kernels.Peak [m]."""

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from core import kernels
 from core.budget import Budget
-from core.errors import InvalidValue, TooLarge, said
+from core.dragon import Dragon
+from core.errors import InvalidValue, TooLarge, asked_of, said
 from core.kernels.constants import (
     FRAME_COLUMNS,
     FRAME_HALF_LENGTH,
@@ -127,6 +128,54 @@ def corners(poses: Floats, sizes: Floats) -> Floats:
     along = CORNER_SIDES[:, :1] * frame[..., 4:5] * frame[..., 2:4]
     left = CORNER_SIDES[:, 1:] * frame[..., 5:6] * (frame[..., 3:1:-1] * [-1.0, 1.0])
     return frame[..., :2] + along + left
+
+
+def bench_poses(handles: Floats) -> Floats:
+    """Pose of every bench from the handles at its two ends.
+
+    handles: (..., n + 1, 2) [m], head first, world frame
+    returns: (..., n, 3) x [m], y [m], heading [rad] in [-pi, pi], from rear to front handle
+    source:  Yang et al., section 2.4.1, steps 1-2
+    raises:  InvalidValue (handles)
+
+    >>> bench_poses(np.array([[2.0, 0.0], [0.0, 0.0]]))
+    array([[1., 0., 0.]])
+    """
+    handles = _checked_handles(handles)
+    front, rear = handles[..., :-1, :], handles[..., 1:, :]
+    middle = 0.5 * (front + rear)
+    along = front - rear
+    heading = np.arctan2(along[..., 1], along[..., 0])
+    return np.concatenate([middle, heading[..., None]], axis=-1)
+
+
+@asked_of("dragon", Dragon)
+def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
+    """Corners of every bench: front-left, front-right, rear-right, rear-left.
+
+    handles: (..., n + 1, 2) [m], head first
+    returns: (..., n, 4, 2) [m]
+    raises:  InvalidValue
+
+    >>> bench_outlines(Dragon(1), np.array([[2.86, 0.0], [0.0, 0.0]])).round(3).tolist()
+    [[[3.135, 0.15], [3.135, -0.15], [-0.275, -0.15], [-0.275, 0.15]]]
+    """
+    poses = bench_poses(handles)
+    if poses.shape[-2] != dragon.benches:
+        count = poses.shape[-2] + 1
+        raise InvalidValue("handles", f"handles must be {dragon.benches + 1}, one more than benches, got {count}")
+    return corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+
+
+def _checked_handles(handles: object) -> Floats:
+    try:
+        places = np.asarray(handles)
+    except ValueError as error:
+        raise InvalidValue("handles", "handles must be places of shape (..., n + 1, 2) in metres") from error
+    if places.dtype.kind not in "iuf" or places.ndim < 2 or places.shape[-1] != 2:
+        words = "handles must be places of shape (..., n + 1, 2) in metres"
+        raise InvalidValue("handles", f"{words}, got {places.dtype.name} of shape {places.shape}")
+    return places.astype(np.float64, copy=False)
 
 
 # If two rectangles are within the margin, so are their upright boxes along x and along y; so these boxes meet when they

@@ -24,8 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.dragon import Dragon
-from core.motion.trajectory import bench_poses
-from core.shapes.rectangles import frames, frames_separation
+from core.shapes.rectangles import bench_poses, frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats

@@ -19,9 +19,9 @@ from core.contact.walls import own_edges, venue_route
 from core.dance import Dance
 from core.errors import asked_of, checked_type, said
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
-from core.motion.trajectory import bench_poses, trajectory
+from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
-from core.shapes.rectangles import frames, frames_separation
+from core.shapes.rectangles import bench_poses, frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, Found, held_stray, safe_words

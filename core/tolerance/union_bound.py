@@ -41,8 +41,8 @@ from core.budget import Budget
 from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import TooLarge
-from core.motion.trajectory import bench_poses, trajectory
-from core.shapes.rectangles import CORNER_SIDES, frames, frames_separation, meeting_pairs
+from core.motion.trajectory import trajectory
+from core.shapes.rectangles import CORNER_SIDES, bench_poses, frames, frames_separation, meeting_pairs
 from core.tolerance.reach import gains
 from core.tolerance.wobble import Wobble
 from core.values import Floats

@@ -104,7 +104,6 @@ SEARCH = {
 # Where everyone is just before and after, and the four engines.
 CROSS_CHECK = {
     "core.contact.cross_check",
-    "core.motion.trajectory",
     "core.shapes.engines",
     "core.shapes.rectangles",
 }

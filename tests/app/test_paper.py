@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from app.files.tables import Language
 from app.questions.paper import PaperNumber, comparison, literature
 from core import Dance, Dragon, Outcome, Spiral, first_contact, minimum_pitch, separation, trajectory
-from core.motion.trajectory import bench_poses
+from core.shapes.rectangles import bench_poses
 
 # Printed digits of the paper, and how well the reference values are known.
 MICROMETRE = 0.5e-6  # [m]

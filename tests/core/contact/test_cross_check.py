@@ -24,10 +24,11 @@ from core.contact.cross_check import (
 from core.contact.first_contact import first_contact
 from core.design.minimum_pitch import LimitedBy, minimum_pitch
 from core.dragon import Dragon
-from core.motion.trajectory import bench_poses, trajectory
+from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict, separation
+from core.shapes.rectangles import bench_poses
 from tests.depth import examples
 
 Floats = NDArray[np.float64]

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from core import Dance, Dragon, Outcome, Route, Waypoints, contact_check, first_contact, overlaps, trajectory
-from core.motion.trajectory import bench_poses
+from core.shapes.rectangles import bench_poses
 
 # A straight way to the crossing of a figure eight, one of its loops, and on over the crossing [m].
 STRAIGHT = [(-k, -k) for k in np.linspace(45.0, 1.5, 16).tolist()]

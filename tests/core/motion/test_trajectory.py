@@ -20,7 +20,6 @@ from core import (
     Route,
     Spiral,
     Turn,
-    bench_poses,
     kernels,
     trajectory,
 )
@@ -259,26 +258,5 @@ def test_a_time_that_is_refused_is_named_as_it_was_given(times: object, words: s
         trajectory(Dance(Dragon(), Spiral()), times)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("handles", [None, 1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], "handles", [["a", "b"]]])
-def test_handles_that_are_no_places_are_refused(handles: object) -> None:
-    with pytest.raises(InvalidValue, match=r"^handles must be places of shape"):
-        bench_poses(handles)  # type: ignore[arg-type]
-
-
 def test_no_times_give_an_empty_table() -> None:
     assert trajectory(Dance(Dragon(4), Spiral()), []).position.shape == (0, 5, 2)
-
-
-@given(st.integers(1, 6), st.integers(0, 3), st.data())
-def test_poses_of_many_instants_equal_those_one_by_one(benches: int, instants: int, data: st.DataObject) -> None:
-    numbers = 2 * (benches + 1) * instants
-    places = st.lists(st.floats(-100.0, 100.0), min_size=numbers, max_size=numbers)
-    handles = np.array(data.draw(places)).reshape(instants, benches + 1, 2)
-    poses = bench_poses(handles)
-    assert poses.shape == (instants, benches, 3)
-    for k in range(instants):
-        assert np.array_equal(poses[k], bench_poses(handles[k]))
-        np.testing.assert_allclose(poses[k, :, :2], 0.5 * (handles[k, 1:] + handles[k, :-1]), atol=1e-14)
-        reach = np.hypot(*(handles[k, :-1] - handles[k, 1:]).T)
-        along = np.stack([np.cos(poses[k, :, 2]), np.sin(poses[k, :, 2])], axis=-1) * reach[:, None]
-        np.testing.assert_allclose(along, handles[k, :-1] - handles[k, 1:], atol=1e-12)

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from core import Dance
 from core.dragon import Dragon
 from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, TooLarge
-from core.motion.trajectory import bench_poses, trajectory
+from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
+from core.shapes.rectangles import bench_poses
 from tests.depth import examples
 
 Floats = NDArray[np.float64]

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core import kernels
-from core.errors import SIZE_MAX, SIZE_MIN
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue
 from core.shapes.overlaps import separation
-from core.shapes.rectangles import corners, frames
+from core.shapes.rectangles import bench_poses, corners, frames
 
 pytestmark = pytest.mark.uncompiled
 
@@ -278,3 +278,24 @@ def test_corners_run_front_left_front_right_rear_right_rear_left() -> None:
     found = corners(np.array([[1.0, 2.0, math.pi / 2], [0.0, 0.0, 0.0]]), np.array([4.0, 2.0]))
     np.testing.assert_allclose(found[0], [[0, 4], [2, 4], [2, 0], [0, 0]], rtol=0, atol=ROUNDING)
     np.testing.assert_allclose(found[1], [[2, 1], [2, -1], [-2, -1], [-2, 1]], rtol=0, atol=0)
+
+
+@pytest.mark.parametrize("handles", [None, 1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], "handles", [["a", "b"]]])
+def test_handles_that_are_no_places_are_refused(handles: object) -> None:
+    with pytest.raises(InvalidValue, match=r"^handles must be places of shape"):
+        bench_poses(handles)  # type: ignore[arg-type]
+
+
+@given(st.integers(1, 6), st.integers(0, 3), st.data())
+def test_poses_of_many_instants_equal_those_one_by_one(benches: int, instants: int, data: st.DataObject) -> None:
+    numbers = 2 * (benches + 1) * instants
+    places = st.lists(st.floats(-100.0, 100.0), min_size=numbers, max_size=numbers)
+    handles = np.array(data.draw(places)).reshape(instants, benches + 1, 2)
+    poses = bench_poses(handles)
+    assert poses.shape == (instants, benches, 3)
+    for k in range(instants):
+        assert np.array_equal(poses[k], bench_poses(handles[k]))
+        np.testing.assert_allclose(poses[k, :, :2], 0.5 * (handles[k, 1:] + handles[k, :-1]), atol=1e-14)
+        reach = np.hypot(*(handles[k, :-1] - handles[k, 1:]).T)
+        along = np.stack([np.cos(poses[k, :, 2]), np.sin(poses[k, :, 2])], axis=-1) * reach[:, None]
+        np.testing.assert_allclose(along, handles[k, :-1] - handles[k, 1:], atol=1e-12)
