@@ -1,4 +1,3 @@
-from .budget import Budget
 from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from .contact.cross_check import ContactCheck, contact_check, pitch_check
@@ -13,6 +12,7 @@ from .dragon import Dragon, Stray
 from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
 from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
+from .kernels import Budget
 from .motion.joints import SharpestBend, sharpest_bend
 from .motion.speed import (
     FirstExcess,

@@ -1,4 +1,4 @@
-"""Every error that core raises, and the checks of numbers that raise them. One tree:
+"""Every error that core raises, the checks of numbers that raise them, and how a question ends. One tree:
 
     BenchDragonError          code, field, message
       InvalidValue            a parameter is outside what its type allows (also a ValueError)
@@ -16,9 +16,12 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from functools import wraps
+from inspect import signature
 from numbers import Real
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 from unicodedata import category
+
+from core.kernels import Budget, Halted
 
 if TYPE_CHECKING:  # NumPy takes as long to import as all of a process that runs jobs.
     from core.values import Point
@@ -156,6 +159,13 @@ class TooMuchWork(BenchDragonError):
         return error
 
 
+def too_much(budget: Budget, field: str, rule: str, got: float, unit: str) -> TooMuchWork:
+    """The error of a question that ended early. The rule ends with a clause on the missing answer and {then}."""
+    error = TooMuchWork.of(field, rule.format(then=budget.then), got, unit)
+    error.stopped = budget.stopped
+    return error
+
+
 class OutsideRun(BenchDragonError):
     """An instant lies after the end of the run."""
 
@@ -205,11 +215,12 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
         raise InvalidValue(name, f"{name} must be a {words}, got {given}")
 
 
-def asked_of(name: str, kind: type) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Decorator of a question that checks the type of its first argument before Python checks the number of arguments.
+def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Decorator of a question: it is asked of a first argument of this kind, and ends with TooMuchWork with its budget.
 
-    A call of the old kind with a dragon and a spiral would else get Python's message on the number of arguments, which
-    does not say that the first one must be a dance.
+    found: clause on the missing answer, which {then} completes; without one the question tells of its budget itself
+    The type is checked before Python checks the number of arguments: a call of the old kind with a dragon and a spiral
+    would else get Python's message on that number, which does not say that the first one must be a dance.
     """
 
     def checking(question: Callable[P, R]) -> Callable[P, R]:
@@ -217,7 +228,17 @@ def asked_of(name: str, kind: type) -> Callable[[Callable[P, R]], Callable[P, R]
         def asked(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 checked_type(name, args[0] if args else kwargs[name], kind)
-            return question(*args, **kwargs)
+            try:
+                return question(*args, **kwargs)
+            except Halted as halted:
+                if not found:
+                    raise
+                budget, given = halted.budget, signature(question).bind(*args, **kwargs).arguments
+            dance = given.get("dance")
+            if dragon := given.get("dragon") or (dance and dance.dragon):
+                rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
+                raise too_much(budget, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches, "")
+            raise too_much(budget, "benches", f"must be fewer: {found} {{then}}", len(given["poses"]), "")
 
         return asked
 

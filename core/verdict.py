@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from core.budget import Budget
 from core.contact.answer import FirstContact
 from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import first_contact
@@ -23,6 +22,7 @@ from core.failures import (
     touch_failures,
     venue_failures,
 )
+from core.kernels import Budget
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import (
     HighestSpeed,

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parent.parent
 ORDER = (
     "core.kernels.constants",
     "core.kernels.records",
-    "core.kernels.halt",
+    "core.kernels.budget",
     "core.kernels.spiral",
     "core.kernels.fold",
     "core.kernels.rectangles",
@@ -49,7 +49,6 @@ ORDER = (
     "core.kernels",
     "core.values",
     "core.errors",
-    "core.budget",
     "core.extras",
     "core.shown",
     "core.tables",

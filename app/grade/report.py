@@ -20,7 +20,8 @@ from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, w
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
-from core.budget import Halted
+from core.errors import too_much
+from core.kernels import Halted
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
@@ -134,7 +135,7 @@ def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
 
 def too_long(data: bytes, budget: Budget) -> TooMuchWork:
     """The error for a file whose budget was stopped before it was graded."""
-    return budget.too_much("name", "must name a smaller file: it was not graded {then}", len(data), "bytes")
+    return too_much(budget, "name", "must name a smaller file: it was not graded {then}", len(data), "bytes")
 
 
 def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:

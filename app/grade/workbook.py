@@ -24,7 +24,7 @@ from app.extras import require
 from app.grade.grid import Cell, Grid, Unreadable
 from app.grade.words import Note, note
 from core import Budget
-from core.budget import Halted
+from core.kernels import Halted
 
 if TYPE_CHECKING:
     from openpyxl.workbook.workbook import Workbook

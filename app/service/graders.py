@@ -23,7 +23,7 @@ from app.jobs.keeper import start
 from app.jobs.work import NICENESS
 from app.sweeps.worker import receive, send
 from core import Budget
-from core.budget import Halted
+from core.kernels import Halted
 
 Answer = TypeVar("Answer")
 # Largest number of processes that wait for a file, of 60 to 90 MB each; and number of tries of a file whose process is

@@ -24,7 +24,7 @@ from app.settings import Settings
 from app.wire.problem import ErrorItem
 from app.wire.question import JSON, Wire, measure
 from core import Budget
-from core.budget import Halted
+from core.kernels import Halted
 
 FILE_TYPE = "application/octet-stream"
 TYPES = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)

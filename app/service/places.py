@@ -19,7 +19,8 @@ from app.service.routes import FILE, PROBLEM, PROBLEMS
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 from app.wire.question import JSON, Coordinates, Wire
-from core.budget import Halted
+from core.errors import too_much
+from core.kernels import Halted
 
 # Accepted media types; the form of a map follows from its first bytes, whichever of these is given.
 TYPES = (
@@ -79,7 +80,7 @@ def places(
         try:
             found = graders.asked(budget, read_places, data, wanted.units, wanted.language)
         except Halted:
-            raise budget.too_much("file", "must be smaller: it was not read {then}", len(data), "bytes") from None
+            raise too_much(budget, "file", "must be smaller: it was not read {then}", len(data), "bytes") from None
     if not isinstance(found, Places):
         refused, field, message = found
         raise refused(field, message)

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import plots
-from core.budget import Budget, bounded
 from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES, Ended
 from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Clock, Dance, RunEnd
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, asked_of
+from core.kernels import Budget
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Shown, counted, worded
@@ -121,8 +121,7 @@ class LeastClearance(Shown):
     benches: Pair
 
 
-@asked_of("dance", Dance)
-@bounded("the clearance over time was not found")
+@asked_of("dance", Dance, "the clearance over time was not found")
 def clearance_profile(
     dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None
 ) -> ClearanceProfile:
@@ -186,8 +185,7 @@ def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
     return tuple(sorted(grazes, key=lambda graze: graze.time))
 
 
-@asked_of("dance", Dance)
-@bounded("the least clearance was not found")
+@asked_of("dance", Dance, "the least clearance was not found")
 def least_clearance(
     dance: Dance,
     *,

@@ -11,13 +11,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from core.budget import Budget, bounded
 from core.contact.answer import FirstContact, Outcome
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
+from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
@@ -79,8 +79,7 @@ class ContactCheck(Shown):
         return [("agree", worded(self.agree)), ("judged", worded(self.judged)), *said, *rest]
 
 
-@asked_of("contact", FirstContact)
-@bounded("the engines' verdict on the contact was not found")
+@asked_of("contact", FirstContact, "the engines' verdict on the contact was not found")
 def contact_check(
     contact: FirstContact,
     dance: Dance,
@@ -130,8 +129,7 @@ def contact_check(
     )
 
 
-@asked_of("found", MinimumPitch)
-@bounded("the engines' verdict on the minimum pitch was not found")
+@asked_of("found", MinimumPitch, "the engines' verdict on the minimum pitch was not found")
 def pitch_check(
     found: MinimumPitch,
     dragon: Dragon,
@@ -166,7 +164,7 @@ def pitch_check(
     return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
 
 
-@bounded("the trajectory was not computed")
+@asked_of("dance", Dance, "the trajectory was not computed")
 def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     """Poses (T, n, 3) of the steady dragon at instants, moved into the run if they are outside."""
     held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
@@ -174,7 +172,7 @@ def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     s, last, columns = held * dance.head_speed, dance.end.theta or 0.0, (position, velocity, speed)
     budget.afford(float(speed.size))
-    before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, *columns, budget.halt)
+    before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, *columns, budget)
     budget.look()
     if before_fold < held.size:
         raise dance.after_the_end(held, before_fold)

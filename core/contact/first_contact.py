@@ -15,7 +15,6 @@ import math
 from typing import Any
 
 from core import kernels
-from core.budget import Budget, bounded
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold
@@ -25,6 +24,7 @@ from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import asked_of, checked_number, said
+from core.kernels import Budget
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
@@ -66,8 +66,7 @@ ENDS = {
 UNDECIDED_THEN = "; whether any do after that is not decided."
 
 
-@asked_of("dance", Dance)
-@bounded("the first contact was not decided")
+@asked_of("dance", Dance, "the first contact was not decided")
 def first_contact(
     dance: Dance,
     *,

@@ -22,9 +22,9 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
-from core.budget import Budget
 from core.contact.march import Ended
 from core.contact.search import Search
+from core.kernels import Budget
 from core.kernels.constants import (
     ARC_ANGLE,
     ARC_RADIUS,

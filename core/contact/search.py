@@ -11,7 +11,6 @@ from collections.abc import Callable
 import numpy as np
 
 from core import kernels
-from core.budget import Budget
 from core.contact.coils import clear_places
 from core.contact.march import (
     BRACKET,
@@ -26,6 +25,7 @@ from core.contact.march import (
 )
 from core.dance import RunEnd
 from core.dragon import Dragon
+from core.kernels import Budget
 from core.kernels.constants import (
     CHORD,
     COIL_GROWTH,
@@ -128,7 +128,7 @@ class Search:
 
     def _set_scene(self) -> None:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
-        self.scene.halt, self.scene.kinds, self.scene.between = self.budget.halt, self.kinds, self.between
+        self.scene.halt, self.scene.kinds, self.scene.between = self.budget, self.kinds, self.between
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to the radius from which another bound exceeds the margin on this spiral [m]."""

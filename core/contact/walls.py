@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
-from core.budget import Budget, bounded
 from core.contact.answer import Outcome
 from core.contact.clearance import Pair, least_over
 from core.contact.fold import moved_until
@@ -17,6 +16,7 @@ from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
+from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.paths.pieces import Coil
@@ -110,8 +110,7 @@ class VenueClearance(Shown):
         return [("misplaced", misplaced), *((area.name, area._line()) for area in self.areas)]
 
 
-@asked_of("dance", Dance)
-@bounded("the clearance between benches and venue was not found")
+@asked_of("dance", Dance, "the clearance between benches and venue was not found")
 def venue_clearance(
     dance: Dance,
     venue: Venue,

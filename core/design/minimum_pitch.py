@@ -8,7 +8,6 @@ from enum import StrEnum
 
 import numpy as np
 
-from core.budget import Budget, Halted
 from core.contact.march import TOUCHES, Ended
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import end_theta
@@ -17,6 +16,7 @@ from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import SIZE_MAX, InvalidValue, asked_of, checked_number, checked_size, said
+from core.kernels import Budget, Halted
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.sampling import bisected
 from core.shown import Shown, worded

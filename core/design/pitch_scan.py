@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.budget import Budget, Halted, within
 from core.contact.fold import clear_to_fold
 from core.contact.march import Ended
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, InvalidValue, TooMuchWork, asked_of, checked_number, checked_size
+from core.errors import SIZE_MIN, InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, too_much
+from core.kernels import Budget, Halted
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, extent
 from core.tables import data_frame
@@ -161,14 +161,14 @@ def pitch_scan(
     raises: TooMuchWork if the budget ends before the scan does; InvalidValue
     """
     pitches = _checked_pitches(pitches)
-    stops = Stops(dragon, margin, within(budget, SCAN_WORK))
+    stops = Stops(dragon, margin, (budget or Budget()).within(SCAN_WORK))
 
     def radius(pitch: float) -> float | None:
         try:
             stops.budget.afford()
             return stops.radius(Spiral(pitch, start_turns))
         except Halted as halted:
-            raise stops.budget.too_much("pitches", _too_much(dragon, pitch), len(pitches), "") from halted
+            raise too_much(stops.budget, "pitches", _too_much(dragon, pitch), len(pitches), "") from halted
 
     known: dict[float, float | None] = {}
     jumps: list[float] = []

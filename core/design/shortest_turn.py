@@ -20,14 +20,14 @@ from enum import StrEnum
 import numpy as np
 
 from core import kernels
-from core.budget import Budget, Halted, within
 from core.contact.answer import FirstContact, Outcome
 from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
 from core.contact.first_contact import contact_within
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, said
+from core.errors import InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, said, too_much
+from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -116,7 +116,7 @@ def shortest_turn(
     def turn_at(entry: float) -> Turn:
         return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
-    budget = within(budget, TURN_WORK)
+    budget = (budget or Budget()).within(TURN_WORK)
 
     def touching(entry: float, clear: float | None) -> Touch | None:
         try:
@@ -229,7 +229,8 @@ def coils_of(danced: Turn) -> TwoCoils:
 def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
     """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
     longest, shortest = float(dragon.chords.max()), float(dragon.chords.min())
-    return budget.too_much(
+    return too_much(
+        budget,
         "turning_radius",
         f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all "
         f"decided {{then}}; the {dragon.benches} chords are {shortest:g} to {longest:g} m long",

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 
 from core import kernels
-from core.budget import Budget, within
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
 from core.contact.march import Ended
 from core.contact.search import Search, before_fold
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, TooMuchWork
+from core.errors import SIZE_MIN, TooMuchWork, too_much
+from core.kernels import Budget
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 
@@ -51,7 +51,7 @@ class Ways:
     ) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
-        path, budget = Spiral(self.lowest, start_turns), within(budget, PITCH_WORK)
+        path, budget = Spiral(self.lowest, start_turns), (budget or Budget()).within(PITCH_WORK)
         self.search = Search(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
@@ -144,7 +144,8 @@ class Ways:
         field = f"dragon.lengths.{k}"
         if alike:
             field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
-        return self.search.budget.too_much(
+        return too_much(
+            self.search.budget,
             field,
             "must be larger, or benches fewer: their minimum pitch was not found {then}; the shortest of "
             f"{dragon.benches} chords is {float(dragon.chords[k]):g} m long, the turning circle "

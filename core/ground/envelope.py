@@ -45,11 +45,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.budget import Budget, bounded, within
 from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
 from core.ground.tracks import Track, last_theta, tracks
+from core.kernels import Budget
 from core.kernels.constants import (
     CHAIN_COLUMNS,
     CHORD,
@@ -134,8 +134,7 @@ class Envelope(Shown):
         return distance_from(self.polygons, np.array(points))
 
 
-@asked_of("dance", Dance)
-@bounded("the ground that benches sweep was not found")
+@asked_of("dance", Dance, "the ground that benches sweep was not found")
 def envelope(
     dance: Dance,
     *,
@@ -159,7 +158,7 @@ def envelope(
     """
     excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    budget = within(budget, ENVELOPE_WORK)
+    budget = (budget or Budget()).within(ENVELOPE_WORK)
     found = tracks(dance, dance.clock.place(begin), dance.clock.place(until))
     budget.look()
     parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
@@ -288,7 +287,7 @@ class _Lone:
         """Corners (N, 4, 2) at places (N,) [m]."""
         shape = (s.size, 2)
         position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-        self.path.handles(s, self.last, self.dragon.chords, 1.0, position, velocity, speed, self.budget.halt)
+        self.path.handles(s, self.last, self.dragon.chords, 1.0, position, velocity, speed, self.budget)
         self.budget.look()
         outlines: Floats = bench_outlines(self.dragon, position)[:, 0]
         return outlines

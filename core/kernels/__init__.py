@@ -7,7 +7,7 @@ refuses Python objects inside loops. `setup.py` compiles all modules or none.
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 
 constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
-halt         what ends a loop before it is done         results     what a march hands to its caller
+budget       what ends a loop before it is done         results     what a march hands to its caller
 spiral       arc length, next handle, trajectory               fold        where a run ends
 rectangles   signed separation of two                          boxes       which may touch
 route        points and chain on a table of pieces             chain       of a spiral, and of either kind
@@ -25,6 +25,7 @@ excess       when a limit is first exceeded                   wobble      who to
 
 from core.kernels.bends import axis_bend, pair_bends
 from core.kernels.boxes import BOXES_PER_LEAF, Meetings, grow_tree
+from core.kernels.budget import Budget, Halted
 from core.kernels.chain import (
     Curve,
     chain_rounding,
@@ -40,7 +41,6 @@ from core.kernels.clearance import bottom_between, clearance_at, clearance_left,
 from core.kernels.constants import *
 from core.kernels.excess import Excess
 from core.kernels.fold import fold_theta, previous_theta
-from core.kernels.halt import Halt
 from core.kernels.hulls import Kinds, largest_supports
 from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding

@@ -17,11 +17,26 @@ BOXES_PER_LEAF: Final[int]
 
 # -- what ends a loop --
 
-class Halt:
+class Budget:
     left: float
+    work: float
     stopped: bool
-    def __init__(self, left: float) -> None: ...
-    def spend(self, work: float) -> bool: ...
+    brief: bool
+    limited: bool
+    part: Budget | None
+    then: str
+    def __init__(self, work: float | None = None, *, brief: bool = False) -> None: ...
+    def within(self, work: float) -> Budget: ...
+    def stop(self, then: str = "before it was stopped") -> None: ...
+    def spend(self, work: float) -> None: ...
+    def uses_up(self, work: float) -> bool: ...
+    def take_time(self) -> None: ...
+    def look(self) -> None: ...
+    def afford(self, work: float = 0.0) -> None: ...
+
+class Halted(Exception):
+    budget: Budget
+    def __init__(self, budget: Budget) -> None: ...
 
 # -- on a spiral, in units of its growth --
 
@@ -44,7 +59,7 @@ def spiral_trajectory(
     position: Floats,
     velocity: Floats,
     speed: Floats,
-    halt: Halt,
+    halt: Budget,
 ) -> int: ...
 
 # -- on a route --
@@ -101,7 +116,7 @@ def grow_tree(boxes: Floats, tree: Floats) -> None: ...
 class Meetings:
     found: int
     met: int
-    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints, halt: Halt) -> None: ...
+    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints, halt: Budget) -> None: ...
     def find(self, margin: float, exact: bool, chained: bool, most_found: int, most_met: int, pairs: Ints) -> None: ...
 
 # -- scenes --
@@ -160,7 +175,7 @@ class Scene:
     room: int
     edges: int
     against: int
-    halt: Halt
+    halt: Budget
     margin: float
     left_out: int
     between: int
@@ -258,7 +273,7 @@ class Wobbler:
     first: int
     second: int
     furthest: float
-    def __init__(self, sizes: Floats, halt: Halt, chain: Floats, boxes: Floats, loud: NDArray[np.int8]) -> None: ...
+    def __init__(self, sizes: Floats, halt: Budget, chain: Floats, boxes: Floats, loud: NDArray[np.int8]) -> None: ...
     def dance(
         self,
         memory: Floats,

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.halt cimport Halt
+from core.kernels.budget cimport Budget
 from core.kernels.rectangles cimport framed, pair_gap_within
 
 cdef Py_ssize_t LEAF
@@ -18,7 +18,7 @@ cdef class Meetings:
     cdef double[:, ::1] boxes
     cdef double[:, ::1] tree
     cdef long long[::1] order
-    cdef Halt halt
+    cdef Budget halt
     cdef readonly long long found
     cdef readonly long long met
 

@@ -71,7 +71,7 @@ class Excess:
                         if upper < FREE:
                             rate, k = certain_rate(scene.curve, self.interval, rounding)
                 links += 1
-                if links > budget or scene.halt.spend(max(self.interval.handles, 0) + 1):
+                if links > budget or scene.halt.uses_up(max(self.interval.handles, 0) + 1):
                     outcome = GIVEN_UP
                     break
                 if upper > limit and h > width:

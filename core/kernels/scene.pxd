@@ -1,7 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.bounds cimport motion_bounds, route_bounds
-from core.kernels.halt cimport Halt
+from core.kernels.budget cimport Budget
 from core.kernels.chain cimport Curve, chain_rounding, place_chain
 from core.kernels.rectangles cimport Witnesses
 from core.kernels.rings cimport Rings
@@ -21,7 +21,7 @@ cdef class Scene:
     cdef readonly int against
     cdef public Kinds kinds
     cdef public double margin
-    cdef public Halt halt
+    cdef public Budget halt
     cdef public Py_ssize_t left_out
     cdef public Py_ssize_t left_out_too
     cdef public Py_ssize_t between

@@ -6,9 +6,9 @@ from core.kernels.results import Marched
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import motion_bounds, route_bounds
+    from core.kernels.budget import Budget
     from core.kernels.chain import chain_rounding, place_chain
     from core.kernels.constants import *
-    from core.kernels.halt import Halt
     from core.kernels.hulls import Kinds
     from core.kernels.rectangles import Witnesses
 
@@ -44,7 +44,7 @@ class Scene:
         self.margin = 0.0
         self.left_out = self.left_out_too = NO_BENCH
         self.between = 1
-        self.halt = Halt(NO_LIMIT)
+        self.halt = Budget()
         self.met = Witnesses()
 
 

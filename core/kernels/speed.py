@@ -153,7 +153,7 @@ class Peak:
                 scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before
             )
             while travel < end:
-                if scene.halt.spend(max(self.interval.handles, 0) + INTERVAL_LINKS):
+                if scene.halt.uses_up(max(self.interval.handles, 0) + INTERVAL_LINKS):
                     self.upper = FREE
                     break
                 self.intervals += 1

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.halt cimport Halt
+from core.kernels.budget cimport Budget
 
 cdef double HALLEY_STEP
 cdef double SERIES_LIMIT
@@ -70,7 +70,7 @@ cdef void write_handles(
 )
 cpdef Py_ssize_t spiral_trajectory(
     double growth, double[::1] thetas, const double[::1] chords, double head_speed, double[:, :, ::1] position,
-    double[:, :, ::1] velocity, double[:, ::1] speed, Halt halt
+    double[:, :, ::1] velocity, double[:, ::1] speed, Budget halt
 ) noexcept
 
 cpdef double spiral_curvature(double theta) noexcept nogil

@@ -1,7 +1,7 @@
 cimport cython
 from core.kernels.clearance cimport BLOCK, block_boxes, boxes_apart
 from core.kernels.constants cimport *
-from core.kernels.halt cimport Halt
+from core.kernels.budget cimport Budget
 from core.kernels.rectangles cimport bench_gap_within
 
 cdef Py_ssize_t FRONT_X
@@ -17,7 +17,7 @@ cdef class Wobbler:
     cdef public double lateral
     cdef public double forward
     cdef public double along
-    cdef Halt halt
+    cdef Budget halt
     cdef readonly double[:, ::1] chain
     cdef double[:, ::1] boxes
     cdef signed char[::1] loud

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.budget import Budget, bounded
 from core.contact.clearance import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
 from core.errors import asked_of
+from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.sampling import dips
 from core.shown import Shown
@@ -40,8 +40,7 @@ class SharpestBend(Shown):
 # The benches from m on are equal and follow the same way: benches (i, i + 1) have the angle that (m, m + 1) had when
 # handle m was where handle i is now. So m + 2 benches are enough once each handle has passed the start of the one
 # before it.
-@asked_of("dance", Dance)
-@bounded("the sharpest bend was not found")
+@asked_of("dance", Dance, "the sharpest bend was not found")
 def sharpest_bend(
     dance: Dance, *, start: float = 0.0, stop: float | None = None, budget: Budget | None = None
 ) -> SharpestBend | None:

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from core import kernels
-from core.budget import Budget
 from core.dance import Dance
+from core.kernels import Budget
 from core.kernels.constants import CHAIN_COLUMNS, CHORD, FREE, PLACE, SIZE_COLUMNS
 from core.paths.route import Route
 from core.values import Floats

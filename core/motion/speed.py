@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
-from core.budget import Budget, bounded
 from core.contact.search import Search
 from core.dance import Dance
 from core.errors import InvalidValue, asked_of, checked_number, said_bound
+from core.kernels import Budget
 from core.kernels.constants import EXCEEDED, KEPT
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.sampling import bisected
@@ -92,8 +92,7 @@ class FirstExcess(Shown):
     handle: int | None
 
 
-@asked_of("dance", Dance)
-@bounded("the highest speed was not found")
+@asked_of("dance", Dance, "the highest speed was not found")
 def highest_speed(
     dance: Dance, *, start: float | None = None, stop: float | None = None, budget: Budget | None = None
 ) -> HighestSpeed:
@@ -180,8 +179,7 @@ def maximum_head_speed(
     return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time, found.passage)
 
 
-@asked_of("dance", Dance)
-@bounded("the first time that a handle is too fast was not found")
+@asked_of("dance", Dance, "the first time that a handle is too fast was not found")
 def first_excess(
     dance: Dance,
     speed_limit: float,

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.budget import BATCH_WORK, Budget, bounded
 from core.dance import Dance
 from core.errors import asked_of
+from core.kernels import Budget
 from core.paths.frame import WORLD
 from core.shapes.rectangles import bench_outlines
 from core.shown import Shown, extent, worded
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     import pandas
     import xarray
     from matplotlib.axes import Axes
+
+# Work between two checks of a budget [1], see core/kernels/constants.py, in batches divided for them: 2 to 10 ms.
+BATCH_WORK = 100_000
 
 # Names along the last axis of positions and velocities.
 AXES = ("x", "y")
@@ -102,8 +105,7 @@ class Trajectory(Shown):
         return ahead
 
 
-@asked_of("dance", Dance)
-@bounded("the trajectory was not computed")
+@asked_of("dance", Dance, "the trajectory was not computed")
 def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
 
@@ -132,9 +134,7 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
         rows = slice(first, first + batch)
         budget.afford(float(handles * time[rows].size))
         s, columns = time[rows] * dance.head_speed, (position[rows], velocity[rows], speed[rows])
-        before_fold = dance.path.handles(
-            s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, *columns, budget.halt
-        )
+        before_fold = dance.path.handles(s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, *columns, budget)
         budget.look()
         if before_fold < time[rows].size:
             raise dance.after_the_end(asked, first + before_fold)

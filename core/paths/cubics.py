@@ -16,8 +16,8 @@ from math import comb
 import numpy as np
 
 from core import kernels
-from core.budget import Budget
 from core.errors import InvalidValue
+from core.kernels import Budget
 from core.values import Floats
 
 # A cubic is divided until halving it changes its quadrature by less than this [1] ...

@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.budget import Budget
 from core.errors import InvalidValue, checked_number, checked_point, checked_size, listed, spoken
+from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints
 from core.paths.route import Route
 from core.shown import REPR_MOST, Shown

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.budget import Budget
 from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, listed
+from core.kernels import Budget
 from core.paths.cubics import cut
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.budget import Budget, Halted
-from core.errors import InvalidValue, checked_number, listed, said
+from core.errors import InvalidValue, checked_number, listed, said, too_much
+from core.kernels import Budget, Halted
 from core.paths.frame import WORLD
 from core.paths.path import HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece
@@ -60,7 +60,7 @@ class Route(Shown):
                 rows.append(piece.rows(name, s, budget))
             except Halted as halted:
                 rule = "must come before fewer pieces, or have fewer points: the route was not laid out {then}"
-                raise budget.too_much(name, rule, k, "") from halted
+                raise too_much(budget, name, rule, k, "") from halted
             rows[-1][:, kernels.PART] = k
             count, s = count + len(rows[-1]), float(rows[-1][-1, 2])
         self.table = np.concatenate(rows)
@@ -164,7 +164,7 @@ class Route(Shown):
         position: Floats,
         velocity: Floats,
         speed: Floats,
-        halt: kernels.Halt,
+        halt: kernels.Budget,
     ) -> int:
         """Fill in all handles, see Path; no bench folds on a route."""
         sizes = np.zeros((chords.size, kernels.SIZE_COLUMNS))

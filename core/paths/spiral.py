@@ -152,7 +152,7 @@ class Spiral(Shown):
         position: Floats,
         velocity: Floats,
         speed: Floats,
-        halt: kernels.Halt,
+        halt: kernels.Budget,
     ) -> int:
         """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
         head = np.maximum(self.theta(s), last)

@@ -16,7 +16,7 @@ from threading import Lock
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from core.budget import Budget
+from core.kernels import Budget
 from core.shapes import rectangles
 from core.shapes.rectangles import CROSS_CANDIDATES_MAX, ROUNDING, Pairs, corners, frames, meeting_pairs
 from core.values import Floats
@@ -114,7 +114,6 @@ class _FclBoxes:
         """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
         import fcl
 
-        halt = budget.halt
         turns, places = np.zeros((len(poses), 4)), np.zeros((len(poses), 3))
         turns[:, 0], turns[:, 3] = np.cos(0.5 * poses[:, 2]), np.sin(0.5 * poses[:, 2])
         places[:, :2] = poses[:, :2]
@@ -128,7 +127,7 @@ class _FclBoxes:
 
         def keep(first: object, second: object, _: object) -> bool:
             collide(first, second, request, result)
-            return halt.stopped
+            return budget.stopped
 
         manager.collide(None, keep)
         budget.look()

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.budget import Budget, bounded
-from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, checked_number, said
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, asked_of, checked_number, said
+from core.kernels import Budget
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
 from core.shown import Shown, counted, worded
@@ -76,7 +76,7 @@ class Verdict(Shown):
     after: bool
 
 
-@bounded("which of them overlap was not found")
+@asked_of("poses", object, "which of them overlap was not found")
 def overlaps(
     poses: ArrayLike,
     lengths: ArrayLike,
@@ -108,7 +108,7 @@ def overlaps(
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
 
 
-@bounded("which of them overlap was not found by all engines")
+@asked_of("poses", object, "which of them overlap was not found by all engines")
 def cross_check(
     poses: ArrayLike,
     lengths: ArrayLike,

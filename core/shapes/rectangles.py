@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.budget import Budget
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge, asked_of, said
+from core.kernels import Budget
 from core.kernels.constants import (
     FRAME_COLUMNS,
     FRAME_HALF_LENGTH,
@@ -198,7 +198,7 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
     most = (PAIRS_MAX, CANDIDATES_MAX) if exact else (CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX)
     words = "within the margin" if exact else "close by", "close by"
     budget = budget or Budget()
-    meetings = kernels.Meetings(frame, boxes, tree, order, budget.halt)
+    meetings = kernels.Meetings(frame, boxes, tree, order, budget)
     pairs = np.empty((2 * len(frame), 2), dtype=np.int64)
     while True:
         meetings.find(margin, exact, chained, *most, pairs)

@@ -47,9 +47,8 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.budget import Budget
 from core.dance import Dance
-from core.kernels import spiral_curvature
+from core.kernels import Budget, spiral_curvature
 from core.kernels.constants import BENT
 from core.paths.spiral import Spiral
 from core.shapes.rectangles import frames, frames_separation

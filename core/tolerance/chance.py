@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.budget import Budget, Halted
 from core.dance import Dance
-from core.errors import InvalidValue, asked_of, checked_type, said
+from core.errors import InvalidValue, asked_of, checked_type, said, too_much
+from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
@@ -164,7 +164,7 @@ def contact_probability(
     except Halted as halted:
         rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
         many = ("samples", rule, len(which)) if len(which) > 1 else ("dragon.benches", rule, dance.dragon.benches)
-        raise halted.budget.too_much(*many, "") from halted
+        raise too_much(halted.budget, *many, "") from halted
     safe = None if model.pitch_error else tolerance(dance, start=begin, stop=until, budget=budget).stray
     touched = np.flatnonzero(found.instant < count)
     contacts, total = touched.size, len(which)
@@ -197,7 +197,7 @@ class _Sampled:
         )
         chain, boxes = (np.zeros((benches + 1, columns)) for columns in (kernels.UY + 1, kernels.BOX_COLUMNS))
         loud = np.zeros(2 * benches + 2, dtype=np.int8)
-        self.wobbler = kernels.Wobbler(sizes, budget.halt, chain, boxes, loud)
+        self.wobbler = kernels.Wobbler(sizes, budget, chain, boxes, loud)
         self.wobbler.lateral, self.wobbler.forward, self.wobbler.along = model.lateral, model.forward, model.along
         self.gains = gains(dragon)
         self.most_room = ROOM_PART * float(dragon.chords.min())
@@ -272,7 +272,7 @@ class _Sampled:
         shape = (theta.size, chords.size + 1)
         places, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
         growth = pitch / (2.0 * math.pi)
-        length = kernels.spiral_trajectory(growth, theta, chords, 1.0, places, velocity, speed, self.budget.halt)
+        length = kernels.spiral_trajectory(growth, theta, chords, 1.0, places, velocity, speed, self.budget)
         tangents = velocity[:length] / speed[:length, :, None]
         return places[:length], tangents, np.zeros((length, chords.size))
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from core import plots
-from core.budget import Budget
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork, asked_of, checked_size, said
+from core.errors import InvalidValue, TooMuchWork, asked_of, checked_size, said, too_much
+from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.shown import Shown, extent
 from core.tables import data_frame
@@ -98,7 +98,7 @@ def tolerance_curve(
             if k == 0 or budget is None:
                 raise
             rule = f"must be fewer: of only {k} it was found how far people may stray {{then}}"
-            raise budget.too_much("pitches", rule, column.size, "") from None
+            raise too_much(budget, "pitches", rule, column.size, "") from None
         progress((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))
 

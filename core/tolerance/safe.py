@@ -19,7 +19,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from core.budget import Budget
 from core.contact.clearance import (
     PROFILE_STEP,
     Dip,
@@ -35,6 +34,7 @@ from core.contact.search import Search
 from core.dance import Dance, RunEnd
 from core.dragon import Dragon
 from core.errors import said, said_bound
+from core.kernels import Budget
 from core.tolerance.between import held_apart
 from core.tolerance.reach import Reach, gains, reach, simple_reach
 from core.values import Floats

@@ -13,11 +13,11 @@ from enum import StrEnum
 
 import numpy as np
 
-from core.budget import Budget, bounded
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges, venue_route
 from core.dance import Dance
 from core.errors import asked_of, checked_type, said
+from core.kernels import Budget
 from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
@@ -86,8 +86,7 @@ class Tolerance(Shown):
         )
 
 
-@asked_of("dance", Dance)
-@bounded("how far people may stray was not found")
+@asked_of("dance", Dance, "how far people may stray was not found")
 def tolerance(
     dance: Dance,
     venue: Venue | None = None,

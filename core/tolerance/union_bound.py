@@ -37,10 +37,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.budget import Budget
 from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import TooLarge
+from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.shapes.rectangles import CORNER_SIDES, bench_poses, frames, frames_separation, meeting_pairs
 from core.tolerance.reach import gains

@@ -94,7 +94,6 @@ EDGE = {
 }
 # What is asked about, checked and within a budget; and the search, with its claim in words.
 SEARCH = {
-    "core.budget",
     "core.contact.first_contact",
     "core.contact.search",
     "core.dance",

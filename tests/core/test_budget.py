@@ -50,7 +50,6 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.budget import within
 from core.errors import spoken
 from tests.core.every_digit import every_digit
 
@@ -129,15 +128,14 @@ def test_a_budget_that_is_large_enough_changes_no_digit_and_is_spent(name: str) 
 
 def test_a_budget_without_work_of_its_own_takes_the_default_of_the_question_and_stops_it() -> None:
     budget = Budget()
-    assert within(budget, 5.0).left == 5.0
-    spent = within(budget, 1.0)
+    assert budget.within(5.0).left == 5.0
+    spent = budget.within(1.0)
     spent.spend(1.0)
-    assert within(budget, 3.0).left == 3.0  # each question its own
-    part = within(budget, 3.0)
+    assert budget.within(3.0).left == 3.0  # each question its own
+    part = budget.within(3.0)
     budget.stop("before dinner")
-    assert (part.stopped, part.then, within(budget, 1.0).stopped) == (True, "before dinner", True)
-    assert within(Budget(7.0), 3.0).left == 7.0
-    assert within(None, 3.0).left == 3.0
+    assert (part.stopped, part.then, budget.within(1.0).stopped) == (True, "before dinner", True)
+    assert Budget(7.0).within(3.0).left == 7.0
     with pytest.raises(TooMuchWork, match="before dinner"):
         minimum_pitch(Dragon(20), budget=budget)
 

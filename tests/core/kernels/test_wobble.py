@@ -21,7 +21,7 @@ def wobbler(size: float, along: float = ALONG) -> kernels.Wobbler:
     half = 0.5 * np.stack([DRAGON.lengths, DRAGON.widths, np.hypot(DRAGON.lengths, DRAGON.widths)], axis=1)
     sizes[:-1] = np.concatenate([DRAGON.chords[:, None], half], axis=1)
     chain, boxes = np.zeros((len(sizes), kernels.UY + 1)), np.zeros((len(sizes), kernels.BOX_COLUMNS))
-    made = kernels.Wobbler(sizes, kernels.Halt(1e9), chain, boxes, np.zeros(2 * len(sizes), dtype=np.int8))
+    made = kernels.Wobbler(sizes, kernels.Budget(1e9), chain, boxes, np.zeros(2 * len(sizes), dtype=np.int8))
     made.lateral, made.forward, made.along = size, 0.5 * size, along
     return made
 

@@ -9,7 +9,7 @@ import pytest
 import shapely
 from numpy.typing import NDArray
 
-from core.budget import Budget
+from core.kernels import Budget
 from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, found_pairs, united
 from core.shapes.overlaps import separation
 from tests.depth import examples

@@ -1,0 +1,15 @@
+cimport cython
+
+# volatile: another thread writes it while a loop without Python's lock reads it
+@cython.final
+cdef class Budget:
+    cdef public double left
+    cdef public double work
+    cdef public volatile bint stopped
+    cdef public bint brief
+    cdef public bint limited
+    cdef public Budget part
+    cdef public str then
+
+    cpdef void spend(self, double work) noexcept nogil
+    cpdef bint uses_up(self, double work) noexcept nogil
