@@ -233,6 +233,7 @@ def look_at() -> Callable[..., None]:
 
     def drawn(page: Page, *kinds: str) -> None:
         for kind in kinds:
+            settled(page)  # an answer that came after the scrolling would push the chart out of sight again
             page.locator(f"#{kind} .plot").scroll_into_view_if_needed()
             page.locator(f"#{kind}:not(.coarse) .uplot").wait_for()
         settled(page)
