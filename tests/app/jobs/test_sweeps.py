@@ -140,7 +140,7 @@ def test_a_dismissed_sweep_leaves_no_shard_and_no_process_and_others_are_answere
     # One sweep at once: the other leaves its place to other jobs.
     assert service.status(waits)["status"] == "accepted"
     # One process answers calls, and one the sweep.
-    assert len(service.of("worker") + service.of("parent")) == 2
+    wait_for(lambda: len(service.of("worker") + service.of("parent")) == 2)
     for one in (waits, address):
         assert service.client.delete(one).json()["status"] == "dismissed"
         assert service.client.delete(one).status_code == 204
