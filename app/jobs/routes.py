@@ -34,9 +34,11 @@ from app.jobs.wire import (
     status,
 )
 from app.questions.registry import CALLS
-from app.service.bodies import BodyRoute
+from app.service.bodies import BodyRoute, refuse_query, reply_body
+from app.service.middleware import client_of
 from app.service.problems import Refused, answer_of, problem
-from app.service.reply import GUARDED, RESPOND_ASYNC, client_of, form_of, guard, refuse_query, reply_body
+from app.service.reply import RESPOND_ASYNC, form_of
+from app.service.token import GUARDED, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
@@ -126,7 +128,6 @@ async def store_problem(request: Request, error: Exception) -> Response:
 router = APIRouter(prefix="/jobs", tags=["Jobs"])
 # The calls that make jobs: their bodies may be large.
 asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
-TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
 
 
 def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:

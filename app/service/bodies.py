@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import asyncio
 import re
-from typing import Any
+from typing import Annotated, Any
 
 from anyio import CapacityLimiter, to_thread
-from fastapi import Request, Response
+from fastapi import Depends, Request, Response
 from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
 
-from app.service.load import Handler, Lanes, WatchedRoute
+from app.service.middleware import Handler, Lanes, watched
 from app.service.problems import Refused, validation_problem
+from app.service.reply import Reply
 from app.settings import Settings
-from app.wire.problem import ErrorItem
+from app.wire.problem import ERRORS_MAX, ErrorItem
+from app.wire.question import JSON
 
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
 LARGE = 64_000
@@ -26,6 +29,26 @@ LARGE_COST = 1.0
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(rb"\\u(?:0000|[dD][89a-fA-F])")
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
+
+
+class WatchedRoute(APIRoute):
+    """A call whose computation ends at the deadline, and when its client is gone."""
+
+    def get_route_handler(self) -> Handler:
+        answer = self.unwatched()
+
+        async def handled(request: Request) -> Response:
+            async with watched(request, self.seconds(request.app.state.settings)):
+                return await answer(request)
+
+        return handled
+
+    def seconds(self, settings: Settings) -> float:
+        """Longest time of the computation [s]."""
+        return settings.deadline_seconds
+
+    def unwatched(self) -> Handler:
+        return super().get_route_handler()
 
 
 class BodyRoute(WatchedRoute):
@@ -82,3 +105,29 @@ def _refuse_no_text(value: Any) -> None:
         elif isinstance(one, str) and NO_TEXT.search(one):
             detail = f"A text in the body holds NUL or half of a character, near {one[:40]!a}: leave it out."
             raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
+
+
+async def reply_body(request: Request) -> Reply:
+    """Reply to a call that takes a JSON body and no query.
+
+    raises: Refused 415 for a body of another type, 422 for a query
+    """
+    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    has_body = request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
+    if has_body and kind != JSON:
+        detail = f"The body must be {JSON}, got {kind or 'no Content-Type'}: send the header Content-Type: {JSON}."
+        raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": JSON})
+    await refuse_query(request)
+    return Reply(request)
+
+
+async def refuse_query(request: Request) -> None:
+    """raises: Refused (422) when a request has query parameters but its call takes none"""
+    detail = "this call takes no query parameters: leave it out"
+    names = list(request.query_params)[:ERRORS_MAX]
+    unknown = [ErrorItem(name=name, detail=f"{name[:60]} is unknown here: {detail}") for name in names]
+    if unknown:
+        raise Refused(422, unknown[0].detail, unknown)
+
+
+BodyReply = Annotated[Reply, Depends(reply_body)]

@@ -15,11 +15,12 @@ from pydantic import Field
 from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
 from app.grade.report import FileAnswer, GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
+from app.service.bodies import WatchedRoute
 from app.service.graders import Graders
-from app.service.load import Lanes, WatchedRoute
+from app.service.middleware import Lanes, client_of
 from app.service.problems import Refused
-from app.service.reply import GUARDED, client_of, guard
 from app.service.routes import FILE, PROBLEM, PROBLEMS
+from app.service.token import GUARDED, guard
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 from app.wire.question import JSON, Wire, measure

@@ -28,12 +28,23 @@ from app.jobs import routes as jobs
 from app.jobs.keeper import kept
 from app.jobs.metrics import JobMetrics
 from app.service import grading, places, problems, routes
+from app.service.bodies import refuse_query
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
-from app.service.load import Glances, KeptAnswers, Lanes
-from app.service.middleware import HeadAsGet, Metrics, Mistakes, OriginForm, RequestId, RequestLimits, SafetyHeaders
+from app.service.middleware import (
+    HeadAsGet,
+    Lanes,
+    Metrics,
+    Mistakes,
+    OriginForm,
+    RequestId,
+    RequestLimits,
+    SafetyHeaders,
+)
 from app.service.pages import add_pages
-from app.service.reply import VERSION, build, refuse_query
+from app.service.reply import Glances, KeptAnswers
+from app.service.token import TOKEN_SCHEME
+from app.service.version import VERSION, build
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.problem import Problem
 from app.wire.question import JSON, Answer
@@ -187,7 +198,7 @@ def _openapi(app: FastAPI) -> dict[str, Any]:
             forms = schema["paths"][path][method.lower()]["responses"]["200"]["content"]
             if JSON in forms:
                 forms[JSON]["example"] = example.answer
-        schema["components"]["securitySchemes"] = jobs.TOKEN_SCHEME
+        schema["components"]["securitySchemes"] = TOKEN_SCHEME
         _state_benches(schema, app.state.settings.benches_max)
     return app.openapi_schema or {}
 

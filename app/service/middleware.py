@@ -1,22 +1,35 @@
-"""Middleware for every request: its target, body size, HEAD, security headers, internal errors, counts and times."""
+"""What holds for every request: its target, body size, HEAD, security headers, internal errors, counts and times.
+
+Lanes limit how many computations run at once, separately for cheap calls, heavy calls, workbooks and large bodies. No
+call waits in a lane: a full lane answers 503 with the time at which the first of its computations should be done, so
+that a heavy call never delays a cheap one. A computation ends at its deadline or when its client is gone.
+"""
 
 from __future__ import annotations
 
+import asyncio
 import logging
+import math
 import re
+import time
 import uuid
-from time import perf_counter
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
+from contextlib import asynccontextmanager, contextmanager
+from threading import Lock
+from typing import Any
 from urllib.parse import unquote
 
-from prometheus_client import CollectorRegistry, Counter, Histogram
+from fastapi import Request, Response
+from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram
 from starlette.datastructures import Headers
-from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from app.files.tables import XLSX_TYPE
 from app.logs import request_id
 from app.service.problems import Refused, http_problem, server_problem
 from app.settings import Settings
 from app.wire.problem import ErrorItem
+from core import Budget
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -28,6 +41,10 @@ CLOSE = {"Connection": "close"}
 ABSOLUTE = re.compile(rb"https?://[^/]+(/.*)?", re.IGNORECASE)
 # A name that a client may give its request.
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
+# Longest estimated time of a cheap answer [s].
+CHEAP = 0.1
+
+Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 
 
 class RequestLimits:
@@ -185,7 +202,7 @@ class Metrics:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             return await self.app(scope, receive, send)
-        started, status = perf_counter(), 500
+        started, status = time.perf_counter(), 500
 
         async def noted(message: Message) -> None:
             nonlocal status
@@ -199,4 +216,108 @@ class Metrics:
             # The path of the route, so that unknown paths cannot create new labels without end.
             path = getattr(scope.get("route"), "path", "other")
             self.requests.labels(path, status).inc()
-            self.seconds.labels(path).observe(perf_counter() - started)
+            self.seconds.labels(path).observe(time.perf_counter() - started)
+
+
+def client_of(request: Request) -> str:
+    """Address of the client; a proxy on this machine gives it in X-Forwarded-For."""
+    return request.client.host if request.client else ""
+
+
+class Lane:
+    """A limit on the computations at once, of all clients and of each one."""
+
+    def __init__(
+        self, name: str, most: int, of_client: int, retry_after: int, running: Gauge, refused: Counter
+    ) -> None:
+        self.name, self.most, self.of_client, self.retry_after = name, most, of_client, retry_after
+        self._running, self._refused = running.labels(name), refused.labels(name)
+        self._lock = Lock()
+        # For each computation: its beginning [s], its estimated time [s], and its client.
+        self._begun: dict[object, tuple[float, float, str]] = {}
+
+    @contextmanager
+    def taken(self, cost: float, client: str = "") -> Iterator[None]:
+        """A place in the lane. cost: estimated time for which it is needed [s]. raises: Refused (429, 503)"""
+        key = object()
+        with self._lock:
+            own = [one for one in self._begun.values() if one[2] == client]
+            if len(self._begun) >= self.most:
+                words = f"{self.most} {self.name} computations are running, the limit"
+                raise self._full(503, words, self._begun.values())
+            if client and len(own) >= self.of_client:
+                words = f"{self.of_client} of your {self.name} computations are running, the limit for one client"
+                raise self._full(429, words, own)
+            self._begun[key] = (time.monotonic(), cost, client)
+        self._running.inc()
+        try:
+            yield
+        finally:
+            self._running.dec()
+            with self._lock:
+                del self._begun[key]
+
+    def _full(self, status: int, words: str, begun: Iterable[tuple[float, float, str]]) -> Refused:
+        """A refusal with the expected end of the first computation; a late one is expected to take as long again."""
+        self._refused.inc()
+        now = time.monotonic()
+        left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
+        seconds = max(self.retry_after, math.ceil(min(left)))
+        return Refused(status, f"{words}: try again in {seconds} s.", headers={"Retry-After": str(seconds)})
+
+
+class Lanes:
+    """The lanes of one process."""
+
+    def __init__(self, settings: Settings, registry: CollectorRegistry) -> None:
+        running = Gauge(
+            "bench_dragon_computations",
+            "Computations running",
+            ("lane",),
+            registry=registry,
+            multiprocess_mode="livesum",
+        )
+        refused = Counter("bench_dragon_refused", "Computations refused by a full lane", ("lane",), registry=registry)
+        self.stopped = Counter("bench_dragon_stopped", "Computations ended early", ("reason",), registry=registry)
+        self._cheap, self._heavy, self._workbook, self.large_bodies = (
+            Lane(name, most, of_client, settings.retry_after, running, refused)
+            for name, most, of_client in (
+                ("cheap", settings.cheap_max, settings.cheap_max),
+                ("heavy", settings.heavy_max, settings.heavy_client_max),
+                ("workbook", settings.workbooks_max, settings.workbooks_max),
+                ("large body", settings.large_bodies_max, settings.large_bodies_max),
+            )
+        )
+
+    def of(self, cost: float, media_type: str) -> Lane:
+        """The lane of a computation. cost: its estimated time [s]"""
+        if media_type == XLSX_TYPE:
+            return self._workbook
+        return self._cheap if cost <= CHEAP else self._heavy
+
+
+@asynccontextmanager
+async def watched(request: Request, seconds: float) -> AsyncIterator[None]:
+    """Context in which the request has a budget, which is stopped after `seconds` and when the client is gone."""
+    await request.body()  # After the body, the only message is the end of the connection.
+    request.state.budget = Budget()
+    task = asyncio.create_task(_watch(request, seconds))
+    try:
+        yield
+    finally:
+        task.cancel()
+
+
+async def _watch(request: Request, seconds: float) -> None:
+    lanes: Lanes = request.app.state.lanes
+    budget = request.state.budget
+    try:
+        async with asyncio.timeout(seconds):
+            while (await request.receive())["type"] != "http.disconnect":
+                pass
+    except TimeoutError:
+        lanes.stopped.labels("deadline").inc()
+        budget.stop(f"within {seconds:g} s, the time that one answer may take here")
+    else:
+        lanes.stopped.labels("client gone").inc()
+        budget.stop("before its client was gone")

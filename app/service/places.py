@@ -12,10 +12,10 @@ from app.maps.places import Places, read_places
 from app.questions.maps import MapFormat
 from app.service.graders import Graders
 from app.service.grading import COST, FILE_TYPE, STATUSES, UploadRoute, file_body
-from app.service.load import Lanes
+from app.service.middleware import Lanes, client_of
 from app.service.problems import Refused
-from app.service.reply import GUARDED, client_of
 from app.service.routes import FILE, PROBLEM, PROBLEMS
+from app.service.token import GUARDED
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 from app.wire.question import JSON, Coordinates, Wire

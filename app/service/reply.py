@@ -1,21 +1,26 @@
-"""One reply to one request: conditional, in a form that the client accepts, limited in number, cacheable."""
+"""One reply to one request: conditional, in a form that the client accepts, from memory or computed.
+
+The event loop computes a short answer itself and stops it if it takes too long; all others are computed in threads. The
+latest answers stay in memory, because many people look at the same dance.
+"""
 
 from __future__ import annotations
 
+import asyncio
+import collections
 import hashlib
+import time
 import zlib
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
-from functools import cache
-from hmac import compare_digest
-from importlib.metadata import version
-from pathlib import Path
+from contextlib import contextmanager, suppress
+from functools import partial
+from threading import Event, Lock, Thread, get_ident
 from typing import Annotated
 
 from fastapi import Depends, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
+from prometheus_client import CollectorRegistry, Counter
 from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
@@ -23,32 +28,119 @@ from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
 from app.questions.registry import CALLS, Call
-from app.service.load import GLANCE, Glances, Handler, KeptAnswers, Lanes, watched
+from app.service.middleware import Handler, Lanes, client_of, watched
 from app.service.problems import Refused
+from app.service.version import build
 from app.settings import Settings
 from app.wire.problem import ERRORS_MAX, ErrorItem
-from app.wire.question import JSON, UNKNOWN_COST, FileFormat, Terms, Wire
+from app.wire.question import UNKNOWN_COST, FileFormat, Terms, Wire
 from app.wire.refusals import reworded
-from core import BenchDragonError, TooMuchWork
+from core import BenchDragonError, Budget, TooMuchWork
 
-VERSION = version("bench-dragon")
 RESPOND_ASYNC = "respond-async"
-# Packages on whose bytes the answers depend.
-PACKAGES = tuple(Path(__file__).parents[2] / name for name in ("core", "app"))
+# Longest estimated time of a computation that the event loop runs itself [s]: a thread costs a third of a millisecond,
+# a sixth of the answer (2026-11-22). A computation that takes longer is stopped, and repeated in a thread.
+GLANCE = 0.005
+# Time after such a stop during which the loop runs no computation [s]: each one of 40 at once would delay all others.
+REST = 0.1
+# Number of looks without a computation after which the thread that stops them waits for the next one to begin [1].
+LOOKS_IDLE = 200
+# Largest answer that is kept, relative to the room for all [1].
+SHARE_MAX = 1 / 16
 # gzip: level 1 makes 1.8 MB of a trajectory of 3.8 MB in 60 ms; level 6 makes 1.7 MB in 350 ms (2026-11-22).
 GZIP_LEVEL, GZIP_WINDOW = 1, 31
 # End of the tag of a compressed answer: other bytes need another tag.
 GZIPPED = "-gzip"
 
 
-@cache
-def build() -> str:
-    """Digest of the installed code, part of every tag: a new build may give new numbers."""
-    found = hashlib.blake2b(VERSION.encode(), digest_size=16)
-    for package in PACKAGES:
-        for file in sorted(path for path in package.rglob("*") if path.suffix in (".py", ".so", ".pyd")):
-            found.update(file.relative_to(package).as_posix().encode() + b"\n" + file.read_bytes())
-    return found.hexdigest()
+def clock_of_this_thread() -> Callable[[], float]:
+    """Clock of the calling thread's processor time [s], which any thread can read; outside Unix of elapsed time."""
+    if not hasattr(time, "pthread_getcpuclockid"):
+        return time.monotonic
+    return partial(time.clock_gettime, time.pthread_getcpuclockid(get_ident()))
+
+
+class Glances:
+    """Computations that the event loop runs itself; a thread stops one that takes too long.
+
+    turn: held by the computation that runs, so that the loop serves other requests between two of them
+    The limit is on the processor time of the loop, because on a busy machine every wait is long.
+    """
+
+    def __init__(self) -> None:
+        self.turn = asyncio.Lock()
+        self._rests_until = 0.0
+        self._now: tuple[float, Budget] | None = None
+        self._clock: Callable[[], float] | None = None
+        self._wake = Event()
+        Thread(target=self._look, name="glances", daemon=True).start()
+
+    @property
+    def rests(self) -> bool:
+        """Whether computations are left to threads, because one took too long a moment ago."""
+        return time.monotonic() < self._rests_until
+
+    def rest(self) -> None:
+        """Leave computations to threads for REST seconds, because one took too long."""
+        self._rests_until = time.monotonic() + REST
+
+    @contextmanager
+    def budget(self) -> Iterator[Budget]:
+        """A budget for one computation, which is stopped when GLANCE is over."""
+        budget = Budget(brief=True)
+        self._clock = self._clock or clock_of_this_thread()
+        self._now = self._clock(), budget
+        if not self._wake.is_set():
+            self._wake.set()
+        try:
+            yield budget
+        finally:
+            self._now = None
+
+    def _look(self) -> None:
+        while self._wake.wait():
+            self._wake.clear()
+            idle = 0
+            while idle < LOOKS_IDLE:
+                time.sleep(GLANCE / 2.0)
+                now = self._now
+                idle = 0 if now else idle + 1
+                if now and self._clock and self._clock() - now[0] > GLANCE:
+                    now[1].stop("at a glance")
+
+
+class KeptAnswers:
+    """Answers by their tags. A tag depends on everything that determines the answer: request, form and build.
+
+    bytes_max: room for all of them [bytes]; the answer that was asked for least recently goes first
+    """
+
+    def __init__(self, bytes_max: int, registry: CollectorRegistry) -> None:
+        self.bytes_max = bytes_max
+        self._repeated = Counter("bench_dragon_repeated", "Answers given from memory", registry=registry)
+        self._kept: collections.OrderedDict[str, bytes] = collections.OrderedDict()
+        self._used = 0
+        self._lock = Lock()
+
+    def get(self, tag: str) -> bytes | None:
+        with self._lock:
+            found = self._kept.get(tag)
+            if found is not None:
+                self._kept.move_to_end(tag)
+                self._repeated.inc()
+            return found
+
+    def keep(self, tag: str, answer: bytes) -> None:
+        """Keep an answer, unless it is too large."""
+        if len(answer) > SHARE_MAX * self.bytes_max:
+            return
+        with self._lock:
+            if tag in self._kept:  # Two clients asked at the same time.
+                return
+            self._kept[tag] = answer
+            self._used += len(answer)
+            while self._used > self.bytes_max:
+                self._used -= len(self._kept.popitem(last=False)[1])
 
 
 class Reply:
@@ -151,29 +243,6 @@ class Reply:
         return hashlib.blake2b(values.encode(), digest_size=16).hexdigest()
 
 
-async def reply_body(request: Request) -> Reply:
-    """Reply to a call that takes a JSON body and no query.
-
-    raises: Refused 415 for a body of another type, 422 for a query
-    """
-    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    has_body = request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
-    if has_body and kind != JSON:
-        detail = f"The body must be {JSON}, got {kind or 'no Content-Type'}: send the header Content-Type: {JSON}."
-        raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": JSON})
-    await refuse_query(request)
-    return Reply(request)
-
-
-async def refuse_query(request: Request) -> None:
-    """raises: Refused (422) when a request has query parameters but its call takes none"""
-    detail = "this call takes no query parameters: leave it out"
-    names = list(request.query_params)[:ERRORS_MAX]
-    unknown = [ErrorItem(name=name, detail=f"{name[:60]} is unknown here: {detail}") for name in names]
-    if unknown:
-        raise Refused(422, unknown[0].detail, unknown)
-
-
 async def reply_query(request: Request) -> Reply:
     """Reply to a call that takes its values from the query.
 
@@ -181,7 +250,7 @@ async def reply_query(request: Request) -> Reply:
     """
     given = request.query_params.multi_items()
     if len(given) > len(request.query_params):
-        times = Counter(name for name, _ in given)
+        times = collections.Counter(name for name, _ in given)
         twice = sorted(name for name in times if times[name] > 1)[:ERRORS_MAX]
         items = [ErrorItem(name=name, detail=f"{name[:60]} is given more than once: give it once") for name in twice]
         raise Refused(422, items[0].detail, items)
@@ -209,25 +278,6 @@ class QueryRoute(APIRoute):
         return handled
 
 
-def client_of(request: Request) -> str:
-    """Address of the client; a proxy on this machine gives it in X-Forwarded-For."""
-    return request.client.host if request.client else ""
-
-
-# What a call that may need the token says in the description of the service.
-GUARDED: list[dict[str, list[str]]] = [{}, {"token": []}]
-
-
-def guard(request: Request) -> None:
-    """raises: Refused (401) without the token of this service, if it has one"""
-    token = request.app.state.settings.token
-    kind, _, given = request.headers.get("authorization", "").partition(" ")
-    if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
-        detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
-        challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
-        raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
-
-
 def _gzipped(blocks: Iterable[bytes]) -> Iterator[bytes]:
     packer = zlib.compressobj(GZIP_LEVEL, wbits=GZIP_WINDOW)
     for block in blocks:
@@ -236,7 +286,6 @@ def _gzipped(blocks: Iterable[bytes]) -> Iterator[bytes]:
 
 
 QueryReply = Annotated[Reply, Depends(reply_query)]
-BodyReply = Annotated[Reply, Depends(reply_body)]
 
 
 def tags_in(header: str) -> list[str]:

@@ -14,9 +14,9 @@ from pydantic import ValidationError
 from app.files.outlines import GEOJSON_TYPE
 from app.files.tables import CSV_TYPE
 from app.questions.registry import CALLS, Call
-from app.service.bodies import BodyRoute
+from app.service.bodies import BodyReply, BodyRoute
 from app.service.examples import EXAMPLES
-from app.service.reply import BodyReply, QueryReply, QueryRoute, Reply
+from app.service.reply import QueryReply, QueryRoute, Reply
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON, FileFormat, Wire
 

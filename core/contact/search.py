@@ -128,7 +128,7 @@ class Search:
 
     def _set_scene(self) -> None:
         self.scene.curve, self.scene.place, self.scene.margin = self.curve, self.place, self.margin
-        self.scene.halt, self.scene.kinds, self.scene.between = self.budget, self.kinds, self.between
+        self.scene.budget, self.scene.kinds, self.scene.between = self.budget, self.kinds, self.between
 
     def clear_beyond(self, radius: float) -> None:
         """Set clear_radius to the radius from which another bound exceeds the margin on this spiral [m]."""
@@ -217,8 +217,8 @@ class Search:
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
         grazes = dips or tolerance > 0.0
         while True:
-            budget = max(min(self.work, self.budget.left), 1.0)
-            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, budget)]
+            most_work = max(min(self.work, self.budget.left), 1.0)
+            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, most_work)]
             self.spend(float(self._march.work))
             self.budget.look()
             if ended is not Ended.CAPACITY:

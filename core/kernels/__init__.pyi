@@ -59,7 +59,7 @@ def spiral_trajectory(
     position: Floats,
     velocity: Floats,
     speed: Floats,
-    halt: Budget,
+    budget: Budget,
 ) -> int: ...
 
 # -- on a route --
@@ -116,7 +116,7 @@ def grow_tree(boxes: Floats, tree: Floats) -> None: ...
 class Meetings:
     found: int
     met: int
-    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints, halt: Budget) -> None: ...
+    def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints, budget: Budget) -> None: ...
     def find(self, margin: float, exact: bool, chained: bool, most_found: int, most_met: int, pairs: Ints) -> None: ...
 
 # -- scenes --
@@ -175,7 +175,7 @@ class Scene:
     room: int
     edges: int
     against: int
-    halt: Budget
+    budget: Budget
     margin: float
     left_out: int
     between: int
@@ -225,13 +225,13 @@ class March(Found):
         tolerance: float,
         grazes: bool,
         rounding: float,
-        budget: float,
+        most_work: float,
     ) -> int: ...
 
 class Strip(Found):
     def __init__(self, low: Interval, high: Interval, shifts: Floats) -> None: ...
     def run(
-        self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, budget: float
+        self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, most_work: float
     ) -> int: ...
 
 class Peak:
@@ -243,7 +243,7 @@ class Peak:
         self, interval: Interval, spare: Floats, calm: float, alike: int, start: float, stop: float, rounding: float
     ) -> None: ...
     def sample(self, step: float) -> None: ...
-    def prove(self, step: float, tolerance: float, loosest: float, budget: int) -> None: ...
+    def prove(self, step: float, tolerance: float, loosest: float, most_links: int) -> None: ...
 
 class Excess:
     proven: float
@@ -260,7 +260,7 @@ class Excess:
         kept: float,
         width: float,
         rounding: float,
-        budget: int,
+        most_links: int,
     ) -> int: ...
 
 # -- chance --
@@ -273,7 +273,7 @@ class Wobbler:
     first: int
     second: int
     furthest: float
-    def __init__(self, sizes: Floats, halt: Budget, chain: Floats, boxes: Floats, loud: NDArray[np.int8]) -> None: ...
+    def __init__(self, sizes: Floats, budget: Budget, chain: Floats, boxes: Floats, loud: NDArray[np.int8]) -> None: ...
     def dance(
         self,
         memory: Floats,

@@ -18,7 +18,7 @@ cdef class Meetings:
     cdef double[:, ::1] boxes
     cdef double[:, ::1] tree
     cdef long long[::1] order
-    cdef Budget halt
+    cdef Budget budget
     cdef readonly long long found
     cdef readonly long long met
 

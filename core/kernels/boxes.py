@@ -59,16 +59,16 @@ class Meetings:
 
     frames: (n, FRAME_COLUMNS), boxes: (n, BOX_COLUMNS), order: (n,), all in the tree's order; `order` holds the number
         of the rectangle in each row; tree: as grow_tree() fills it
-    halt: ends find() before it is done
+    budget: ends find() before it is done
     found, met: number of pairs that find() found, and of boxes that it met
     """
 
-    def __init__(self, frames, boxes, tree, order, halt):
+    def __init__(self, frames, boxes, tree, order, budget):
         self.frames = frames
         self.boxes = boxes
         self.tree = tree
         self.order = order
-        self.halt = halt
+        self.budget = budget
         self.found = self.met = 0
 
     def find(self, margin, exact, chained, most_found, most_met, pairs):
@@ -81,7 +81,7 @@ class Meetings:
         self.found = self.met = 0
         with cython.nogil:
             for i in range(boxes.shape[0]):
-                if self.found > most_found or self.met > most_met or self.halt.stopped:
+                if self.found > most_found or self.met > most_met or self.budget.stopped:
                     break
                 k = leaves + i // LEAF
                 while True:

@@ -94,7 +94,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
     growth = scene.curve.growth
     if scene.against == EDGES:  # they follow the last handle's row, which holds no bench
         for i in range(active):
-            if scene.halt.stopped:
+            if scene.budget.stopped:
                 break
             best = least_with(scene, i, handles + 1, handles + 1 + scene.edges, best, chain)
         return best
@@ -105,7 +105,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
     for i in range(handles):
         widest = max(widest, scene.sizes[i, RADIUS])
     for a in range((active + BLOCK - 1) // BLOCK):
-        if scene.halt.stopped:
+        if scene.budget.stopped:
             break
         reach = growth * chain[min(a * BLOCK + BLOCK, handles), THETA] + 3.0 * widest
         for b in range(a, blocks):
@@ -128,7 +128,7 @@ def clearance_left(scene, leaders, benches, chain, moved):
     sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
     for i in range(leaders):
-        if scene.halt.stopped:
+        if scene.budget.stopped:
             break
         for j in range(i + scene.between + 1, benches):
             dx = chain[j, MX] - chain[i, MX]
@@ -216,7 +216,7 @@ def crossing(scene, low, high, pair, width, of_rate, chain):
         above = gap_at(scene, scene.place - low, pair.first, pair.second, chain) - scene.margin
         below = gap_at(scene, scene.place - high, pair.first, pair.second, chain) - scene.margin
     for i in range(100):
-        if high - low <= width or scene.halt.stopped:
+        if high - low <= width or scene.budget.stopped:
             break
         middle = low + (high - low) * above / (above - below)
         if not (low < middle < high) or i % 4 == 3:

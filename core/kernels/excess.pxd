@@ -18,5 +18,5 @@ cdef class Excess:
     )
     cpdef int run(
         self, double start, double stop, double step, double limit, double kept, double width, double rounding,
-        Py_ssize_t budget
+        Py_ssize_t most_links
     ) noexcept

@@ -36,11 +36,11 @@ class Excess:
         self.proven = self.found = self.rate = 0.0
         self.handle = 0
 
-    def run(self, start, stop, step, limit, kept, width, rounding, budget):
+    def run(self, start, stop, step, limit, kept, width, rounding, most_links):
         """Search from start to stop [m of head travel]; returns how it ended: KEPT, EXCEEDED or GIVEN_UP.
 
         step: the first one tried [m]; limit, kept, width: see above; rounding: largest error of a travel [m];
-        budget: number of links followed before the search gives up
+        most_links: number of links followed before the search gives up
         """
         scene = self.interval.scene
         travel = start - rounding
@@ -71,7 +71,7 @@ class Excess:
                         if upper < FREE:
                             rate, k = certain_rate(scene.curve, self.interval, rounding)
                 links += 1
-                if links > budget or scene.halt.uses_up(max(self.interval.handles, 0) + 1):
+                if links > most_links or scene.budget.uses_up(max(self.interval.handles, 0) + 1):
                     outcome = GIVEN_UP
                     break
                 if upper > limit and h > width:

@@ -27,7 +27,7 @@ cdef class March(Found):
     cdef bint at_start
     cdef double tolerance
     cdef double rounding
-    cdef double budget
+    cdef double most_work
     cdef Py_ssize_t followers
     cdef Py_ssize_t active
     cdef Py_ssize_t placed
@@ -55,7 +55,7 @@ cdef class March(Found):
     @cython.locals(state=cython.int)
     cpdef int run(
         self, double start, double stop, Py_ssize_t leaders, bint at_start, double tolerance, bint grazes,
-        double rounding, double budget
+        double rounding, double most_work
     ) noexcept
     cdef bint repeats_ahead(self, Scene scene) noexcept nogil
     cdef double least_step(self) noexcept nogil

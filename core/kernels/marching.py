@@ -62,7 +62,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # already, the second condition suffices. An earlier crossing, of this pair or another, makes the step fail and is found
 # instead. Without a bracket (tolerance 0) touching is the far end itself, if the contact there is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
-# STUCK: h is too short to help (LEAST_STEP of the bracket, or rounding), the budget is spent, the scene's halt is
+# STUCK: h is too short to help (LEAST_STEP of the bracket, or rounding), most_work is done, the scene's budget is
 # stopped, or the chain folds at the start. proven = travel still holds. touching is then a crossing of a pair that
 # closes too slowly for this bracket: a wider bracket may succeed.
 # CAPACITY: more handles matter than there are rows; nothing is claimed.
@@ -97,7 +97,7 @@ class March(Found):
         self.interval = interval
         self.probe = probe
         self.opening = opening
-        self.start = self.stop = self.tolerance = self.rounding = self.budget = 0.0
+        self.start = self.stop = self.tolerance = self.rounding = self.most_work = 0.0
         self.leaders = self.followers = self.active = self.placed = self.opened = 0
         self.at_start = self.opens = self.turning = self.grazes = self.grazed = self.aims = False
         self.travel = self.h = self.target = self.allowance = 0.0
@@ -106,14 +106,14 @@ class March(Found):
         self.bend = self.graze_gap = self.graze_travel = 0.0
         self.graze_first = self.graze_second = 0
 
-    def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, budget):
+    def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, most_work):
         """Advance the head from `start` to `stop` [m of travel]; returns how it ended, from REACHED to CAPACITY.
 
         leaders: number of benches whose pairs must be followed; at_start: follow all pairs until every bench has passed
             the start of the one before it
         tolerance: half width of the bracket around a contact [m]; 0: no bracket, end at any instant found to be within
             the margin; grazes: note the least graze on the way
-        rounding: largest error of a travel [m]; budget: of work
+        rounding: largest error of a travel [m]; most_work: work after which the march gives up
         """
         self.start = start
         self.stop = stop
@@ -122,14 +122,14 @@ class March(Found):
         self.tolerance = tolerance
         self.grazes = grazes
         self.rounding = rounding
-        self.budget = budget
+        self.most_work = most_work
         with cython.nogil:
             state = self.open(self.interval.scene)
             if state != ADVANCED:
                 return state
             while self.travel < stop and (self.at_start or self.repeats_ahead(self.interval.scene)):
                 self.proven = self.travel
-                if self.work >= budget or self.interval.scene.halt.stopped:
+                if self.work >= self.most_work or self.interval.scene.budget.stopped:
                     return STUCK
                 if self.h < rounding or self.h < self.least_step():
                     return STUCK

@@ -40,7 +40,7 @@ def interval_least(scene, interval, active):
     if not stays_beyond(scene, interval, active, rounding.point):
         return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(active):
-        if scene.halt.stopped:
+        if scene.budget.stopped:
             return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
         far = reach_of(scene, interval, i, rounding.point)
         first = i + scene.between + 1
@@ -178,7 +178,7 @@ def band_least(scene, band, leaders):
     if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a strip
         return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
-        if scene.halt.stopped:
+        if scene.budget.stopped:
             return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
         beyond = growth_high * band.high.before[i + 1, THETA]
         beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)

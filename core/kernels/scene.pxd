@@ -21,7 +21,7 @@ cdef class Scene:
     cdef readonly int against
     cdef public Kinds kinds
     cdef public double margin
-    cdef public Budget halt
+    cdef public Budget budget
     cdef public Py_ssize_t left_out
     cdef public Py_ssize_t left_out_too
     cdef public Py_ssize_t between

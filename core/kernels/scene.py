@@ -25,7 +25,7 @@ class Scene:
         chains have the same rows
     benches: number in the dragon; room: number of these that have a row
     against: the obstacles: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
-    halt: ends the loops before they are done
+    budget: ends the loops before they are done
     kinds: the hulls of benches that are not rectangles; sizes then hold the rectangles around them
     margin: the clearance required [m]; left_out, left_out_too: a pair of benches that does not count, or NO_BENCH
     between: least number of benches between the two of a pair that counts, 1 at least
@@ -44,7 +44,7 @@ class Scene:
         self.margin = 0.0
         self.left_out = self.left_out_too = NO_BENCH
         self.between = 1
-        self.halt = Budget()
+        self.budget = Budget()
         self.met = Witnesses()
 
 

@@ -45,7 +45,7 @@ cdef class Peak:
     @cython.locals(scene=Scene)
     cpdef void sample(self, double step) noexcept
     @cython.locals(scene=Scene, links=cython.Py_ssize_t, placed=cython.Py_ssize_t, handles=cython.Py_ssize_t)
-    cpdef void prove(self, double step, double tolerance, double loosest, Py_ssize_t budget) noexcept
+    cpdef void prove(self, double step, double tolerance, double loosest, Py_ssize_t most_links) noexcept
     @cython.locals(rear=cython.Py_ssize_t)
     cdef bint leaves(self, Scene scene, double upper, double tolerance) noexcept nogil
     cdef bint gone(self, Scene scene) noexcept nogil

@@ -124,7 +124,7 @@ class Peak:
                 if travel >= self.stop:
                     break
                 last = travel
-                if scene.halt.stopped or scene.halt.left <= 0.0:
+                if scene.budget.stopped or scene.budget.left <= 0.0:
                     break
                 left = self.stop - travel
                 if scene.curve.kind == ON_SPIRAL and h > APPROACH * left and left > LAST_SAMPLE * step:
@@ -132,11 +132,11 @@ class Peak:
                 travel = travel + h if travel + h < self.stop and not self.gone(scene) else self.stop
             self.refine(scene, low, high, 0.0)
 
-    def prove(self, step, tolerance, loosest, budget):
+    def prove(self, step, tolerance, loosest, most_links):
         """Prove that no rate exceeds that of sample() by more than the tolerance, or find a larger one.
 
-        The tolerance grows fourfold after every `budget` links followed (an interval counts as INTERVAL_LINKS more),
-        until the proof ends or is given up at `loosest`. step: the first one tried [m]
+        The tolerance grows fourfold after every `most_links` links followed (an interval counts as INTERVAL_LINKS
+        more), until the proof ends or is given up at `loosest`. step: the first one tried [m]
         """
         scene = self.interval.scene
         links = 0
@@ -153,7 +153,7 @@ class Peak:
                 scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before
             )
             while travel < end:
-                if scene.halt.uses_up(max(self.interval.handles, 0) + INTERVAL_LINKS):
+                if scene.budget.uses_up(max(self.interval.handles, 0) + INTERVAL_LINKS):
                     self.upper = FREE
                     break
                 self.intervals += 1
@@ -168,7 +168,7 @@ class Peak:
                     rate = fabs(self.interval.after[fastest(handles, self.interval.after), RATE])
                     self.keep(rate, travel + h, NOISE)
                 links += max(handles, 0) + INTERVAL_LINKS
-                if links > budget:
+                if links > most_links:
                     links = 0
                     tolerance *= 4.0
                     if tolerance > loosest:
@@ -226,7 +226,7 @@ class Peak:
     def top_rate(self, scene, travel):
         """The largest |rate| after a travel, 0 if the chain folds; sets self.at to the first handle that has it."""
         last = lively_chain(scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.spare)
-        scene.halt.spend(max(last, 0))
+        scene.budget.spend(max(last, 0))
         self.at = fastest(last, self.spare)
         self.laid = last
         return fabs(self.spare[self.at, RATE]) if last != FOLDED else 0.0
@@ -236,7 +236,7 @@ class Peak:
 
         Method: bisection on whether the rate of the fastest handle still rises; it stops rising at a kink too.
         """
-        while high - low > PEAK_WIDTH and not scene.halt.stopped:
+        while high - low > PEAK_WIDTH and not scene.budget.stopped:
             middle = 0.5 * (low + high)
             if middle <= low or middle >= high:
                 break

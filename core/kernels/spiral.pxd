@@ -70,7 +70,7 @@ cdef void write_handles(
 )
 cpdef Py_ssize_t spiral_trajectory(
     double growth, double[::1] thetas, const double[::1] chords, double head_speed, double[:, :, ::1] position,
-    double[:, :, ::1] velocity, double[:, ::1] speed, Budget halt
+    double[:, :, ::1] velocity, double[:, ::1] speed, Budget budget
 ) noexcept
 
 cpdef double spiral_curvature(double theta) noexcept nogil

@@ -316,11 +316,11 @@ def write_handles(block, row, k, position, velocity, speed):
 #         equal chords up to this one, whose deltas predict the next one.
 
 
-def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, halt):
+def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, budget):
     """Fill in position, velocity and speed of every handle for every head angle; returns how many rows precede a fold.
 
     thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
-    halt: ends it before it is done, as if no row folded
+    budget: ends it before it is done, as if no row folded
     """
     row = 0
     block = Block(growth)
@@ -329,7 +329,7 @@ def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, sp
             lanes = block.start(row, thetas, head_speed)
             alike = 0
             for k in range(chords.shape[0]):
-                if halt.stopped:
+                if budget.stopped:
                     return thetas.shape[0]
                 write_handles(block, row, k, position, velocity, speed)
                 alike = alike + 1 if k > 0 and chords[k] == chords[k - 1] else 0

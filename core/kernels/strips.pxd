@@ -33,7 +33,7 @@ cdef class Strip(Found):
 
     @cython.locals(state=cython.int)
     cpdef int run(
-        self, double outer, double inner, Py_ssize_t leaders, double rounding, double least_step, double budget
+        self, double outer, double inner, Py_ssize_t leaders, double rounding, double least_step, double most_work
     ) noexcept
 
     @cython.locals(state=cython.int, nearest=Nearest)

@@ -173,11 +173,11 @@ class Strip(Found):
         self.radius = self.place = self.h = self.rounding = 0.0
         self.bounded = True
 
-    def run(self, outer, inner, leaders, rounding, least_step, budget):
+    def run(self, outer, inner, leaders, rounding, least_step, most_work):
         """Prove that no pair led by the first `leaders` benches touches while the head goes from `outer` to `inner`.
 
         outer, inner: head radii [m]; rounding: largest error of a travel of the head [m]; least_step: head travel below
-        which it gives up [m]; budget: of work
+        which it gives up [m]; most_work: work after which it gives up
         returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; TURNED: perhaps not provable
         in any strip, because a handle turns back or a bench folds; CAPACITY
         """
@@ -203,7 +203,7 @@ class Strip(Found):
                 self.proven = self.radius
                 if not self.bounded and self.h < TURNED_WITHIN * self.radius:
                     return TURNED
-                if self.h < least_step or self.work >= budget or self.band.low.scene.halt.stopped:
+                if self.h < least_step or self.work >= most_work or self.band.low.scene.budget.stopped:
                     return STUCK
                 self.steps += 1
                 state = self.try_step(self.band, inner)

@@ -17,7 +17,7 @@ cdef class Wobbler:
     cdef public double lateral
     cdef public double forward
     cdef public double along
-    cdef Budget halt
+    cdef Budget budget
     cdef readonly double[:, ::1] chain
     cdef double[:, ::1] boxes
     cdef signed char[::1] loud

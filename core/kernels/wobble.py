@@ -45,10 +45,10 @@ class Wobbler:
     [m]
     """
 
-    def __init__(self, sizes, halt, chain, boxes, loud):
+    def __init__(self, sizes, budget, chain, boxes, loud):
         self.sizes = sizes
         self.lateral = self.forward = self.along = 0.0
-        self.halt = halt
+        self.budget = budget
         self.chain = chain
         self.boxes = boxes
         self.loud = loud
@@ -65,7 +65,7 @@ class Wobbler:
         """
         with cython.nogil:
             for t in range(memory.shape[0]):
-                if self.halt.stopped:
+                if self.budget.stopped:
                     return t
                 self.stand(t, memory[t], numbers, places, tangents, state)
                 if self.hang(t, play, places, rooms) and self.touching():
@@ -183,7 +183,7 @@ class Wobbler:
         chain: cython.double[:, ::1] = self.chain
         with cython.nogil:
             for t in range(places.shape[0]):
-                if self.halt.stopped:
+                if self.budget.stopped:
                     return
                 widest = 0.0
                 for k in range(self.benches):

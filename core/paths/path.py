@@ -80,13 +80,13 @@ class Path(Protocol):
         position: Floats,
         velocity: Floats,
         speed: Floats,
-        halt: kernels.Budget,
+        budget: kernels.Budget,
     ) -> int:
         """Fill in all handles in the own frame; returns the number of places before a fold.
 
         s: (T,) of the head [m]; last: least polar angle of the head on a spiral [rad]; chords: (n,) [m]
         position: (T, n + 1, 2) [m]; velocity: (T, n + 1, 2), speed: (T, n + 1) [m/s]
-        halt: the budget, which the caller looks at afterwards
+        budget: ends it before it is done; the caller looks at it afterwards
         """
 
     def calm(self, curvature: float) -> float:

@@ -164,7 +164,7 @@ class Route(Shown):
         position: Floats,
         velocity: Floats,
         speed: Floats,
-        halt: kernels.Budget,
+        budget: kernels.Budget,
     ) -> int:
         """Fill in all handles, see Path; no bench folds on a route."""
         sizes = np.zeros((chords.size, kernels.SIZE_COLUMNS))

@@ -152,11 +152,11 @@ class Spiral(Shown):
         position: Floats,
         velocity: Floats,
         speed: Floats,
-        halt: kernels.Budget,
+        budget: kernels.Budget,
     ) -> int:
         """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
         head = np.maximum(self.theta(s), last)
-        return kernels.spiral_trajectory(self.growth, head, chords, head_speed, position, velocity, speed, halt)
+        return kernels.spiral_trajectory(self.growth, head, chords, head_speed, position, velocity, speed, budget)
 
     def calm(self, curvature: float) -> float:
         """Radius outside which the |curvature| is at most this [1/m], in the form of kernels.Peak [m]."""

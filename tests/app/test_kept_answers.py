@@ -5,7 +5,7 @@ from __future__ import annotations
 import httpx
 from prometheus_client import CollectorRegistry
 
-from app.service.load import KeptAnswers
+from app.service.reply import KeptAnswers
 from tests.app.test_deadline import sample
 
 REPEATED = "bench_dragon_repeated_total"

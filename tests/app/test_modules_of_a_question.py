@@ -84,10 +84,9 @@ found = {
 }
 print(json.dumps(found))
 """
-# What every request passes; the question's own file; the fields of its query; and how it is told, under any load.
+# The question's own file; what holds for every request; the reply; and the fields of the query.
 EDGE = {
     "app.questions.collision_time",
-    "app.service.load",
     "app.service.middleware",
     "app.service.reply",
     "app.wire.question",

@@ -51,5 +51,5 @@ def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes() -> None:
     search = Search(Dragon(5), Spiral(), 0.0, budget=budget)
     search.resize(4)
     search.use(Spiral(0.7), 0.1)
-    search.scene.halt.left -= 2.0
+    search.scene.budget.left -= 2.0
     assert budget.left == 3.0

@@ -178,8 +178,8 @@ FOLDING_CHORDS, STANDING, HALF_FOLDED, FOLDED = [6.0, 20.0, 1.0], 30.0, 2.0, 1.0
 def first_folded_row(heads: list[float], chords: list[float]) -> tuple[int, np.ndarray]:
     position, velocity = np.zeros((2, len(heads), len(chords) + 1, 2))
     speed = np.zeros(position.shape[:2])
-    halt = kernels.Budget()
-    row = kernels.spiral_trajectory(1.0, np.array(heads), np.array(chords), 1.0, position, velocity, speed, halt)
+    budget = kernels.Budget()
+    row = kernels.spiral_trajectory(1.0, np.array(heads), np.array(chords), 1.0, position, velocity, speed, budget)
     return row, position
 
 
