@@ -269,7 +269,7 @@ def test_no_python_is_served_and_no_page_frames_another(held: Service) -> None:
 def alive(pid: int) -> bool:
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
+    except (FileNotFoundError, ProcessLookupError):  # It may end between opening and reading.
         return False
 
 

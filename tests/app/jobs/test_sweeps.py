@@ -33,6 +33,12 @@ LONG_SPEC: dict[str, Any] = {
     "request": {"dragon": {"benches": 40}},
     "shard_size": 2,
 }
+# Half a minute of work, for a test that ends it itself.
+ENDLESS_SPEC: dict[str, Any] = {
+    "question": "check",
+    "over": {"dragon.width": {"start": 0.2, "stop": 0.3, "count": 500}},
+    "shard_size": 5,
+}
 
 
 @pytest.fixture(scope="module")
@@ -130,11 +136,11 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
 
 
 def test_a_dismissed_sweep_leaves_no_shard_and_no_process_and_others_are_answered_meanwhile(service: Service) -> None:
-    address, waits = service.post(LONG_SPEC, "/sweeps"), service.post(LONG_SPEC, "/sweeps")
+    address, waits = service.post(ENDLESS_SPEC, "/sweeps"), service.post(ENDLESS_SPEC, "/sweeps")
     wait_for(lambda: parts(service))
     assert service.finished(service.post(SHORT))["status"] == "successful"
     wait_for(lambda: metric(service, "bench_dragon_sweep_designs_done") > 0)
-    assert metric(service, "bench_dragon_sweep_designs") == 80
+    assert metric(service, "bench_dragon_sweep_designs") == 500
     assert metric(service, "bench_dragon_sweep_shards") >= 1
     assert metric(service, 'bench_dragon_jobs{state="running"}') == 1
     # One sweep at once: the other leaves its place to other jobs.
