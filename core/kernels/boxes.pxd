@@ -1,7 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.budget cimport Budget
-from core.kernels.rectangles cimport framed, pair_gap_within
+from core.kernels.rectangles cimport rows_gap_within
 
 cdef Py_ssize_t LEAF
 
@@ -18,6 +18,7 @@ cdef class Meetings:
     cdef double[:, ::1] boxes
     cdef double[:, ::1] tree
     cdef long long[::1] order
+    cdef long long[:, ::1] pairs
     cdef Budget budget
     cdef readonly long long found
     cdef readonly long long met
@@ -31,6 +32,4 @@ cdef class Meetings:
         long long[:, ::1] pairs
     ) noexcept
     @cython.locals(a=cython.longlong, b=cython.longlong)
-    cdef void note(
-        self, Py_ssize_t i, Py_ssize_t j, double margin, bint exact, bint chained, long long[:, ::1] pairs
-    ) noexcept nogil
+    cdef void note(self, Py_ssize_t i, Py_ssize_t j, double margin, bint exact, bint chained) noexcept nogil

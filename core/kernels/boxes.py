@@ -4,7 +4,7 @@ import cython
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.rectangles import framed, pair_gap_within
+    from core.kernels.rectangles import rows_gap_within
 
 # Broad phase. The rectangles' upright boxes are ordered so that neighbours in the list lie near each other, and hang in
 # fours from a complete binary tree: node 1 is the root, node k has the children 2 k and 2 k + 1, node leaves + k holds
@@ -69,6 +69,7 @@ class Meetings:
         self.tree = tree
         self.order = order
         self.budget = budget
+        self.pairs = None
         self.found = self.met = 0
 
     def find(self, margin, exact, chained, most_found, most_met, pairs):
@@ -76,8 +77,11 @@ class Meetings:
 
         chained: leave out pairs of consecutive numbers; most_found, most_met: find() stops when it exceeds one of them
         """
+        # Local, because a view that belongs to an object, or is passed on, costs a third more time.
         boxes: cython.double[:, ::1] = self.boxes
-        leaves = self.tree.shape[0] // 2
+        tree: cython.double[:, ::1] = self.tree
+        leaves = tree.shape[0] // 2
+        self.pairs = pairs
         self.found = self.met = 0
         with cython.nogil:
             for i in range(boxes.shape[0]):
@@ -85,7 +89,7 @@ class Meetings:
                     break
                 k = leaves + i // LEAF
                 while True:
-                    if boxes_meet(self.tree, k, boxes, i):
+                    if boxes_meet(tree, k, boxes, i):
                         if k < leaves:
                             k = 2 * k
                             continue
@@ -94,22 +98,22 @@ class Meetings:
                         for j in range(max(first, i + 1), last):
                             if boxes_meet(boxes, i, boxes, j):
                                 self.met += 1
-                                self.note(i, j, margin, exact, chained, pairs)
+                                self.note(i, j, margin, exact, chained)
                     k += 1
                     while k % 2 == 0:
                         k = k // 2
                     if k == 1:
                         break
 
-    def note(self, i, j, margin, exact, chained, pairs):
+    def note(self, i, j, margin, exact, chained):
         """Add the pair of rows i and j if it counts."""
         a = self.order[i] if self.order[i] < self.order[j] else self.order[j]
         b = self.order[j] if self.order[i] < self.order[j] else self.order[i]
         if chained and b - a == 1:
             return
-        if exact and pair_gap_within(framed(self.frames, i), framed(self.frames, j), margin) > margin:
+        if exact and rows_gap_within(i, j, margin, self.frames) > margin:
             return
-        if self.found < pairs.shape[0]:
-            pairs[self.found, 0] = a
-            pairs[self.found, 1] = b
+        if self.found < self.pairs.shape[0]:
+            self.pairs[self.found, 0] = a
+            self.pairs[self.found, 1] = b
         self.found += 1

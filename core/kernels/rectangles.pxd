@@ -37,6 +37,7 @@ cdef bint edge_witness(Rectangle a, Seen seen, Witnesses out) noexcept nogil
 cdef void corner_witness(Rectangle a, Seen seen, Witnesses out) noexcept nogil
 
 cdef Rectangle framed(double[:, ::1] frames, Py_ssize_t i) noexcept nogil
+cdef double rows_gap_within(Py_ssize_t i, Py_ssize_t j, double limit, double[:, ::1] frames) noexcept nogil
 cdef Rectangle bench_of(Py_ssize_t i, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
 
 cdef double bench_gap_within(

@@ -274,6 +274,11 @@ def framed(frames, i):
     )
 
 
+def rows_gap_within(i, j, limit, frames):
+    """pair_gap_within() of rows i and j of frames [m]: other modules call this once instead of three functions."""
+    return pair_gap_within(framed(frames, i), framed(frames, j), limit)
+
+
 def bench_of(i, sizes, chain):
     """The rectangle of bench i of a chain."""
     return Rectangle(
