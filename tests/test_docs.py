@@ -29,7 +29,11 @@ ROUNDING = 1e-8
 
 NAMED = re.findall(r"\[(test_\w+)\]\(([\w/.]+)\)", PAGES["docs/claims.md"])
 LINKS = sorted(
-    {(page, link) for page, text in PAGES.items() for link in re.findall(r"\]\(((?!https?:)[^)#\s]+)\)", text)}
+    {
+        (page, link)
+        for page, text in PAGES.items()
+        for link in re.findall(r'(?:\]\(|src=")((?!https?:)[^)"#\s]+)[)"]', text)
+    }
 )
 # Rows of README's table of results: the value, then the command that prints it.
 RESULTS = re.findall(r"^\|[^|]+\| ([^|]+) \| `(bench-dragon [^`]+)` \|$", PAGES["README.md"], re.MULTILINE)
