@@ -33,11 +33,12 @@ from app.jobs.wire import (
     pointer_in_sweep,
     status,
 )
-from app.questions.registry import CALLS
+from app.questions.registry import CALLS, QUESTIONS
 from app.service.bodies import BodyRoute, refuse_query, reply_body
 from app.service.middleware import client_of
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
+from app.service.routes import FILE, PROBLEM, SCHEMAS
 from app.service.token import GUARDED, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
@@ -59,7 +60,9 @@ EVENT_ID = re.compile(r"[0-9]{1,18}")
 NOT_KEPT = {"Cache-Control": "no-store"}
 # Results up to this size are read before the answer begins, so that an expiry does not interrupt the answer [bytes].
 READ_AT_ONCE = 1_000_000
-PROBLEM_REF = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
+# Every form that a result may have. JSON comes first, because a generated client reads the first form that it knows.
+RESULT_FORMS = (JSON, *sorted({*SWEEP_FORMS, *(form for one in QUESTIONS.values() for form in one.forms)} - {JSON}))
+RESULT = {form: SCHEMAS.get(form, FILE) for form in RESULT_FORMS}
 PROBLEMS = {
     400: "The body is not JSON",
     401: "The token of this service is missing",
@@ -132,7 +135,7 @@ asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
 
 def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:
     """OpenAPI description of a call: operation id, problems, and the media type if it is not JSON."""
-    problems = {number: {"description": PROBLEMS[number], "content": PROBLEM_REF} for number in statuses}
+    problems = {number: {"description": PROBLEMS[number], "content": PROBLEM} for number in statuses}
     answer = {200: {"description": "The answer", "content": content}} if content else {}
     return {
         "operation_id": name,
@@ -254,7 +257,7 @@ def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
 @router.get(
     "/{job_id}/result",
     dependencies=[no_query],
-    **told("job_result", 404, 409, 410, 422, 500, 503, content={"*/*": {"schema": {}}}),
+    **told("job_result", 404, 409, 410, 422, 500, 503, content=RESULT),
 )
 def result(keeper: KeptKeeper, found: Found) -> Response:
     """The answer of the call, with the same bytes as a direct answer; for a failed job its problem."""

@@ -22,8 +22,8 @@ from app.wire.question import JSON, FileFormat, Wire
 
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
-# Endings of forms that are not plain files.
-SCHEMAS = {CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
+# Schemas of the forms that are not plain files.
+SCHEMAS = {JSON: {"schema": {}}, CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
 PROBLEMS = {
     400: "The body is not JSON",
     401: "The token of this service is missing",

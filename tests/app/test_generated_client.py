@@ -36,7 +36,7 @@ CALLS = [
 
 @pytest.fixture(scope="module")
 def words(server: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """What the generator says; the client that it makes can be imported as PACKAGE."""
+    """Output of the generator, with its warnings; the client that it makes can be imported as PACKAGE."""
     folder = tmp_path_factory.mktemp("client")
     command = [sys.executable, "-m", "openapi_python_client", "generate", "--meta", "none"]
     command += ["--url", f"{server}/openapi.json", "--output-path", str(folder / PACKAGE)]
@@ -44,7 +44,7 @@ def words(server: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str
     done = subprocess.run(command, cwd=folder, env=os.environ | {"PATH": path}, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     sys.path.insert(0, str(folder))
-    yield done.stdout
+    yield done.stdout + done.stderr
     sys.path.remove(str(folder))
 
 
@@ -66,10 +66,11 @@ def body_of(module: ModuleType, body: Any) -> Any:
     return kind.from_dict(body)
 
 
-def test_the_generator_warns_of_nothing_but_pictures(words: str) -> None:
+def test_the_generator_warns_of_nothing_but_pictures_and_files(words: str) -> None:
     warned = WARNING.findall(words)
     assert len(warned) == words.count("WARNING") + words.count("ERROR")
-    assert {path.rpartition("/")[0] for path in warned} <= {"/figures", ""}
+    files = {question.path for question in QUESTIONS.values() if question.model is None}
+    assert set(warned) == files - {QUESTIONS["maps"].path}  # It reads every map as it reads the first form, GeoJSON.
 
 
 @pytest.mark.parametrize(
@@ -96,7 +97,6 @@ def test_every_figure_is_drawn(own: Any, name: str, method: str, formats: Any) -
     scan = {"samples": 3} if name.startswith("pitch_scan") else {}
     small: dict[str, Any] = scan | ({"benches": 9} if method == "GET" else {"dragon": {"benches": 9}})
     asked = small if method == "GET" else {"body": body_of(module, small)}
-    # It reads every map as it reads the first form.
     begins = {"svg": b"<?xml", "png": b"\x89PNG", "geojson": b"{"}
     for ending in begins.keys() & set(formats):
         answer = module.sync_detailed(told(ending), client=own, **asked)
@@ -128,3 +128,21 @@ def test_a_job_comes_back_as_its_status(own: Any) -> None:
     job = later.sync(client=own, body=body_of(later, {"question": "collision_time", "request": {"pitch": 0.5}}))
     again = call("jobs", "job_status").sync(job.to_dict()["jobID"], client=own)
     assert (type(again).__name__, again.to_dict()["processID"]) == ("JobStatus", "collision_time")
+
+
+@pytest.mark.parametrize("method", ["GET", "POST"])
+def test_the_result_of_a_job_comes_back_as_the_direct_answer(own: Any, client: httpx.Client, method: str) -> None:
+    name, example = {"GET": "minimum_pitch", "POST": "minimum_pitch_of"}[method], EXAMPLES[f"{method} /minimum-pitch"]
+    later, request = call("jobs", "ask_later"), example.query if example.body is None else example.body
+    job = later.sync(client=own, body=body_of(later, {"question": name, "request": request}))
+    client.get(f"/jobs/{job.job_id}/events").raise_for_status()  # Its events end when it is finished.
+    plain = client.request(method, "/minimum-pitch", params=example.query, json=example.body)
+    assert call("jobs", "job_result").sync(job.job_id, client=own) == plain.raise_for_status().json()
+
+
+def test_the_result_of_a_failed_job_comes_back_as_its_problem(own: Any, client: httpx.Client) -> None:
+    later = call("jobs", "ask_later")
+    job = later.sync(client=own, body=body_of(later, {"question": "collision_time", "request": {"overhang": 2.0}}))
+    client.get(f"/jobs/{job.job_id}/events").raise_for_status()
+    problem = call("jobs", "job_result").sync(job.job_id, client=own)
+    assert (problem.status, problem.errors[0].name) == (422, "overhang")
