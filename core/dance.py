@@ -209,7 +209,7 @@ class Dance(Shown):
 
     @property
     def default_start(self) -> float:
-        """Default start time of tables and pictures [s]: 0, or `begin` if the whole dragon is not on the path at 0.
+        """Start time of a question that gives none [s]: 0, or `begin` if the whole dragon is not on the path at 0.
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
@@ -262,13 +262,15 @@ class Dance(Shown):
             raise OutsideRun.of(_instant(time, k), rule, time.flat[k], "s")
         return time
 
-    def span(self, start: float, stop: float | None = None) -> tuple[float, float]:
-        """start and stop [s], checked to lie in the run and in this order; None stands for the end of the run.
+    def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
+        """start and stop [s], checked to lie in the run and in this order.
+
+        None stands for `default_start`, and for the end of the run.
 
         raises: InvalidValue; OutsideRun
         """
         until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
-        begin = checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
+        begin = checked_number("start", self.default_start if start is None else start, "s", -TIME_MAX, TIME_MAX)
         if begin < self.earliest:
             rule = f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
             raise OutsideRun.of("start", rule, begin, "s")

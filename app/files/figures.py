@@ -47,7 +47,7 @@ def contact_figure(
     *,
     venue: Venue | None = None,
     margin: float = 0.0,
-    start: float = 0.0,
+    start: float | None = None,
     stop: float | None = None,
     format: str = "svg",
     budget: Budget | None = None,

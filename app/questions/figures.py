@@ -85,13 +85,12 @@ def contact_figure(asked: ContactQuery | ContactFigureRequest, terms: Terms, for
         dance = asked.to_dance(terms.settings.drawn_benches_max)
         return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form], budget=terms.budget)
     dance = asked.to_dance(terms.settings.checked_benches_max)
-    start = dance.default_start if asked.start is None else asked.start
     venue = asked.to_place(dance.dragon).venue
     return figures.contact_figure(
         dance,
         venue=venue,
         margin=asked.margin,
-        start=start,
+        start=asked.start,
         stop=asked.stop,
         format=FORMATS[form],
         budget=terms.budget,

@@ -77,9 +77,9 @@ def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float
 
     raises: InvalidValue; OutsideRun
     """
-    start = dance.default_start if asked.start is None else asked.start
     if asked.stop is not None:
-        return *dance.span(start, asked.stop), None
+        return *dance.span(asked.start, asked.stop), None
+    start = dance.default_start if asked.start is None else asked.start
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:

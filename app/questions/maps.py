@@ -63,8 +63,7 @@ def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
     dance = asked.to_dance(terms.settings.checked_benches_max)
     place = asked.to_place(dance.dragon)
     origin = asked.told_origin(place)
-    start = dance.default_start if asked.start is None else asked.start
-    marks = marks_of(dance, *dance.span(start, asked.stop), asked.spacing)
+    marks = marks_of(dance, *dance.span(asked.start, asked.stop), asked.spacing)
     drawing = drawing_of(dance, place.things, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
     if form == DXF_TYPE:
         return dxf.written(drawing)

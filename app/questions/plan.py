@@ -61,7 +61,7 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
 
     dance, budget, say = asked.to_dance(terms.settings.checked_benches_max), terms.budget, Say(asked.language)
     place, clock = asked.to_place(dance.dragon), Clock(asked.start_clock)
-    start, stop = dance.span(dance.default_start if asked.start is None else asked.start, asked.stop)
+    start, stop = dance.span(asked.start, asked.stop)
     marks = marks_of(dance, start, stop, asked.spacing)
     timing = timing_of(dance, marks, start, stop, budget)
     swept = core.envelope(dance, start=start, stop=stop, excess=EXCESS, budget=budget).polygons

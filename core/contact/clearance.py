@@ -190,11 +190,11 @@ def least_clearance(
     dance: Dance,
     *,
     stray: float | Stray = 0.0,
-    start: float = 0.0,
+    start: float | None = None,
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> LeastClearance | None:
-    """The least clearance between start and stop [s], None for the end of the run; None with fewer than three benches.
+    """The least clearance between start and stop [s], see Dance.span(); None with fewer than three benches.
 
     stray: largest distance of every hole from its place [m]: the result is then the least possible clearance, proven
         for the hulls of the ground that benches may cover (core/tolerance/reach.py)

@@ -72,7 +72,7 @@ def first_contact(
     *,
     margin: float = 0.0,
     stray: float | Stray = 0.0,
-    start: float = 0.0,
+    start: float | None = None,
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> FirstContact:
@@ -81,7 +81,7 @@ def first_contact(
     margin: required clearance [m]; contact means separation <= margin
     stray: largest distance of every hole from its place [m], see core/tolerance/reach.py: the answer is then the first
         time at which two benches may come within the margin, because the grounds that they may cover do
-    start, stop: interval of the search [s]; None for the end of the run
+    start, stop: interval of the search [s]; None for dance.default_start and for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
         at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s);
         within about 5e-5 m of a graze along waypoints, behind bench 60, or if a second pair meets at once; and where
@@ -109,7 +109,7 @@ def contact_within(
     *,
     margin: float = 0.0,
     stray: float | Stray = 0.0,
-    start: float = 0.0,
+    start: float | None = None,
     stop: float | None = None,
 ) -> FirstContact:
     """first_contact() as a part of a larger question; it is also undecided if the budget of that question is spent."""

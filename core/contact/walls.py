@@ -117,7 +117,7 @@ def venue_clearance(
     *,
     margin: float = 0.0,
     stray: float | Stray = 0.0,
-    start: float = 0.0,
+    start: float | None = None,
     stop: float | None = None,
     nearest: bool = True,
     budget: Budget | None = None,
@@ -127,7 +127,7 @@ def venue_clearance(
     An edge counts as a rectangle at rest without width: benches and edges are marched like pairs of benches, with the
     same proof. If a bench touches no edge, its centre stays inside or outside an area, as at the start.
     margin: [m]; stray: largest distance of every hole from its place [m]: then the ground that benches may cover counts
-    start, stop: [s], None for the end of the run
+    start, stop: [s], None for dance.default_start and for the end of the run
     nearest: True also finds the least distance, which takes most of the time
     raises: InvalidValue, also for a path with a bend before the stop that is too tight for a chord; OutsideRun;
         TooMuchWork

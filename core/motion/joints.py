@@ -42,9 +42,9 @@ class SharpestBend(Shown):
 # before it.
 @asked_of("dance", Dance, "the sharpest bend was not found")
 def sharpest_bend(
-    dance: Dance, *, start: float = 0.0, stop: float | None = None, budget: Budget | None = None
+    dance: Dance, *, start: float | None = None, stop: float | None = None, budget: Budget | None = None
 ) -> SharpestBend | None:
-    """The sharpest bend between start and stop [s], None for the end of the run; None for a single bench.
+    """The sharpest bend between start and stop [s], see Dance.span(); None for a single bench.
 
     Sampled in steps of PROFILE_STEP of the shortest chord (SAMPLES of them at most), then refined; a peak
     narrower than a step may be missed.

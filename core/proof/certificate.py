@@ -86,7 +86,7 @@ def prove_clear(
     dance: Dance,
     stop: float | None = None,
     *,
-    start: float = 0.0,
+    start: float | None = None,
     margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
@@ -94,6 +94,7 @@ def prove_clear(
     """A certificate that nothing touches in [start, stop] [s], or comes within the margin [m].
 
     dance: on a spiral, a turn, or a route of lines, arcs and coils
+    start: None for dance.default_start
     stop: None for the end of the run: then the certificate also proves the end within 1e-9 s after its stop: a fold,
         the centre of the spiral, or the end of the route
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
@@ -101,20 +102,22 @@ def prove_clear(
     record, until = recorded_path(_steady(dance).path), "stop"
     if stop is None:
         stop, until = last_stop(dance.dragon, record, dance.head_speed)
-    return _proven(Clear(dance.dragon, record, dance.head_speed, start, stop, until, margin), every_pair, progress)
+    begin = dance.default_start if start is None else start
+    return _proven(Clear(dance.dragon, record, dance.head_speed, begin, stop, until, margin), every_pair, progress)
 
 
 def prove_contact(
     dance: Dance,
     time: float,
     *,
-    start: float = 0.0,
+    start: float | None = None,
     margin: float = 0.0,
     every_pair: bool = False,
     progress: Progress = lambda share: None,
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
-    claim = Contact(dance.dragon, recorded_path(_steady(dance).path), dance.head_speed, start, time, margin)
+    record, begin = recorded_path(_steady(dance).path), dance.default_start if start is None else start
+    claim = Contact(dance.dragon, record, dance.head_speed, begin, time, margin)
     return _proven(claim, every_pair, progress)
 
 

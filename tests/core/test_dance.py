@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,14 +14,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core import (
+    Area,
     Dance,
     Dragon,
     EndReason,
     InvalidValue,
+    Legs,
     OutsideRun,
     Spiral,
+    Turn,
+    Venue,
+    first_contact,
     kernels,
+    least_clearance,
+    sharpest_bend,
     trajectory,
+    venue_clearance,
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
 from tests.core.slow_search import SlowDance
@@ -159,3 +169,28 @@ def test_a_head_speed_beyond_its_limits_is_refused(head_speed: object) -> None:
     with pytest.raises(InvalidValue) as refused:
         trajectory(Dance(Dragon(), Spiral(), head_speed), [0.0])  # type: ignore[arg-type]
     assert refused.value.field == "head_speed"
+
+
+SQUARE = Venue(Area("square", (((-50, -50), (150, -50), (150, 150), (-50, 150), (-50, -50)),)))
+QUESTIONS = (first_contact, least_clearance, sharpest_bend, partial(venue_clearance, venue=SQUARE))
+
+
+@pytest.mark.parametrize("question", QUESTIONS, ids=["contact", "clearance", "bend", "venue"])
+@pytest.mark.parametrize(
+    ("path", "start"),
+    [
+        (Legs([(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0), 17.711),
+        (Legs([(0, 0), (60, 0), (60, 60)], [0, 1], radius=5.0, start=40.0), 0.0),
+        (Spiral(0.9, 6), 0.0),
+        (Turn(1.7, start_turns=4), 0.0),
+    ],
+    ids=["off the path at 0", "on the path at 0", "spiral", "turn"],
+)
+def test_without_a_start_a_question_asks_from_the_default_start(
+    question: Callable[..., object], path: Spiral | Legs | Turn, start: float
+) -> None:
+    dance = Dance(Dragon(10), path)
+    assert dance.default_start == pytest.approx(start, abs=1e-3)
+    stop = dance.default_start + 20.0
+    assert repr(question(dance, stop=stop)) == repr(question(dance, start=dance.default_start, stop=stop))
+    assert dance.span() == dance.span(None, None) == (dance.default_start, dance.end.time)
