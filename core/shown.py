@@ -128,9 +128,14 @@ class Shown:
     def _told(self) -> list[tuple[str, object, str]]:
         """Name, value and unit of every field that has a value."""
         every = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
-        units = UNITS | self._units
+        units = units_of(type(self))
         told = [(name, getattr(self, name)) for name in every]
         return [(name.replace("_", " "), value, units.get(name, "")) for name, value in told if value is not None]
+
+
+def units_of(kind: type) -> dict[str, str]:
+    """Units by field name: those of the class itself, else those of all fields of this name."""
+    return UNITS | getattr(kind, "_units", {})
 
 
 def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:

@@ -129,7 +129,7 @@ def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budg
         return findings
     if base is not None and _fit(speed, base.motion(speed.times)).explains:
         return findings
-    models = [] if base is None else [*_speeds(base.motion)]
+    models = [] if base is None else [*speed_errors(base.motion)]
     if position is None:
         models += geometries(dance_of(speed.workbook), speed.times, None)
     elif base is None:
@@ -149,7 +149,7 @@ def _equal_speeds() -> Model:
     return Model("equal_speeds", lambda times: np.ones((times.size, HANDLES, 3)))
 
 
-def _speeds(motion: Motion) -> Iterator[Model]:
+def speed_errors(motion: Motion) -> Iterator[Model]:
     """Known errors in the speeds of a motion."""
     yield _equal_speeds()
     for step in STEPS:
@@ -178,7 +178,7 @@ def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
         at = np.array([instant])
         base = Model("other_instant", right, {"time": f"{instant:.6f}"})
         models = [base] if instant != time[0] else []
-        models += [*geometries(dance_of(Workbook.RESULT2), at, None), *_speeds(right)]
+        models += [*geometries(dance_of(Workbook.RESULT2), at, None), *speed_errors(right)]
         if found := _best(one, at, models, budget):
             findings.append(_finding(*found, one))
             if instant != time[0]:

@@ -139,7 +139,7 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
     """
     if accepted(name, value, half_unit) is not None:
         return []
-    fits = [one for one in _shortcuts(name) if one.gives(value, half_unit)]
+    fits = [one for one in shortcuts(name) if one.gives(value, half_unit)]
     if name == "pitch":
         fits = [*_truncated(value, right_answer(name)), *fits] or [*_on_grid(value)]
     exact = [one for one in fits if one.exact]
@@ -169,7 +169,8 @@ def _by_error(fits: list[Shortcut], value: float) -> list[Shortcut]:
 
 
 @cache
-def _shortcuts(name: str) -> tuple[Shortcut, ...]:
+def shortcuts(name: str) -> tuple[Shortcut, ...]:
+    """The known shortcuts to one of UNITS, each with its result."""
     found = {
         "collision_time": _collision_times,
         "pitch": _pitches,
@@ -227,7 +228,7 @@ def _truncated(value: float, right: float) -> Iterator[Shortcut]:
 def _on_grid(value: float) -> Iterator[Shortcut]:
     """A pitch from a search in steps: the first of a grid above the right one, or above that of a shortcut."""
     for step in PITCH_GRIDS:
-        for one in (Shortcut("pitch_steps", right_answer("pitch"), {}), *_shortcuts("pitch")[:3]):
+        for one in (Shortcut("pitch_steps", right_answer("pitch"), {}), *shortcuts("pitch")[:3]):
             if abs(math.ceil(one.value / step) * step - value) < RESOLUTION:
                 yield Shortcut(one.error, one.value, {"grid": f"{step:g}"})
                 return

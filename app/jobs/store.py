@@ -83,7 +83,7 @@ class Store:
             raise
 
     def _open(self) -> None:
-        # While another process recovers the log of a killed one, or removes its own, SQLite refuses without waiting.
+        # While another process makes the tables, or recovers the log of a killed one, SQLite refuses without waiting.
         end = time.monotonic() + PATIENCE
         while True:
             try:

@@ -104,7 +104,7 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     bends = leans[:, ::2] + leans[:, 1:2]
     places = _distances(chords, bends)
     places[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(bends)).sum(axis=1)
-    pulls = _pulls(chords)
+    pulls = sag_pulls(chords)
     most_sag = (pulls * np.abs(np.exp(1j * bends) - 1.0)[:, None]).sum(axis=2)
     shorter, ends = np.minimum(chords[:, :2], chords[:, 1:]), chords[:, ::2].sum(axis=1, keepdims=True)
     slack = np.concatenate([shorter, ends, pulls.sum(axis=2)], axis=1)
@@ -116,7 +116,7 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     for cut in range(CUTS + 1):
         budget.afford(CELL_WORK * len(of))
         gap = shape_gaps(triples[of], middles)
-        fallen, risen = places[of] - _distances(chords[of], middles), _sags(pulls[of], middles) - most_sag[of]
+        fallen, risen = places[of] - _distances(chords[of], middles), sags_of(pulls[of], middles) - most_sag[of]
         change = np.concatenate([fallen, risen], axis=1)
         needed, at_least = 0.5 * change.max(axis=1), 0.5 * (change - slack[of] * half).max(axis=1)
         most = min(most, float(needed[gap <= 0.0].min(initial=most)))
@@ -137,7 +137,7 @@ def _distances(chords: Floats, bends: Floats) -> Floats:
     return distances
 
 
-def _pulls(chords: Floats) -> Floats:
+def sag_pulls(chords: Floats) -> Floats:
     """u and v (N, 4, 2) of the sags of handles 0, 1, 2, of 1, 2, 3, of 0, 1, 3 and of 0, 2, 3 [m]."""
     first, middle, last = chords.T
     whole, none = chords.sum(axis=1), np.zeros(len(chords))
@@ -150,7 +150,7 @@ def _pulls(chords: Floats) -> Floats:
     return np.moveaxis(np.array(pulls), -1, 0)
 
 
-def _sags(pulls: Floats, bends: Floats) -> Floats:
+def sags_of(pulls: Floats, bends: Floats) -> Floats:
     """The four sags (N, 4) of shapes (N, 2) [m]."""
     turned = np.exp(1j * bends)[:, None] - 1.0
     sags: Floats = np.abs(pulls[..., 0] * turned[..., 0] - pulls[..., 1] * turned[..., 1])
@@ -188,7 +188,7 @@ def touching_pose(triple: Floats, places: Floats) -> Floats | None:
     best, way, least = tried[0], aim, math.inf
     for _ in range(ROUNDS):
         tried = tried[_overlapping(triple, tried[:, :2])]
-        radii, centres = _smallest_circles(nominal - _laid(triple[:, 0], tried, way))
+        radii, centres = smallest_circles(nominal - _laid(triple[:, 0], tried, way))
         at = int(radii.argmin()) if len(radii) else -1
         if at >= 0 and radii[at] < least:
             best, least, centre = tried[at], float(radii[at]), centres[at]
@@ -213,7 +213,7 @@ def _laid(chords: Floats, shapes: Floats, way: float) -> NDArray[np.complex128]:
     return laid
 
 
-def _smallest_circles(points: NDArray[np.complex128]) -> tuple[Floats, NDArray[np.complex128]]:
+def smallest_circles(points: NDArray[np.complex128]) -> tuple[Floats, NDArray[np.complex128]]:
     """Radii (N,) and centres (N,) of the smallest circles around four points (N, 4)."""
     radii, centres = [], []
     for three in combinations(range(4), 3):

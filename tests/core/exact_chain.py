@@ -1,4 +1,4 @@
-"""Chains and gaps to 50 digits: a second solution of the kernels' model that shares no code with core.
+"""Chains and gaps to 50 digits: a second solution of the kernels' model, which shares only names of columns with core.
 
 The doubles of a dragon, a spiral's growth and the table of a route are taken as exact, all else is python-flint's ball
 arithmetic at 200 bits, of which the rounding of this file itself takes a few. Next handles are found by bisection in
@@ -15,6 +15,8 @@ import flint
 import numpy as np
 from flint import arb
 from numpy.typing import NDArray
+
+from core.kernels import constants as c
 
 BITS = 200
 # The first crest of a chord's length is looked for in steps of delta as wide as this [rad].
@@ -103,23 +105,26 @@ class ExactRoute:
     def __init__(self, table: Floats) -> None:
         flint.ctx.prec = BITS
         self.rows = table.tolist()
-        self.ends = [row[2] for row in self.rows]
+        self.ends = [row[c.S_END] for row in self.rows]
 
     def point(self, s: arb) -> tuple[Point, Point]:
         """Point [m] and unit tangent at arc length s."""
         row = self.rows[min(bisect_left(self.ends, float(s)), len(self.rows) - 1)]
-        u = s - row[1]
-        if row[0] == 0.0:
-            return (row[5] + u * row[7], row[6] + u * row[8]), (arb(row[7]), arb(row[8]))
-        if row[0] == 1.0:
-            angle = row[8] + row[9] * u / row[7]
+        u = s - row[c.S_START]
+        if row[c.PIECE_KIND] == c.LINE:
+            dx, dy = arb(row[c.LINE_DX]), arb(row[c.LINE_DY])
+            return (row[c.LINE_X] + u * dx, row[c.LINE_Y] + u * dy), (dx, dy)
+        sign = row[c.SIGN]
+        if row[c.PIECE_KIND] == c.ARC:
+            radius, angle = row[c.ARC_RADIUS], row[c.ARC_ANGLE] + sign * u / row[c.ARC_RADIUS]
             cos, sin = angle.cos(), angle.sin()
-            return (row[5] + row[7] * cos, row[6] + row[7] * sin), (-row[9] * sin, row[9] * cos)
-        if row[0] == 2.0:
-            theta = self._theta((row[10] + row[9] * u) / row[7])
-            cos, sin = (theta + row[8]).cos(), (theta + row[8]).sin()
-            radius, scale = row[7] * theta, row[9] / (1 + theta * theta).sqrt()
-            return (row[5] + radius * cos, row[6] + radius * sin), (
+            return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (-sign * sin, sign * cos)
+        if row[c.PIECE_KIND] == c.SPIRAL:
+            theta = self._theta((row[c.COIL_ARC] + sign * u) / row[c.COIL_GROWTH])
+            angle = theta + row[c.COIL_ROTATION]
+            cos, sin = angle.cos(), angle.sin()
+            radius, scale = row[c.COIL_GROWTH] * theta, sign / (1 + theta * theta).sqrt()
+            return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (
                 scale * (cos - theta * sin),
                 scale * (sin + theta * cos),
             )
@@ -134,7 +139,7 @@ class ExactRoute:
 
     @staticmethod
     def _cubic(row: list[float], u: arb) -> tuple[Point, Point]:
-        x, y, end = row[5:9], row[9:13], row[13]
+        x, y, end = row[c.X0 : c.X3 + 1], row[c.Y0 : c.Y3 + 1], row[c.T_END]
 
         def slope(t: arb) -> Point:
             return x[1] + t * (2 * x[2] + 3 * t * x[3]), y[1] + t * (2 * y[2] + 3 * t * y[3])
@@ -143,7 +148,7 @@ class ExactRoute:
             dx, dy = slope(t)
             return (dx * dx + dy * dy).sqrt()
 
-        t = arb(float(u) / (row[2] - row[1]) * end)
+        t = arb(float(u) / (row[c.S_END] - row[c.S_START]) * end)
         for _ in range(ROUTE_STEPS - 2):
             arc = t * sum(weight * sum(speed(knot * t) for knot in knots) for weight, knots in QUADRATURE)
             t = middle(t - (arc - u) / speed(t))

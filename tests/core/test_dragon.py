@@ -118,7 +118,7 @@ def test_a_uniform_dragon_equals_the_same_one_bench_by_bench(
 
 @given(st.lists(st.tuples(st.sampled_from([1.0, 2.0]), st.sampled_from([0.1, 0.2])), min_size=1, max_size=12))
 def test_all_benches_from_uniform_from_on_are_alike_and_the_one_before_differs(rows: list[tuple[float, float]]) -> None:
-    dragon = Dragon.of([row[0] for row in rows], [row[1] for row in rows], [0.1] * len(rows))
+    dragon = Dragon.of([length for length, _ in rows], [width for _, width in rows], [0.1] * len(rows))
     alike = dragon.uniform_from
     assert set(rows[alike:]) == {rows[-1]}
     assert alike == 0 or rows[alike - 1] != rows[-1]

@@ -26,7 +26,7 @@ from core import (
     Waypoints,
 )
 from core.errors import BenchDragonError
-from core.shown import UNITS, Shown
+from core.shown import Shown, units_of
 
 # A line of a console and a half: nothing public is longer [characters].
 LINE_MOST = 220
@@ -141,9 +141,8 @@ def test_the_types_of_public_fields_are_public(kind: type) -> None:
 
 @pytest.mark.parametrize("kind", [kind for kind in public() if is_dataclass(kind)], ids=lambda kind: kind.__name__)
 def test_every_number_of_a_public_result_has_its_unit(kind: type) -> None:
-    own: dict[str, str] = getattr(kind, "_units", {})
     floats = {name for name, hint in hints(kind).items() if {float, np.float64} & set(inside(hint))}
-    assert floats - {*UNITS, *own} == set()
+    assert floats - units_of(kind).keys() == set()
 
 
 def test_a_repr_is_one_short_line(values: list[Any]) -> None:

@@ -10,10 +10,10 @@ import pytest
 
 from app.files.tables import Language
 from app.grade import words
-from app.grade.diagnosis import _speeds
+from app.grade.diagnosis import speed_errors
 from app.grade.expected import Workbook, dance_of
 from app.grade.geometry import geometries, of_dance
-from app.grade.shortcuts import UNITS, _shortcuts
+from app.grade.shortcuts import UNITS, shortcuts
 
 GRADE = Path(words.__file__).parent
 # Names that stand in calls, as in note("empty").
@@ -28,8 +28,8 @@ def test_every_known_error_has_words(language: Language) -> None:
         for workbook, head in heads.items()
         for model in geometries(dance_of(workbook), np.zeros(1), np.array(head))
     ]
-    known += [(model.error, model.values) for model in _speeds(of_dance(dance_of(Workbook.RESULT1)))]
-    known += [(one.error, one.values) for name in UNITS for one in _shortcuts(name)]
+    known += [(model.error, model.values) for model in speed_errors(of_dance(dance_of(Workbook.RESULT1)))]
+    known += [(one.error, one.values) for name in UNITS for one in shortcuts(name)]
     assert {"equal_arcs_of_turn", "other_start", "central_difference", "time_steps"} <= {error for error, _ in known}
     for error, values in known:
         told = words.say(f"error_{error}", language, **values)

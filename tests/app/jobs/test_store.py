@@ -7,6 +7,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from threading import Timer
 
 import orjson
 import pytest
@@ -182,19 +183,12 @@ def test_jobs_of_the_layout_before_are_taken_over(tmp_path: Path) -> None:
         store.close()
 
 
-def test_a_store_is_opened_again_while_another_process_recovers_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    busy = sqlite3.OperationalError("database is locked")
-    busy.sqlite_errorcode = sqlite3.SQLITE_BUSY_RECOVERY
-    prepare, refusals = Store._prepare, [busy, busy]
-
-    def prepared(self: Store) -> None:
-        if refusals:
-            raise refusals.pop()
-        prepare(self)
-
-    monkeypatch.setattr(Store, "_prepare", prepared)
-    with closing(Store(tmp_path)) as store:
-        assert store.all() == []
-    assert refusals == []
+def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path: Path) -> None:
+    """SQLite refuses at once to change the mode of a database while another connection writes."""
+    with closing(sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None, check_same_thread=False)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        made = Timer(0.2, other.commit)
+        made.start()
+        with closing(Store(tmp_path)) as store:
+            assert store.all() == []
+        made.join()

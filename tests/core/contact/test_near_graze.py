@@ -14,6 +14,7 @@ from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_c
 from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, gap_along, narrowed
 from core.contact.near_graze import separation as precise_separation
 from core.contact.search import Search
+from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12
@@ -44,8 +45,9 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
         distance = precise_separation(*benches)[0]
     model.search.clearance(travel)
     rows, sizes = model.search.rows[0, list(pair)], model.search.sizes[list(pair)]
-    poses = np.column_stack([rows[:, 6:8], np.arctan2(rows[:, 9], rows[:, 8])])
-    found = separation(poses[0], 2.0 * sizes[0, 1:3], poses[1], 2.0 * sizes[1, 1:3]).separation
+    poses = np.column_stack([rows[:, [MX, MY]], np.arctan2(rows[:, UY], rows[:, UX])])
+    size = 2.0 * sizes[:, [HALF_LENGTH, HALF_WIDTH]]
+    found = separation(poses[0], size[0], poses[1], size[1]).separation
     assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
 
 

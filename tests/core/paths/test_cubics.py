@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from core import InvalidValue, Route, Waypoints, kernels
+from core import InvalidValue, Route, Waypoints
+from core.kernels.constants import CREST, K_END, K_SLOPE, K_START, PIECE_KIND, S_END, S_START
 from core.paths import cubics
 
 ARC_ERROR = 1e-10  # [m]
@@ -21,7 +22,6 @@ ARC_ERROR = 1e-10  # [m]
 CURVATURE_ERROR = 1e-9
 SHARPEST = 40.0  # [1/m]
 
-CREST = kernels.PIECE_KINDS.index("crest")
 Points = tuple[tuple[float, float], ...]
 
 
@@ -65,20 +65,21 @@ def assert_bounded(route: Route) -> None:
     """Between its two bounds on every row, and monotonic where they are said to be ends."""
     checked = 0
     for row in route.table:
-        places = np.linspace(row[1], row[2], 34)[1:]
+        places = np.linspace(row[S_START], row[S_END], 34)[1:]
         bends = route.curvature(places)
         error = CURVATURE_ERROR * (1.0 + np.abs(bends).max())
-        if np.abs(row[3:5]).max() > SHARPEST:
+        low, high = sorted((row[K_START], row[K_END]))
+        if max(-low, high) > SHARPEST:
             continue
         checked += 1
-        assert min(row[3:5]) - error <= bends.min() <= bends.max() <= max(row[3:5]) + error
-        assert (np.abs(np.diff(bends)) <= row[14] * np.diff(places) + 2.0 * error).all()
-        if row[0] != CREST:
-            assert bends[-1] == pytest.approx(row[4], rel=0, abs=error)
-            assert (np.diff(bends) * math.copysign(1.0, row[4] - row[3]) >= -error).all()
+        assert low - error <= bends.min() <= bends.max() <= high + error
+        assert (np.abs(np.diff(bends)) <= row[K_SLOPE] * np.diff(places) + 2.0 * error).all()
+        if row[PIECE_KIND] != CREST:
+            assert bends[-1] == pytest.approx(row[K_END], rel=0, abs=error)
+            assert (np.diff(bends) * math.copysign(1.0, row[K_END] - row[K_START]) >= -error).all()
         else:
-            ends = route.curvature(np.array([row[1] + 1e-12, row[2]]))
-            excess = max(max(row[3:5]) - ends.max(), ends.min() - min(row[3:5]))
+            ends = route.curvature(np.array([row[S_START] + 1e-12, row[S_END]]))
+            excess = max(high - ends.max(), ends.min() - low)
             assert excess <= cubics.CREST_EXCESS * max(1.0, np.abs(ends).max()) + error
     assert checked
 
@@ -97,7 +98,7 @@ def test_the_curvature_of_every_cubic_lies_between_its_bounds(steps: list[tuple[
 
 def test_a_zigzag_has_crests_and_they_are_bounded() -> None:
     route = Route([Waypoints(zigzag(8), start_heading=0.0, end_heading=1.0)])
-    assert (route.table[:, 0] == CREST).any()
+    assert (route.table[:, PIECE_KIND] == CREST).any()
     assert_bounded(route)
 
 
@@ -108,10 +109,10 @@ def test_places_in_any_order_are_found_on_their_pieces() -> None:
     assert (route.position(s)[in_order] == route.position(s[in_order])).all()
     assert (route.position(s[:50]) == [route.position(one) for one in s[:50]]).all()
     # a joint belongs to the piece behind it
-    joints = np.concatenate([route.table[:, 2], route.table[::-1, 2]])
-    behind = route.table[np.searchsorted(route.table[:-1, 2], joints)]
-    known = behind[:, 0] != CREST
-    assert np.abs(route.curvature(joints) - behind[:, 4])[known].max() < CURVATURE_ERROR
+    joints = np.concatenate([route.table[:, S_END], route.table[::-1, S_END]])
+    behind = route.table[np.searchsorted(route.table[:-1, S_END], joints)]
+    known = behind[:, PIECE_KIND] != CREST
+    assert np.abs(route.curvature(joints) - behind[:, K_END])[known].max() < CURVATURE_ERROR
 
 
 STOPPING: dict[str, Points] = {
@@ -140,7 +141,7 @@ def test_a_curve_that_comes_to_rest_is_refused(points: Points) -> None:
 def test_points_far_apart_and_close_together_make_a_finite_path(points: Points) -> None:
     table = Route([Waypoints(points)]).table
     assert np.isfinite(table).all()
-    assert (table[:, 2] > table[:, 1]).all()
+    assert (table[:, S_END] > table[:, S_START]).all()
     assert len(table) <= 30 * len(points)
 
 

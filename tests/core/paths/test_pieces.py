@@ -15,7 +15,7 @@ from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 
 from core import Arc, Coil, InvalidValue, Line, Piece, Route, Waypoints
-from core.kernels.constants import K_SLOPE
+from core.kernels.constants import K_SLOPE, S_START
 from tests.core.paths.test_route import Pen, legs
 
 ARC_ERROR = 1e-10  # [m]: arc length of curves through waypoints
@@ -131,7 +131,7 @@ def test_the_curve_passes_through_its_waypoints_without_a_jump_of_curvature() ->
     spline, knots = spline_of(POINTS)
     at_knots = [arc_of(spline, knots, t) for t in knots[1:-1]]
     assert np.abs(route.position(np.array(at_knots)) - POINTS[1:-1]).max() < ARC_ERROR
-    inner = np.array([*at_knots, *route.table[1:, 1]])
+    inner = np.array([*at_knots, *route.table[1:, S_START]])
     step = 1e-7
     assert np.abs(route.curvature(inner + step) - route.curvature(inner - step)).max() < 1e-6  # slope below 5 / m^2
     assert np.abs(route.curvature(np.array([route.begin, route.end]))).max() < 1e-9  # natural ends

@@ -9,7 +9,7 @@ import pytest
 
 from core import Arc, Budget, Dance, Dragon, Line, Route, Spiral, bench_outlines, trajectory
 from core.paths.following import follows
-from core.tolerance.between import _pulls, _sags, _smallest_circles, held_apart, touching_pose
+from core.tolerance.between import held_apart, sag_pulls, sags_of, smallest_circles, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats
 from tests.depth import examples
@@ -86,7 +86,7 @@ def test_sags_are_those_of_the_handles() -> None:
     for column, (i, j, k) in enumerate([(0, 1, 2), (1, 2, 3), (0, 1, 3), (0, 2, 3)]):
         part = (along[:, j] - along[:, i]) / (along[:, k] - along[:, i])
         sag = np.abs(handles[:, j] - (1.0 - part) * handles[:, i] - part * handles[:, k])
-        assert _sags(_pulls(chords), bends)[:, column] == pytest.approx(sag, abs=1e-12)
+        assert sags_of(sag_pulls(chords), bends)[:, column] == pytest.approx(sag, abs=1e-12)
 
 
 def overlapping(a: Floats, b: Floats) -> Floats:
@@ -167,7 +167,7 @@ def test_dragons_of_too_many_sizes_get_no_bound() -> None:
 
 def test_the_smallest_circle_holds_all_four_and_three_or_two_on_its_edge() -> None:
     points = np.random.default_rng(0).normal(size=(500, 4, 2)) @ [1.0, 1j]
-    radii, centres = _smallest_circles(points)
+    radii, centres = smallest_circles(points)
     far = np.sort(np.abs(points - centres[:, None]), axis=1)
     assert np.abs(far[:, -1] - radii).max() < 1e-9
     assert np.abs(far[:, -2] - radii).max() < 1e-9
