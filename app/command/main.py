@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import Annotated, Any
 
 import typer
+from rich.markup import escape
 from typer.core import TyperGroup
 
 import core
@@ -93,6 +94,10 @@ class _Commands(TyperGroup):
             asked = alone
         command = typer.main.get_command(asked)
         command.name = cmd_name
+        for one in (command, *getattr(command, "commands", {}).values()):
+            one.help = escape(one.help or "")  # A unit such as [m] is no style of rich.
+            for parameter in one.params:
+                parameter.help = escape(parameter.help or "")
         return command
 
     def invoke(self, ctx: Any) -> Any:

@@ -12,7 +12,6 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 import typer
 from pydantic import BaseModel
-from rich.markup import escape
 
 from app.files.disk import object_words, read_dance
 from app.wire.dances import TimeRange
@@ -120,7 +119,7 @@ def asks(
                 name,
                 inspect.Parameter.KEYWORD_ONLY,
                 default=field.default,
-                annotation=Annotated[_plain(field.annotation), typer.Option(help=escape(field.description or ""))],
+                annotation=Annotated[_plain(field.annotation), typer.Option(help=field.description)],
             )
             for name, field in model.model_fields.items()
         ]

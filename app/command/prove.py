@@ -115,7 +115,7 @@ def _terms(asked: CollisionClaim | PitchClaim | ClearClaim, progress: Callable[[
     return {"margin": asked.margin, "every_pair": asked.every_pair, "progress": progress}
 
 
-prove = typer.Typer()
+prove = typer.Typer(add_completion=False)
 
 
 @prove.callback(invoke_without_command=True)

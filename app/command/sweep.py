@@ -27,7 +27,8 @@ INTERRUPTED = 130
 Folder = Annotated[Path, typer.Argument(parser=path, help="Folder of the sweep.")]
 
 sweep = typer.Typer(
-    help="One question for many values of its parameters: up to 10^8 designs in a folder, which a later run continues."
+    help="One question for many values of its parameters: up to 10^8 designs in a folder, which a later run continues.",
+    add_completion=False,
 )
 
 

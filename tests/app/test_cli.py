@@ -25,8 +25,10 @@ from typing import Any
 import httpx
 import openpyxl
 import pytest
+import typer
 
 import core
+from app.command.main import app
 from app.service.workers import SILENT_SECONDS, START_SECONDS
 from app.settings import Settings
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
@@ -56,6 +58,16 @@ def answer_of(*arguments: str, **keywords: Any) -> str:
     return done.stdout
 
 
+def helps() -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Every command that has a help, by its words."""
+    group: Any = typer.main.get_command(app)
+    for name in group.list_commands(None):
+        command = group.get_command(None, name)
+        yield (name,), command
+        yield from (((name, inner), one) for inner, one in getattr(command, "commands", {}).items())
+
+
+HELPS = dict(helps())
 # One run for all tests that ask the same.
 shown = cache(answer_of)
 
@@ -580,6 +592,13 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: st
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize("words", HELPS, ids=" ".join)
+def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> None:
+    text = " ".join(answer_of(*words, "--help", COLUMNS="1000").split())
+    told = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]
+    assert [one for one in told if " ".join(one.split()) not in text] == []
+
+
 def test_help_names_every_command_and_unit() -> None:
     text = answer_of("--help", COLUMNS="100")
     for name in ("trajectory", "collision-time", "minimum-pitch", "overlaps", "figures", "paper", "serve"):
@@ -600,7 +619,7 @@ def test_the_shell_completes_commands_and_options() -> None:
 
 def test_completion_is_offered_once_and_not_by_each_command() -> None:
     assert answer_of("--help", COLUMNS="100").count("--install-completion") == 1
-    assert "completion" not in answer_of("collision-time", "--help", COLUMNS="100")
+    assert all("completion" not in answer_of(*words, "--help", COLUMNS="100") for words in HELPS)
 
 
 @pytest.mark.parametrize(
