@@ -13,7 +13,7 @@ from app.command import show
 from app.command.options import asks, of_file, unused
 from app.command.usage import path
 from app.extras import require
-from app.files.disk import checked_output, write_whole
+from app.files.disk import DANCE_ENDINGS, checked_output, write_whole
 from app.questions import figures as drawn
 from app.questions.figures import Format
 from app.wire.question import Terms
@@ -36,13 +36,25 @@ class Kind(StrEnum):
 ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PITCH_SCAN: drawn.PITCH_SCAN}
 
 
+def _is_dance(place: Path) -> bool:
+    """Whether a place is that of a dance, not a folder that exists or is to be created."""
+    return not place.is_dir() and (place.exists() or place.suffix.lower() in DANCE_ENDINGS or str(place) == "-")
+
+
 @asks(FigureOptions)
 def figures(
     asked: FigureOptions,
     context: typer.Context,
-    folder: Annotated[Path, typer.Argument(parser=path, help="Folder for the files; created if missing.")] = Path(),
     file: Annotated[
-        Path | None, typer.Argument(help="Dance as a .toml or .json file, as for check: any dragon, path and venue.")
+        Path | None,
+        typer.Argument(parser=path, help="Dance as a .toml or .json file, as for check: any dragon, path and venue."),
+    ] = None,
+    folder: Annotated[
+        Path | None,
+        typer.Argument(
+            parser=path,
+            help="Folder for the files, created if missing; alone or before FILE too. Default: this folder.",
+        ),
     ] = None,
     kind: Annotated[
         list[Kind] | None,
@@ -52,8 +64,11 @@ def figures(
 ) -> None:
     """The paper's figures 6, 7 and 8 from live numbers, as files."""
     require("figures", "format", "A figure")
+    if file and not _is_dance(file):
+        file, folder = folder, file
+    folder = folder or Path()
     if folder.is_file():
-        raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}: give both, as in: . {folder}")
+        raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}")
     kinds = kind or list(Kind)[: 2 if file else None]
     used = {name for one in kinds for name in (ASKED[one].flat or FigureOptions).model_fields}
     why = f"does not apply to the figure {' or '.join(kinds)}: leave it out, or draw another --kind too"

@@ -16,7 +16,7 @@ from app.wire.messages import ALIKE_SLIP, message
 Misuse: Any = typer.BadParameter.__base__
 # The value that stands in quotes at the beginning of the parser's message.
 QUOTED = re.compile(r"""('.*'|".*"|\S+) is not """, re.DOTALL)
-EMPTY = "must be the name of a folder, got an empty name: the current folder is ."
+EMPTY = "must not be an empty name: the current folder is ."
 
 
 def told(error: Any) -> str:

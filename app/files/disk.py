@@ -10,6 +10,7 @@ import tempfile
 import tomllib
 from collections.abc import Sequence
 from datetime import time
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -88,10 +89,16 @@ def _refused(number: int | None, file: Path) -> OSError:
     return OSError(number, os.strerror(number or errno.EIO), str(file))
 
 
+@cache
+def _standard_input() -> bytes:
+    """All of standard input, also for the second of two figures of its dance."""
+    return sys.stdin.buffer.read()
+
+
 def read_json(file: Path) -> dict[str, Any]:
     """The JSON object in a file, or on standard input for -. raises: InvalidValue, OSError"""
     try:
-        found = orjson.loads(sys.stdin.buffer.read() if str(file) == "-" else file.read_bytes())
+        found = orjson.loads(_standard_input() if str(file) == "-" else file.read_bytes())
     except orjson.JSONDecodeError as error:
         raise InvalidValue("file", f"{file} is not JSON: {error}") from error
     if not isinstance(found, dict):

@@ -207,8 +207,8 @@ def test_wrong_values_get_one_line_on_standard_error_and_exit_code_2(line: str, 
 def test_an_empty_name_is_not_the_current_folder(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     done = run(*line.split(), "")
-    name = "--output" if "--output" in line else "FOLDER"
-    words = f"Error: {name} must be the name of a folder, got an empty name: the current folder is .\n"
+    name = "--output" if "--output" in line else "FILE" if line == "figures" else "FOLDER"
+    words = f"Error: {name} must not be an empty name: the current folder is .\n"
     assert (done.returncode, done.stdout, done.stderr) == (2, "", words)
     assert list(tmp_path.iterdir()) == []
 

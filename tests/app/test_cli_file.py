@@ -73,14 +73,25 @@ def test_a_file_is_asked_as_a_body_is(
     assert json.loads(done.stdout) == client.post(f"/{call}", json=BODY | more).raise_for_status().json()
 
 
-def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client: httpx.Client, file: str, tmp_path: Path) -> None:
-    done = run("figures", str(tmp_path / "drawn"), file, "--time", "12", "--format", "svg")
+@pytest.mark.parametrize(
+    ("places", "where"),
+    [(["FILE"], ""), (["FILE", "drawn"], "drawn"), (["drawn", "FILE"], "drawn"), (["-"], ""), (["-", "."], "")],
+    ids=" ".join,
+)
+def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
+    client: httpx.Client, file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, places: list[str], where: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    named = [file if place == "FILE" else place for place in places]
+    told = BODY | {"venue": YARD}
+    done = run(
+        "figures", *named, "--time", "12", "--format", "svg", text=json.dumps(told | {"margin": 0.2, "start": 20})
+    )
     assert done.returncode == 0, done.stderr
-    assert sorted(path.name for path in (tmp_path / "drawn").iterdir()) == ["contact.svg", "trajectory.svg"]
-    placed = BODY | {"venue": YARD}
+    assert sorted(path.name for path in (tmp_path / where).glob("*.svg")) == ["contact.svg", "trajectory.svg"]
     for name, more in (("trajectory", {"time": 12}), ("contact", {"margin": 0.2, "start": 20})):
-        answer = client.post(f"/figures/{name}.svg", json=placed | more).raise_for_status()
-        assert (tmp_path / "drawn" / f"{name}.svg").read_bytes() == answer.content
+        answer = client.post(f"/figures/{name}.svg", json=told | more).raise_for_status()
+        assert (tmp_path / where / f"{name}.svg").read_bytes() == answer.content
 
 
 @pytest.mark.parametrize(
@@ -90,9 +101,12 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(client: httpx.Cli
         (["trajectory", "FILE", "--head-speed", "1"], "--head-speed cannot be combined with FILE, which describes"),
         (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times replaces --stop"),
         (["clearance", "FILE", "--stop", "1e5"], "stop must be at most"),
-        (["figures", "FILE"], "FOLDER must be a folder, got the file"),
+        (["figures", "FILE", "FILE"], "FOLDER must be a folder, got the file"),
+        (["figures", "FOLDER", "README.md"], "README.md must end in .toml or .json, got .md"),
+        (["figures", "README.md"], "README.md must end in .toml or .json, got .md"),
+        (["figures", "nothing.toml"], "nothing.toml: No such file or directory"),
         (
-            ["figures", "FOLDER", "FILE", "--samples", "3"],
+            ["figures", "FILE", "FOLDER", "--samples", "3"],
             "--samples does not apply to the figure trajectory or contact",
         ),
         (["collision-time", "nothing.toml"], "nothing.toml: No such file or directory"),
