@@ -42,9 +42,9 @@ def _variable(name: str) -> str:
 
 
 def unknown_variables() -> list[str]:
-    """What to say of each BENCH_DRAGON_* environment variable that is no setting, such as a misspelt one.
+    """A message for each BENCH_DRAGON_* environment variable that is no setting, such as a misspelt one.
 
-    They are no errors: Kubernetes gives a program variables that begin with the name of its service.
+    Such a variable is no error: Kubernetes gives a program variables that begin with the name of its service.
     """
     known = [_variable(name) for name in Settings.model_fields]
     said = []

@@ -36,7 +36,7 @@ def told(error: Any) -> str:
 
 
 def path(text: str | Path) -> Path:
-    """A place that is named; an empty name, such as that of a variable without a value, is not the current folder."""
+    """The place with that name; an empty one, as from an unset variable, is refused: it would be the current folder."""
     if not str(text):
         raise ValueError
     return Path(text)

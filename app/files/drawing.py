@@ -65,7 +65,7 @@ def draw_venue(axes: Axes, venue: Venue | None) -> None:
 
 
 def with_square(venue: Venue | None, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """The corners (2,) [m] of what is drawn of a dance in its square: all of the square, unless that is much larger."""
+    """Corners (2,) [m] of the drawn part: dance and square, or only the dance if the square is much larger."""
     if venue is None:
         return low, high
     square = np.array(venue.square.rings[0])

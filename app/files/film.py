@@ -133,7 +133,7 @@ class Stage:
         self.still = self.canvas.copy_from_bbox(figure.bbox)
 
     def _look(self, low: Floats, high: Floats, shooting: Shooting) -> None:
-        """Show all between two corners, in a scale that is equal in x and y and fills the frame."""
+        """Show everything between two corners, at one scale for x and y that fills the frame."""
         middle, half = 0.5 * (low + high), 0.5 * (1.0 + 2.0 * AROUND) * (high - low) + 1.0
         shape = shooting.width / shooting.height
         tall = max(float(half[1]), float(half[0]) / shape)

@@ -60,7 +60,7 @@ def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[st
 
 
 def own_names(result: Trajectory, language: Language = Language.ENGLISH) -> list[str]:
-    """handle_names(), but a bench with a name of its own gives that one."""
+    """Name of every handle: the name that its bench was given, else that of handle_names()."""
     names = handle_names(result.speed.shape[-1] - 1, language)
     own = result.dance.dragon.names if result.dance else ()
     rear = "（后）" if language is Language.CHINESE else " (rear)"

@@ -1,7 +1,7 @@
 """Chains of handles computed with known errors, to compare with a student's numbers.
 
-The right dance comes from `core`. Here are wrong ones: handles one arc apart instead of one chord, angles rounded in
-between, and turns whose arcs do not meet the spiral tangentially, which `core` refuses as paths.
+The right dance comes from `core`. This module computes wrong ones: handles one arc apart instead of one chord,
+angles rounded in between, and turns whose arcs do not meet the spiral tangentially, which `core` refuses as paths.
 """
 
 from __future__ import annotations

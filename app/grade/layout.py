@@ -285,7 +285,7 @@ def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     if not numeric:
         return None
-    # The only numbers above those of the handles may be times.
+    # A line of numbers above those of the handles can only hold times.
     first = next((k for k in numeric[:2] if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
     if first is None:
         return None

@@ -23,7 +23,7 @@ from core import Spiral, Turn
 from core.paths.path import Path
 from core.values import Floats
 
-# Share of the links to wrong handles that must have their length: where rows were only exchanged they have not [1].
+# Least share of the links to wrong handles with the right length [1]: exchanged rows give links of wrong lengths.
 RING_SHARE = 0.995
 # Tolerance for a handle on the path, and for the length of a chord [m].
 ON_PATH = 1e-4

@@ -22,14 +22,14 @@ class Mouth:
         self.begin()
 
     def begin(self) -> None:
-        """A new job: a message about its progress is due at once."""
+        """Begin a job, whose first message about progress is due at once."""
         self._latest = 0.0
 
     def say(self, **words: Any) -> None:
         self._line.write(orjson.dumps(words) + b"\n")
 
     def is_due(self) -> bool:
-        """True if it is time for a message about progress; then the next one is due a while later."""
+        """True if a message about progress is due; the next one is then due PROGRESS_SECONDS later."""
         due = time.monotonic() - self._latest >= PROGRESS_SECONDS
         if due:
             self._latest = time.monotonic()

@@ -1,4 +1,4 @@
-"""Room kept on the disk, so that jobs can be dismissed and removed when it is full: SQLite writes ahead even then."""
+"""Reserve of room on the disk: SQLite writes its log before it removes a job, also when the disk is full."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RESERVED, PIECE = 1 << 18, 1 << 12
 
 
 class Reserve:
-    """A file without meaning, which goes when a change needs its room and comes back afterwards."""
+    """A file of random bytes, which is removed when a change needs its room and written again afterwards."""
 
     def __init__(self, file: Path) -> None:
         self.file = file
@@ -30,7 +30,7 @@ class Reserve:
             self._fill()
 
     def _fill(self) -> None:
-        """Take as much of the reserve as the disk has; the rest another time."""
+        """Write as much of the file as fits on the disk; the next call writes the rest."""
         with suppress(OSError), self.file.open("ab", buffering=0) as file:
             while file.tell() < RESERVED:
                 file.write(os.urandom(PIECE))  # Zeros would take no room on a disk that compresses.

@@ -188,7 +188,7 @@ class Runner:
         if word.said is None:
             self._bury(work)
             return
-        assert job is not None  # A process without a job says nothing.
+        assert job is not None  # A process without a job sends no message.
         match word.said:
             case {"share": float(share), "rate": rate, "done": int(done), "total": int(total), "size": int(size)}:
                 self.store.proceed(job, share, rate, done=done, total=total, size=size)
@@ -204,7 +204,7 @@ class Runner:
                 self._release(work, job, again)
 
     def _release(self, work: Work, job: str, again: bool) -> None:
-        """The process has done its job: it waits for the next one, or ends."""
+        """Let a process that has done its job wait for the next one, or end it."""
         if again and not work.over:
             del self.works[job]
             work.job = None
@@ -213,7 +213,7 @@ class Runner:
             work.end()
 
     def _bury(self, work: Work) -> None:
-        """The process has ended."""
+        """Forget a process that has ended; its unfinished job is tried again, or fails."""
         if work.job is not None:
             if not work.over:
                 self.store.die(work.job, died(work.process.returncode))
@@ -261,7 +261,7 @@ def main() -> None:
     follow_input()
     lock = FolderLock(folder, "runner")
     if not lock.take(LOCK_SECONDS):
-        raise SystemExit(f"Another runner does not let go of {folder}")
+        raise SystemExit(f"Another runner still holds {folder}")
     Runner(Store(folder), settings).run()
 
 

@@ -72,7 +72,7 @@ class Store:
         for inner in (self.results, self.sweeps):
             inner.mkdir(mode=0o700, exist_ok=True)
         file = self.folder / "jobs.sqlite"
-        file.touch(mode=0o600)  # Other users must not read the names of jobs, which open their results.
+        file.touch(mode=0o600)  # Other users must not read the names of jobs, which give access to the results.
         self._reserve = Reserve(self.folder / "reserve")
         self._lock = Lock()
         self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)

@@ -113,12 +113,12 @@ def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> dict[str, ob
 
 
 def jobs() -> Iterator[str]:
-    """Ids of the jobs from standard input, whose end ends this process and its children, also during a job."""
+    """Job ids from standard input. When it ends, this process and its children end, also during a job."""
     asked: SimpleQueue[str] = SimpleQueue()
 
     def read() -> None:
-        # Without the lock of a file object, which would be missed at the end of the process. Each read is one line,
-        # because the next job is given after the answer to the last.
+        # Not sys.stdin, because Python cannot end while a thread holds the lock of a file object. Each read is one
+        # line, because the next job is given after the answer to the last.
         while line := os.read(sys.stdin.fileno(), 1024):
             asked.put(line.decode().strip())
         end_group()

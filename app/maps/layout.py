@@ -27,14 +27,14 @@ from core.values import Floats
 
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
-# So many things of which something was assumed are named.
+# Largest number of things that a note names; a list of more ends in dots.
 NAMED = 5
 # Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
 # A map narrower than this is in degrees, if its numbers allow it: 22 km in degrees, only 0.2 m in metres [degrees].
 DEGREES_ACROSS = 0.2
-# Least distance of two points of a path [m]; and largest distance of a line from its stored path, beyond which somebody
-# has moved the line [m].
+# Least distance of two points of a path [m]; and largest distance of a line from its stored path, beyond which the line
+# was moved [m].
 POINTS_APART, MOVED = 0.05, 0.01
 # Approximate number of points of that line to compare [1].
 TRIED = 200

@@ -207,7 +207,7 @@ def draw_benches(
     shares = ((np.arange(8) + 0.5) / 8.0)[None, :, None]
     spots = (shares * corners[:, 0:1] + (1.0 - shares) * corners[:, 3:4] - 0.5 * across[:, None]).reshape(-1, 2)
     sheet.take(np.concatenate([spots - 0.4, spots + 0.4], axis=1))
-    # Where not every name has room, head, tail and every tenth bench come first.
+    # The names of the head, the tail and every tenth bench are placed first, because there may not be room for all.
     last = len(names) - 1
     for k in sorted(range(len(names)), key=lambda k: (k not in (0, last), k % 10 != 0, k % 5 != 0, k)):
         size = min(NAME_TYPE, 0.8 * wide[k] / POINT)

@@ -56,7 +56,7 @@ class AreaClearance(Answer):
     """Distance between the benches and the edges of the square or of one obstacle."""
 
     name: str = Field(description="Name of the area")
-    outcome: Outcome = Field(description="Does a bench come nearer than the margin, or touch if it is 0?")
+    outcome: Outcome = Field(description="Whether a bench comes nearer than the margin, or touches if it is 0")
     time: float | None = measure("s", "First such time; null when clear or undecided")
     time_bracket: Point | None = measure("s", "Proven clear until; nearer than the margin, or touching if it is 0, at")
     bench: int | None = Field(description="The first bench nearer than the margin, or touching if it is 0")
@@ -79,7 +79,7 @@ class VenueClearance(Answer):
     """Distances between the benches and the venue."""
 
     misplaced: Misplaced | None = Field(description="The first bench that starts outside the square or in an obstacle")
-    stray: Misplaced | None = Field(description="The same, by the name that it had first")
+    stray: Misplaced | None = Field(description="The same as misplaced, under its first name")
     areas: list[AreaClearance] = Field(description="The square, then the obstacles")
 
     @classmethod

@@ -63,7 +63,7 @@ class CollisionTime(Answer):
     """First time that two benches that share no handle are nearer than the margin, or touch if it is 0."""
 
     outcome: Outcome = Field(
-        description="How the search ended; contact: two benches come nearer than the margin, or touch if it is 0"
+        description="End of the search; contact: two benches come nearer than the margin, or touch if it is 0"
     )
     margin: float = measure("m", "Required clearance; 0: only a touch counts as a contact")
     stray: float | None = TOTAL_STRAY
@@ -84,7 +84,7 @@ class CollisionTime(Answer):
     edge: Feature | None = Field(description="Edge that this corner touches or is nearest to")
     point: Point | None = measure("m", "Position of that corner, x and y")
     end: End | None = Field(description="End of the run, when clear")
-    certificate: Certificate = Field(description="How the answer is known")
+    certificate: Certificate = Field(description="Evidence for the answer")
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines 1e-6 m of travel before and after the contact (for a contact at the "
         "start: at the start and after it). With a stray they judge the pair at its own distance, and shapely the "

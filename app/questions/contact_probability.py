@@ -26,7 +26,7 @@ class Wobbling(Wire):
     """Model of wobbling people, and number of dances to draw."""
 
     lateral: Spread = measure("m", "Standard deviation of where a person wants to stand, across the path", 0.01)
-    forward: Spread = measure("m", "The same along the path", 0.01)
+    forward: Spread = measure("m", "Standard deviation along the path", 0.01)
     correlation_time: Correlation = measure(
         "s",
         "Time after which 1 / e of a person's displacement is left; at two steps a second 5 s are ten steps",
@@ -89,7 +89,7 @@ class ContactProbability(Answer):
     start: float = measure("s", "First instant")
     stop: float = measure("s", "Last instant")
     seed: int = Field(description="Seed of the random numbers")
-    method: str = Field(description="How this is known, in sentences")
+    method: str = Field(description="The model and its evidence, in sentences")
 
     @classmethod
     def of(cls, found: core.ContactProbability) -> Self:

@@ -66,7 +66,7 @@ class Envelope(Answer):
         "m",
         "Least distance of the spectators' line from it, 0 where they meet: no bench comes nearer; null without them",
     )
-    certificate: SweepProof = Field(description="How it is known")
+    certificate: SweepProof = Field(description="Proven bounds of the envelope")
 
     @classmethod
     def of(cls, found: core.Envelope, asked: EnvelopeQuery | EnvelopeRequest) -> Self:

@@ -27,7 +27,7 @@ class FilmFields(Wire):
     stop: Instant | None = measure(
         "s", "Last instant; null: first contact, otherwise the end of the run, at most 1,000 s after the start", None
     )
-    seconds: float = measure("s", "How long the film plays", 20.0, ge=0.1, le=120)
+    seconds: float = measure("s", "Length of the film", 20.0, ge=0.1, le=120)
     rate: int | None = measure("1/s", "Frames a second; null: 30, of a GIF 12", None, ge=1, le=60)
     height: int | None = measure(
         "pixels", "Height of the picture, 16 : 9; null: 1080, of a GIF 360", None, ge=90, le=2160, multiple_of=2

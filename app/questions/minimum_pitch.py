@@ -51,7 +51,7 @@ class MinimumPitch(Answer):
         "m", "Infeasible pitch; feasible pitch; equal if any smaller pitch would begin inside the circle"
     )
     limited_by: core.LimitedBy = Field(
-        description="What happens at a slightly smaller pitch. graze: contact on the way; circle: contact when the "
+        description="Effect of a slightly smaller pitch. graze: contact on the way; circle: contact when the "
         "head is on the circle; start: contact at the start or, if benches is null, a start inside the circle; fold: a "
         "bench cannot follow the head as far as the circle. Contact: nearer than the margin, or a touch if it is 0"
     )
@@ -62,7 +62,7 @@ class MinimumPitch(Answer):
     head_radius: float | None = measure("m", "Distance of the head from the centre at that moment")
     other_feasible_intervals: list[Point] = measure("m", "Intervals of smaller pitches that are feasible too")
     justified_by: str = Field(
-        description="How larger pitches are known to be feasible. bound: proven for all; scan: below proven_from only "
+        description="Evidence that larger pitches are feasible. bound: proven for all; scan: below proven_from only "
         "single pitches are proven, at most scan_step apart, so a narrower infeasible range there is not excluded"
     )
     proven_from: float = measure("m", "Every pitch from this one up is proven feasible; equals pitch without a scan")

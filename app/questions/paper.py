@@ -71,7 +71,7 @@ class PaperNumber(Answer, frozen=True):
     paper: float = Field(description="Value in the paper, in that unit")
     ours: float = Field(description="Value computed here, in that unit")
     difference: float = Field(description="Our value minus the paper's, in that unit")
-    reason: str = Field(description="Why the two differ, as far as computations show")
+    reason: str = Field(description="Reason for the difference, as far as computations show it")
     evidence: list[Evidence] = Field(description="Computations behind the reason")
 
 
@@ -206,7 +206,7 @@ def _contact_radius(pitch: float) -> float:
 
 
 def _bisected_radius() -> tuple[float, float]:
-    """The two pitches at which the bisection of section 3.3, for a head that stops at the circle, ends."""
+    """The two pitches at which the bisection of section 3.3 ends, for a head that stops at the circle."""
     return bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
 
 

@@ -53,7 +53,7 @@ class PitchScanTable(Answer):
         description="Stretches without a jump, as indices [from, to) into pitch and radius; if jumps are not located, "
         f"without a fall of more than {JUMP:g} m"
     )
-    jumps: list[Jump] = Field(description="Where the radius jumps, ascending; empty if jumps are not located")
+    jumps: list[Jump] = Field(description="Jumps of the radius, ascending; empty if jumps are not located")
     minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 
 
@@ -68,7 +68,7 @@ def pitch_scan(asked: PitchScanQuery | PitchScanRequest, terms: Terms) -> Column
         budget=terms.budget,
         **asked.to_circle(),
     )
-    # Of all pitches computed on the way to the jumps, the answer has the samples.
+    # The answer has only the samples, not the other pitches computed on the way to the jumps.
     sampled = np.isin(scan.pitch, pitches_near(least, asked.samples))
     before = np.concatenate([[0], np.cumsum(sampled)])
     pieces = [(int(before[a]), int(before[b])) for a, b in scan.pieces if before[a] < before[b]]

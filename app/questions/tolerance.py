@@ -34,7 +34,7 @@ class ToleranceQuery(SizeErrors, CircleQuery):
 
 
 class SpanOrCircle(SpanFields):
-    """A stretch of a dance, or of a dance on a spiral the way to a turning circle."""
+    """A stretch of a dance; on a spiral also the way to a turning circle."""
 
     turning_diameter: TurningDiameter | None = measure(
         "m", "Diameter of the circle at which the head stops, on a spiral, in place of an end time", None
@@ -46,10 +46,10 @@ class ToleranceRequest(SizeErrors, SpanOrCircle, PlacedDance, strict=True):
 
 
 class Shown(Answer):
-    """A pose of the whole dragon, every chord kept, in which those that limit the stray overlap."""
+    """A pose of the whole dragon with unchanged chords, in which the benches that limit the stray overlap."""
 
     handles: list[Point] = measure("m", "Places of the handles, x and y, head first")
-    depth: float = measure("m", "How deep the two overlap")
+    depth: float = measure("m", "Depth of the overlap")
     stray: float = measure("m", "Largest distance of a handle from its place")
 
     @classmethod
@@ -71,7 +71,7 @@ class Tolerance(Answer):
         "m", "Proven safe: while no hole is further from its place, nothing touches; 0: no stray is known to be safe"
     )
     simple: float = measure(
-        "m", "What the simple bound knows: no point of a bench moves further than a factor of its own times the stray"
+        "m", "Answer of the simple bound: each point of a bench moves at most its own factor times the stray"
     )
     stray_with_errors: float | None = measure(
         "m",
@@ -82,7 +82,7 @@ class Tolerance(Answer):
         "m", "Proven safe; shown to touch, null where no such pose was found"
     )
     limited_by: Limit = Field(
-        description="What a larger stray breaks. benches: two benches touch; venue: a bench and an edge of the venue; "
+        description="Effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; "
         "chord: nothing, up to half of the shortest chord"
     )
     time: float | None = measure("s", "Time at which these are nearest to touching; null if nothing limits the stray")
@@ -93,7 +93,7 @@ class Tolerance(Answer):
     exhibit: Shown | None = Field(description="A pose in which they overlap; null where none was found")
     start: float = measure("s", "Start of the time asked about")
     stop: float = measure("s", "End of the time asked about")
-    certificate: StrayProof = Field(description="How the safe stray is known")
+    certificate: StrayProof = Field(description="Proof of the safe stray")
 
     @classmethod
     def of(cls, found: core.Tolerance, with_errors: float | None) -> Self:

@@ -57,7 +57,7 @@ class ToleranceCurve(Answer):
     stray: list[float] = measure("m", "Proven safe: while no hole is further from its place, nothing touches")
     touching: list[float | None] = measure("m", "Shown to touch; null where no such pose was found")
     limited_by: list[Limit] = Field(
-        description="What a larger stray breaks. benches: two benches touch; chord: nothing, up to half of the "
+        description="Effect of a larger stray. benches: two benches touch; chord: nothing, up to half of the "
         "shortest chord"
     )
 

@@ -62,9 +62,9 @@ class State(Answer):
     status: str = Field(description="ok or ready")
 
 
-DESCRIPTION = """Where is every bench of a bench dragon and how fast, when do two benches first touch, and how
-tight may the spiral be? SI units and radians throughout. A collision is an answer, never an error; errors are problem
-details (RFC 9457). An answer depends on its request alone and carries a strong ETag.
+DESCRIPTION = """Place and speed of every bench of a bench dragon, first contact of two benches, and the tightest
+spiral. SI units and radians throughout. A collision is an answer, never an error; errors are problem details
+(RFC 9457). An answer depends on its request alone and carries a strong ETag.
 """
 TAGS = [
     {
@@ -72,7 +72,7 @@ TAGS = [
         "description": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
     },
     {"name": "Figures", "description": "Answers as pictures, films, maps and plans: files."},
-    {"name": "Grading", "description": "What is right in a student's workbook, and which error made the rest wrong."},
+    {"name": "Grading", "description": "Right and wrong cells of a student's workbook, and the errors behind them."},
     {"name": "Maps", "description": "The square and the path in a map file."},
     {"name": "Jobs", "description": "Answers computed later; no kill of a process loses them."},
     {"name": "Service", "description": "Liveness and readiness."},

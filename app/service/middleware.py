@@ -1,4 +1,4 @@
-"""What holds for every request: its target, body size, HEAD, security headers, internal errors, counts and times.
+"""Layers around every call: target, body size, HEAD, security headers, internal errors, counts and times; and lanes.
 
 Lanes limit how many computations run at once, separately for cheap calls, heavy calls, workbooks and large bodies. No
 call waits in a lane: a full lane answers 503 with the time at which the first of its computations should be done, so
@@ -225,7 +225,7 @@ def client_of(request: Request) -> str:
 
 
 class Lane:
-    """A limit on the computations at once, of all clients and of each one."""
+    """A limit on simultaneous computations, in total and for each client."""
 
     def __init__(
         self, name: str, most: int, of_client: int, retry_after: int, running: Gauge, refused: Counter

@@ -10,7 +10,7 @@ from app.service.problems import Refused
 from app.wire.problem import ErrorItem
 
 TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
-# What a call that may need the token says in the description of the service.
+# Security entry of calls that may need the token, in the description of the service.
 GUARDED: list[dict[str, list[str]]] = [{}, {"token": []}]
 
 

@@ -51,7 +51,7 @@ def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
 class Engine(Protocol):
     """The place where pieces are answered.
 
-    alone: True if a process has one piece at a time: if it dies, the piece is the cause, or somebody killed it
+    alone: True if a process has one piece at a time: if it dies, the piece is the cause, or a kill from outside
     """
 
     alone: bool

@@ -25,7 +25,7 @@ SPEC_FILE = "sweep.json"
 TABLE_FILE = "sweep.parquet"
 # Longest time between two reports of the progress [s].
 TICK = 0.5
-# Number of dead processes after which their single design counts as the cause: somebody may have killed fewer by hand.
+# Number of dead processes after which their single design counts as the cause: fewer may have been killed by hand.
 DEATHS = 3
 
 

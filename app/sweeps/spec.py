@@ -79,7 +79,7 @@ class Samples(_Told):
     sequence: Literal["sobol", "philox"] = Field(
         "sobol", description="sobol: spread evenly; philox: independent random ones"
     )
-    seed: int = Field(0, ge=0, lt=2**63, description="Of philox")
+    seed: int = Field(0, ge=0, lt=2**63, description="Seed of philox")
 
 
 def _shape_of_axis(value: Any) -> str:

@@ -26,7 +26,7 @@ LEFT_OUT = (
 
 # Field of an answer that allows for a stray.
 TOTAL_STRAY: Any = measure(
-    "m", "How far every hole may be from its place, by people and by play, in this answer; null: none was asked for"
+    "m", "Largest distance of a hole from its place, by people and by play, in this answer; null: none was asked for"
 )
 
 
@@ -86,12 +86,12 @@ class Verdict(Answer):
     """Findings of one engine among the benches judged, without pairs of neighbours."""
 
     before: bool | None = Field(
-        description="Does it find any two overlapping, or nearer than the margin, just before? null for a contact "
+        description="Whether it finds any two overlapping, or nearer than the margin, just before; null for a contact "
         "at the start"
     )
     after: bool = Field(
-        description="Does it find the reported pair overlapping, or nearer than the margin, just after, and no other "
-        "pairs except those in together? For a contact at the start other pairs are allowed"
+        description="Whether it finds the reported pair overlapping, or nearer than the margin, just after, and no "
+        "other pairs except those in together. For a contact at the start other pairs are allowed"
     )
 
 

@@ -171,8 +171,8 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
         max_length=PASSAGES_MAX,
         fail_fast=True,
         description="Stretches from time 0 on in which the head goes at other speeds than head_speed, one after the "
-        "other; after the last one, head_speed holds. What benches meet depends on the place of the head alone: the "
-        "time of a contact is when the head first is there",
+        "other; after the last one, head_speed holds. Contacts depend only on the place of the head; the time of a "
+        "contact is the first time at which the head is there",
     )
     path: AnyPath = Field(
         default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}

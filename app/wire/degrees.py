@@ -82,7 +82,7 @@ class Plane:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A venue in metres, and the place of its origin on earth if it is known; and what it was made of."""
+    """A venue in metres; the place of its origin on earth, if it is known; and the things it was made of."""
 
     venue: Venue | None = None
     origin: Origin | None = None

@@ -59,7 +59,7 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
 
 
 def outlined(things: Sequence[Thing]) -> list[Polygon]:
-    """The things as polygons: of a tree or a wall, all within its radius, and nothing further than 2% more."""
+    """The things as polygons; that of a tree or a wall holds all within its radius, and reaches at most 2% further."""
     outlines = []
     for name, rings, radius in things:
         if radius is not None:

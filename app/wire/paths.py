@@ -109,7 +109,7 @@ class SpiralPath(SpiralFields):
     model_config = ConfigDict(strict=True, json_schema_extra={"required": ["kind"]})
 
     kind: Literal["spiral"] = Field("spiral", description="Kind of path")
-    centre: Point = measure("m", "Centre of the spiral, x and y; places alone depend on it", [0.0, 0.0])
+    centre: Point = measure("m", "Centre of the spiral, x and y; only places depend on it", [0.0, 0.0])
     rotation: Angle = measure("rad", "Rotation of the whole spiral about its centre", 0.0)
     clockwise: bool = Field(True, description="Direction of the dance; false: the mirror image, counter-clockwise")
 

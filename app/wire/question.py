@@ -1,5 +1,5 @@
-"""A question as the service, the command and other programs ask it, and what every question is made of: base classes of
-requests and answers, common fields with units and limits, and a dance as a flat query.
+"""A question as the service, the command and other programs ask it, and its parts: base classes of requests and
+answers, common fields with units and limits, and a dance as a flat query.
 
 The limits here are narrower than those of core: they fit a dance in a real place, so that a length in centimetres
 is noticed.
@@ -144,7 +144,7 @@ class Strays(Wire):
     """Largest distance of every hole from its place, by people and by the play of its pin."""
 
     stray: float = measure(
-        "m", "How far each person may be from their place; the margin grows by what benches may then move", 0.0,
+        "m", "Largest distance of a person from their place; the margin grows by what benches may then move", 0.0,
         ge=0, le=STRAY_MAX,
     )  # fmt: skip
     hole: float = measure(
@@ -195,7 +195,7 @@ def unknown_cost(asked: Wire, *form: str) -> float:
 
 
 def unheard(share: float) -> None:
-    """Progress that nobody follows."""
+    """Listener that ignores progress."""
 
 
 class FileFormat(StrEnum):

@@ -90,13 +90,13 @@ def has_chinese() -> bool:
 
 
 def _succeeds(*command: str) -> bool:
-    """Does the command end well? Its words go nowhere: what a failure leaves out is said once, after the tests."""
+    """Whether the command succeeds. Its output is dropped, because one line after the tests lists what was left out."""
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     return subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, env=quiet).returncode == 0
 
 
 def get_packages(*packages: str) -> None:
-    """Install packages of the system, each for itself: one that is unknown here must not keep the others away."""
+    """Install packages of the system one by one, so that an unknown one does not stop the others."""
     print(f"Installing {' '.join(packages)} for the tests of the page (once)", file=sys.stderr)
     _succeeds("apt-get", "update", "-qq")
     for package in packages:
@@ -105,7 +105,7 @@ def get_packages(*packages: str) -> None:
 
 
 def get_download(is_root: bool) -> None:
-    """Let Playwright download a browser; as root also the libraries that it turns out to miss."""
+    """Let Playwright download a browser; as root also the libraries that it lacks."""
     print("Downloading a Chromium for the tests of the page (once)", file=sys.stderr)
     playwright = (sys.executable, "-m", "playwright")
     if _succeeds(*playwright, "install", "chromium") and is_root and not any(map(starts, _downloads())):
