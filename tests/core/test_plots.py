@@ -11,18 +11,15 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
 
 from core import (
     Dance,
     Dragon,
-    InvalidValue,
     Spiral,
     Trajectory,
     Turn,
     bench_outlines,
     clearance_profile,
-    first_contact,
     pitch_scan,
     trajectory,
 )
@@ -94,35 +91,6 @@ def test_a_trajectory_without_its_dance_shows_the_handles_alone(axes: Axes) -> N
 def test_an_instant_that_is_not_there_is_refused(axes: Axes) -> None:
     with pytest.raises(IndexError):
         trajectory(DANCE, [0.0]).plot(axes, instant=1)
-
-
-def test_first_contact_marks_the_two_benches(axes: Axes) -> None:
-    found = first_contact(Dance(Dragon(), Spiral()))
-    found.plot(axes)
-    assert legend(axes) == ["bench 0 (head)", "bench 8"]
-    assert axes.get_title() == "First contact: 412.473838 s, head at radius 2.288743 m"
-    assert found.time is not None
-    outlines = bench_outlines(Dragon(), trajectory(Dance(Dragon(), Spiral()), found.time).position)
-    marked = [patch.get_xy()[:4] for patch in axes.patches if isinstance(patch, Polygon)]
-    assert np.array_equal(marked, outlines[[0, 8]])
-
-
-def test_the_enlarged_view_is_centred_on_the_contact(axes: Axes) -> None:
-    found = first_contact(Dance(Dragon(), Spiral()))
-    found.plot(axes, enlarged=True)
-    assert found.point == pytest.approx((np.mean(axes.get_xlim()), np.mean(axes.get_ylim())))
-    assert legend(axes)[2:] == ["inner edge of bench 8", "front-outer corner of bench 0"]
-
-
-def test_a_run_without_contact_is_drawn_before_its_end(axes: Axes) -> None:
-    first_contact(Dance(Dragon(5), Spiral(0.8))).plot(axes)
-    assert axes.get_legend() is None
-    assert axes.get_title().startswith("No contact, but bench 0 folds at ")
-
-
-def test_without_a_contact_there_is_nothing_to_enlarge(axes: Axes) -> None:
-    with pytest.raises(InvalidValue, match="enlarged must be False where no two benches meet, got True"):
-        first_contact(Dance(Dragon(5), Spiral(0.8))).plot(axes, enlarged=True)
 
 
 def test_a_clearance_profile_shows_its_grazes(axes: Axes) -> None:

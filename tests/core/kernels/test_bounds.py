@@ -1,4 +1,4 @@
-"""The bounds on motion along routes against dense samples: rates, turning, second and third derivatives, gaps."""
+"""The bounds on motion along routes against dense samples: rates, turning, second and third derivatives."""
 
 from __future__ import annotations
 
@@ -13,11 +13,8 @@ from core.kernels.constants import (
     CORNER_PULL,
     CORNER_SPEED,
     CROSSED,
-    HALF_LENGTH,
     HANDLE_SPEED,
     MOTION_COLUMNS,
-    MX,
-    MY,
     RADIUS,
     RATE,
     RATE_HIGH,
@@ -29,7 +26,6 @@ from core.kernels.constants import (
     TX,
     UX,
 )
-from tests.core.kernels.test_pairs import AXES, corners
 from tests.core.paths.test_route import TURN as TURN_PATH
 from tests.core.rounding_sweep import ROUTES
 
@@ -125,23 +121,3 @@ def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed: int) -> None:
     assert (np.linalg.norm(corner, axis=-1).max(axis=0) <= motion[:-1, CORNER_SPEED] + ROUNDING).all()
     pull = np.linalg.norm(differences(corner, step), axis=-1).max(axis=0)
     assert (pull <= motion[:-1, CORNER_PULL] + slack * (1.0 + 2.0 * sizes[:-1, RADIUS] / dragon.chords)).all()
-
-
-@pytest.mark.parametrize("seed", range(100, 130))
-def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int) -> None:
-    dragon, path, start, h = random_interval(np.random.default_rng(seed))
-    sizes = sizes_of(dragon)
-    motion, h = bounded(path, start, h, sizes)
-    n, step = dragon.benches, h / (INSTANTS - 1)
-    chains = np.array([laid_out(path, s, sizes) for s in np.linspace(start, start + h, INSTANTS)])
-    centres, along = chains[:, :n, MX : MY + 1], chains[:, :n, UX : UX + 2]
-    rounding = 4.0 * ROUNDING * (1.0 + np.abs(centres).max()) / (APART * step) ** 2
-    for i, j in ((i, j) for i in range(n) for j in range(n) if abs(i - j) > 1):
-        distance = np.linalg.norm(centres[0, j] - centres[0, i])
-        distance += h * (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED])
-        bound = kernels.axis_bend(1.0, i, j, distance, sizes, motion)
-        for corner in corners(centres, along, sizes[:, HALF_LENGTH : RADIUS + 1], i, j):
-            for axis in AXES:
-                gap = np.cos(axis) * corner[:, 0] + np.sin(axis) * corner[:, 1]
-                bend = (gap[2 * APART :] - 2 * gap[APART:-APART] + gap[: -2 * APART]) / (APART * step) ** 2
-                assert np.abs(bend).max() <= bound + rounding

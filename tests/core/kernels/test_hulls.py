@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core import kernels
 from core.kernels.constants import DIRECTIONS, HALF_LENGTH, MX, MY, RADIUS, UX, UY
 from core.tolerance.reach import bench_hulls, directions
 
@@ -61,22 +60,6 @@ def test_the_separation_is_that_of_the_nearest_hulls(edges: int) -> None:
         between = np.array([met.bx - met.ax, met.by - met.ay])
         assert between == pytest.approx(met.separation * np.array([met.nx, met.ny]), abs=ROUNDING)
     assert 100 < apart < 390
-
-
-def test_what_may_touch_for_certain_stays_so_over_the_interval() -> None:
-    rng = np.random.default_rng(6)
-    touching = 0
-    for _ in range(60):
-        search = Search(Dragon(9, 2.0, rng.uniform(1.2, 2.0)), Spiral(0.5, 3.0), 0.0, stray=rng.uniform(0.002, 0.1))
-        a = int(rng.integers(0, 3))
-        b = int(rng.integers(a + 2, 9))
-        h, place = 10 ** rng.uniform(-9.0, -1.0), search.place - rng.uniform(0.0, 6.0)
-        most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
-        places = place - np.linspace(0.0, 1.0, 9) * h
-        gaps = [kernels.gap_at(search.scene, at, a, b, search.rows[0]) for at in places.tolist()]
-        assert max(gaps) <= max(most, 0.0)
-        touching += most <= 0.0
-    assert 5 < touching < 55
 
 
 def test_the_order_of_a_pair_does_not_matter() -> None:

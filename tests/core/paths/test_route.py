@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -29,11 +28,8 @@ from core import (
     Turn,
     Waypoints,
     bench_poses,
-    check,
     clearance_profile,
     first_contact,
-    highest_speed,
-    maximum_head_speed,
     trajectory,
 )
 from core.paths.path import Path
@@ -95,25 +91,6 @@ def test_pieces_that_are_no_list_are_refused(pieces: list[Piece]) -> None:
     assert e.value.field == "path.pieces"
 
 
-def test_a_bend_too_tight_for_a_chord_names_the_bench_and_the_place() -> None:
-    route = Route([Line((-30, 0), (0, 0)), Arc((0, 1.2), 1.2, -0.5 * math.pi, math.pi), Line((0, 2.4), (-30, 2.4))])
-    with pytest.raises(InvalidValue, match=r"bench 0 \(2\.86 m\), got 1\.2 m near \(.*\) m, s = 30 m") as e:
-        trajectory(Dance(Dragon(benches=5), route), [20.0])
-    assert e.value.field == "path"
-    assert trajectory(Dance(Dragon(benches=5, head_length=2.2), route), [20.0]).speed.min() > 0.0
-
-
-def test_a_start_before_the_beginning_of_the_path_is_refused() -> None:
-    route = Route([Line((0, 0), (100, 0))])
-    length = float(DRAGON.chords.sum())
-    assert trajectory(Dance(DRAGON, route), [length + 1e-6]).position[0, -1, 0] == pytest.approx(1e-6, abs=SAME)
-    with pytest.raises(OutsideRun, match=rf"at least {length:.5f}[01] s, when the whole dragon is on the path"):
-        trajectory(Dance(DRAGON, route), [length - 0.001])
-    with pytest.raises(OutsideRun) as e:
-        first_contact(Dance(DRAGON, route), start=0.0)
-    assert e.value.field == "start"
-
-
 LENGTH = float(DRAGON.chords.sum())  # 16.4 m
 
 
@@ -153,47 +130,6 @@ def test_an_instant_after_the_end_of_the_path_is_refused() -> None:
     trajectory(Dance(DRAGON, route), [100.0])
     with pytest.raises(OutsideRun, match=r"at most 100\.000000000 s, when the path ends"):
         trajectory(Dance(DRAGON, route), [100.001])
-
-
-TOO_SHORT = {
-    "a line": Route([Line((0, 0), (10, 0))]),
-    "a line a hair shorter than the dragon": Route([Line((0, 0), (float(DRAGON.chords.sum()) - 1e-6, 0))]),
-    "an arc as long as the dragon when straight": Route([Arc((0, 0), 3.7, 0, float(DRAGON.chords.sum()) / 3.7)]),
-    "a hook": Route([Waypoints(((0, 0), (6, 0), (7, 4), (4, 6)))]),
-    "a coil outwards": Route([Coil(3.0, 0.5, 1.0)]),
-}
-
-
-@pytest.mark.parametrize("name", TOO_SHORT)
-@pytest.mark.parametrize(
-    "ask",
-    [
-        lambda path: check(Dance(DRAGON, path)),
-        lambda path: highest_speed(Dance(DRAGON, path)),
-        lambda path: maximum_head_speed(Dance(DRAGON, path), 2.0),
-        lambda path: trajectory(Dance(DRAGON, path), [5.0]),
-        lambda path: clearance_profile(Dance(DRAGON, path), [50.0]),
-        lambda path: first_contact(Dance(DRAGON, path)),
-        lambda path: Dance(DRAGON, path).default_times,
-    ],
-    ids=["check", "highest_speed", "maximum_head_speed", "trajectory", "clearance", "first_contact", "default_times"],
-)
-def test_a_path_too_short_for_the_dragon_says_so(ask: Callable[[Route], object], name: str) -> None:
-    path = TOO_SHORT[name]
-    with pytest.raises(InvalidValue) as e:
-        ask(path)
-    length = f"{path.end - path.begin:.9g}"
-    assert e.value.message == (
-        "path is too short for the whole dragon, which takes 16.4 m of it from handle 0 to handle 16 (more along "
-        f"bends), got {length} m"
-    )
-    assert e.value.field == "path"
-
-
-def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
-    length = float(DRAGON.chords.sum())
-    path = Route([Line((0, 0), (length + 1e-6, 0))])
-    assert check(Dance(DRAGON, path)).start == pytest.approx(length, abs=1e-6)
 
 
 # -- a spiral written as a route -----------------------------------------------------------------------------

@@ -23,8 +23,8 @@ from core import (
     tolerance,
     venue_clearance,
 )
-from tests.core.test_venue import DRAGON as LAPPING
-from tests.core.test_venue import LAP, VENUE
+from tests.core.contact.test_walls import DRAGON as LAPPING
+from tests.core.contact.test_walls import LAP, VENUE
 
 DANCE = Dance(Dragon(), Spiral())
 # stray [m]; minimum pitch [m] and first contact [s] by a bound that is a little less sharp.

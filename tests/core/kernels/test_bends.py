@@ -1,0 +1,56 @@
+"""Bounds on the bend of gaps along axes of a bench, on spirals and routes, against differences of dense samples."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core import kernels
+from core.kernels.constants import CENTRE_SPEED, HALF_LENGTH, MX, MY, RADIUS, UX, UY
+from tests.core.kernels import test_bounds as route
+from tests.core.kernels.test_pairs import APART, checked_pairs, sampled
+from tests.depth import some
+
+# Directions of axes fixed in a bench, from its length [rad].
+AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)
+
+
+def bend(centres: np.ndarray, along: np.ndarray, half: np.ndarray, pair: tuple[int, int], apart: int) -> float:
+    """Largest second difference, over so many instants, of a corner of the second bench along axes of the first [m]."""
+    i, j = pair
+    left = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    most = 0.0
+    for front, side in ((1, 1), (1, -1), (-1, -1), (-1, 1)):
+        corner = centres[:, j] + front * half[j, 0] * along[:, j] + side * half[j, 1] * left[:, j] - centres[:, i]
+        x, y = (corner * along[:, i]).sum(-1), (corner * left[:, i]).sum(-1)
+        for axis in AXES:
+            gap = np.cos(axis) * x + np.sin(axis) * y
+            most = max(most, float(np.abs(gap[2 * apart :] - 2 * gap[apart:-apart] + gap[: -2 * apart]).max()))
+    return most
+
+
+@pytest.mark.parametrize("seed", some(range(30), 12))
+def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
+    at = sampled(seed)
+    for a, b in checked_pairs(len(at.half)):
+        for i, j in ((a, b), (b, a)):
+            bound = kernels.axis_bend(at.scene.curve.growth, i, j, at.distance(a, b), at.sizes, at.motion)
+            found = bend(at.centres, at.along, at.half, (i, j), APART)
+            assert found <= bound * at.apart**2 + 4.0 * at.rounding
+
+
+@pytest.mark.parametrize("seed", range(100, 130))
+def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int) -> None:
+    dragon, path, start, h = route.random_interval(np.random.default_rng(seed))
+    sizes = route.sizes_of(dragon)
+    motion, h = route.bounded(path, start, h, sizes)
+    chains = np.array([route.laid_out(path, s, sizes) for s in np.linspace(start, start + h, route.INSTANTS)])
+    centres, along = (chains[:, :-1, [x, y]] for x, y in ((MX, MY), (UX, UY)))
+    rounding = 4.0 * route.ROUNDING * (1.0 + np.abs(centres).max())
+    apart = route.APART * h / (route.INSTANTS - 1)
+    for a, b in checked_pairs(dragon.benches):
+        for i, j in ((a, b), (b, a)):
+            distance = np.linalg.norm(centres[0, j] - centres[0, i]) + h * motion[[i, j], CENTRE_SPEED].sum()
+            bound = kernels.axis_bend(1.0, i, j, float(distance), sizes, motion)
+            found = bend(centres, along, sizes[:, HALF_LENGTH:RADIUS], (i, j), route.APART)
+            assert found <= bound * apart**2 + rounding

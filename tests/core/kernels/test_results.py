@@ -1,0 +1,52 @@
+"""Results of a march and of a strip: numbers of Python that say what a second look finds."""
+
+from __future__ import annotations
+
+import pytest
+
+from core import Dragon, Spiral, kernels
+from core.contact.search import Search
+from core.kernels.results import Dip, Marched
+from tests.core.kernels.test_marching import ended, march_of
+from tests.core.kernels.test_strips import CIRCLE, WORK, strip_of
+
+GAP = 1e-9  # [m]: the bottom of a dip is found to this by steps of the march
+
+
+def test_a_march_hands_over_numbers_of_python() -> None:
+    search = Search(Dragon(40), Spiral(), 0.0)
+    march = march_of(search)
+    ended(march, 380.0, 420.0)
+    found = march.result()
+    assert isinstance(found, Marched)
+    assert [type(value) for value in found] == [float, float, tuple, int, float, Dip]
+    assert [type(bench) for bench in found.benches] == [int, int]
+    assert found.graze is not None
+    assert [type(value) for value in found.graze] == [float, float, tuple]
+    assert found.steps > 0
+    assert found.bend > 0.0
+
+
+def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
+    search = Search(Dragon(40), Spiral(), 0.0)
+    march = march_of(search)
+    ended(march, 380.0, 420.0)
+    graze = march.result().graze
+    assert graze is not None
+    gaps = [
+        kernels.gap_at(search.scene, search.place - graze.travel - shift, *graze.benches, search.rows[0])
+        for shift in (-1e-2, 0.0, 1e-2)
+    ]
+    assert gaps[1] == pytest.approx(graze.gap, abs=GAP)
+    assert min(gaps) == gaps[1]
+
+
+def test_a_strip_hands_over_a_radius_and_no_graze() -> None:
+    _, strip = strip_of(0.42)
+    strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)
+    found = strip.result()
+    assert isinstance(found, Marched)
+    assert [type(value) for value in found[:2]] == [float, float]
+    assert found.touching is not None
+    assert CIRCLE <= found.touching <= found.proven <= 6.0
+    assert found.graze is None

@@ -1,0 +1,33 @@
+"""Types of arrays and points: results of numbers given as integers hold doubles, as their annotations say."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import core
+from core.values import Floats, Point
+from tests.core.test_shown import DANCE, hints
+
+FOUND = [
+    core.trajectory(DANCE, [0, 300]),
+    core.clearance_profile(DANCE, [400, 401]),
+    core.first_contact(DANCE, start=410),
+    core.course(core.Route([core.Line((0, 0), (9, 0))]), core.Dragon(2)),
+    core.Dragon.of([3, 2], [1, 1], [0, 0]),
+    core.Line((0, 0), (9, 0)),
+    core.Arc((0, 0), 4, 0, 1),
+    core.Spiral(centre=(1, 2)),
+]
+
+
+@pytest.mark.parametrize("found", FOUND, ids=lambda found: type(found).__name__)
+def test_arrays_hold_doubles_and_points_two_floats(found: object) -> None:
+    told = {name: hint for name, hint in hints(type(found)).items() if hint in (Floats, Point, Point | None)}
+    assert told
+    for name, hint in told.items():
+        value = getattr(found, name)
+        if hint == Floats:
+            assert (type(value), value.dtype) == (np.ndarray, np.float64)
+        else:
+            assert [type(part) for part in value] == [float, float]

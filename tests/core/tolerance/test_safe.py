@@ -1,0 +1,74 @@
+"""The largest stray that is safe: known bounds, benches held apart by the one between, benches that touch."""
+
+from __future__ import annotations
+
+import pytest
+
+from core import Dance, Dragon, Line, Route, Spiral, first_contact, tolerance
+from core.tolerance.safe import safe_words
+from core.tolerance.tolerance import Limit
+from tests.core.tolerance.adversaries import CIRCLE, to_circle
+from tests.core.tolerance.test_tolerance import BRACKET
+
+# pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
+KNOWN = [(0.5, 0.02321, 0.02325), (0.55, 0.04654, 0.04668), (0.7, 0.11662, 0.11749), (1.0, 0.24298, 0.26305)]
+ROUNDED = 2e-5
+# By the simple bound at these pitches [m], and by how much less of it the hulls may know [1].
+SIMPLE = {0.5: 0.01931, 0.55: 0.03874, 0.7: 0.09735, 1.0: 0.21590}
+SIMPLE_SHORT = 1e-3
+
+
+@pytest.mark.parametrize(("pitch", "bound", "contact"), KNOWN, ids=[f"{known[0]} m" for known in KNOWN])
+def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bound: float, contact: float) -> None:
+    dance, stop = to_circle(pitch)
+    found = tolerance(dance, stop=stop)
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert bound - ROUNDED < safe < shown < contact + ROUNDED
+    assert shown < safe * (1.0 + BRACKET)
+    assert found.limited_by is Limit.BENCHES
+    assert found.independent == safe
+    assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < found.simple < SIMPLE[pitch] + ROUNDED
+
+
+def test_a_dance_that_touches_as_it_is_allows_none() -> None:
+    dance = Dance(Dragon(), Spiral())
+    found = tolerance(dance)
+    assert found.stray == 0.0
+    assert found.stray_bracket[1] is not None
+    assert found.stray_bracket[1] < 1e-6
+    assert found.time == pytest.approx(first_contact(dance).time, abs=1e-8)
+    assert found.benches == (0, 8)
+
+
+def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() -> None:
+    dance = Dance(Dragon(20), Route([Line((0.0, 0.0), (80.0, 0.0))]))
+    found = tolerance(dance)
+    assert found.limited_by is Limit.CHORD
+    assert found.stray == 0.5 * dance.dragon.chords.min()
+    assert found.independent == pytest.approx(0.5 * (1.65 - 2.0 * 0.275), rel=0.05)
+    assert "are held apart by it" in found.certificate.method
+
+
+def test_on_a_wide_spiral_the_next_turn_limits_the_stray_and_not_the_next_bench_but_one() -> None:
+    dance = Dance(Dragon(60), Spiral(2.0))
+    found = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
+    safe, shown = found.stray_bracket
+    assert shown is not None
+    assert found.benches is not None
+    assert found.benches[1] is not None
+    assert found.benches[1] - found.benches[0] > 2
+    assert found.independent < safe < shown < 1.03 * safe
+
+
+def test_where_benches_touch_as_they_are_nothing_is_called_safe() -> None:
+    dance, stop = to_circle(0.42)
+    found = tolerance(dance, stop=stop)
+    assert (found.stray, found.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
+    assert "no stray is known to be safe: a bench touches another as it is." in found.certificate.method
+    assert repr(found).startswith("<Tolerance: no stray is known to be safe")
+
+
+@pytest.mark.parametrize("stray", [0.04654398712345678, 1.0 / 3.0, 0.1 + 0.2, 2.0**-20, 0.825])
+def test_a_printed_stray_is_not_above_the_one_that_is_proven(stray: float) -> None:
+    assert 0.0 <= stray - float(safe_words(stray)) <= 1.001e-12
