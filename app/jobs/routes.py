@@ -139,6 +139,7 @@ def told(name: str, *statuses: int, model: type[BaseModel] | None = None, conten
     answer = {200: {"description": "The answer", "content": content}} if content else {}
     return {
         "operation_id": name,
+        "summary": name.replace("_", " ").capitalize(),
         "response_class": Response if model is None else JSONResponse,  # FastAPI writes no schema for a plain Response.
         "response_model": model,
         "responses": {**answer, **problems},

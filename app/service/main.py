@@ -227,15 +227,15 @@ def _add_health(app: FastAPI) -> None:
         "openapi_extra": {"security": []},
     }
 
-    @app.get("/healthz", operation_id="healthz", **described)
+    @app.get("/healthz", operation_id="healthz", summary="Liveness", **described)
     async def healthz(response: Response) -> State:
-        """Liveness: the process answers."""
+        """The process answers."""
         response.headers["Cache-Control"] = "no-store"
         return State(status="ok")
 
-    @app.get("/readyz", operation_id="readyz", **described)
+    @app.get("/readyz", operation_id="readyz", summary="Readiness", **described)
     async def readyz(request: Request, response: Response) -> State:
-        """Readiness: this installation gives the known answers of the self-test."""
+        """This installation gives the known answers of the self-test."""
         if request.app.state.fault:
             raise problems.Refused(503, f"The self-test failed: {request.app.state.fault}.")
         response.headers["Cache-Control"] = "no-store"

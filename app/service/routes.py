@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Query, Response
+from fastapi import APIRouter, Body, Path, Query, Response
 from pydantic import ValidationError
 
 from app.files.outlines import GEOJSON_TYPE
@@ -113,7 +113,7 @@ def _endpoint(call: Call) -> Callable[..., Any]:
     endpoint.__annotations__ |= {
         "reply": replying,
         "wanted": wanted,
-        "format": call.question.formats,
+        "format": Annotated[call.question.formats, Path(description="Format of the file")],
         "return": Response,
     }
     return endpoint

@@ -127,6 +127,14 @@ def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) 
     assert set(bare) <= free
 
 
+def test_every_parameter_is_described_and_every_call_has_a_title_in_words(document: Any) -> None:
+    calls = [call for path in document["paths"].values() for call in path.values()]
+    assert [one["name"] for call in calls for one in call.get("parameters", []) if not one.get("description")] == []
+    titles = [call["summary"] for call in calls]
+    assert [title for title in titles if title != title.capitalize()] == []
+    assert {"Ask later", "Job result", "Liveness", "Readiness"} < set(titles)
+
+
 def test_every_unit_in_words_stands_in_the_schema_too(document: Any) -> None:
     in_words = [(name, field) for name, field in fields(document) if field.get("description", "").endswith("]")]
     assert len(in_words) > 200
