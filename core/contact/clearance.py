@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from core import plots
 from core.contact.fold import least_to_fold
-from core.contact.march import TOUCHES, Ended
+from core.contact.march import TOUCHES
 from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Clock, Dance, RunEnd
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, asked_of
-from core.kernels import Budget
+from core.kernels import NO_BRACKET, Budget, Ended
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Shown, counted, worded
@@ -239,7 +239,7 @@ def least_over(
                 return _first_touch(search, proven_to, until, head_speed, best)
             search.use(search.path, max(best[0] - width, 0.0))
             margin = search.margin
-            state, found = search.march(until, 0.0, start=proven_to, dips=True)
+            state, found = search.march(until, NO_BRACKET, start=proven_to, dips=True)
             search.budget.afford()
             if found.graze is not None and found.graze.gap < best[0]:
                 best = found.graze

@@ -18,13 +18,13 @@ from core import kernels
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold
-from core.contact.march import BRACKETS_GRAZING, TOUCHES, Ended
+from core.contact.march import BRACKETS_GRAZING, TOUCHES
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import asked_of, checked_number, said
-from core.kernels import Budget
+from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD

@@ -12,10 +12,11 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.march import TOUCHES, Ended
+from core.contact.march import TOUCHES
 from core.contact.search import Search, joined
 from core.dance import RunEnd
-from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_ROOT, THETA
+from core.kernels import Ended
+from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_BOUND, NO_ROOT, THETA
 from core.kernels.results import Marched
 from core.values import Floats
 
@@ -115,7 +116,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
         for begin, until, theta in ends:
             heapq.heappush(stretches, (max(least, least_left(search, begin, theta)), begin, until))
     least = stretches[0][0]
-    return least if least > -FREE else None
+    return least if least > NO_BOUND else None
 
 
 # From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
@@ -146,7 +147,7 @@ def least_left(search: Search, travel: float, theta: float) -> float:
     """A bound: from a travel until the head is at theta no two benches come nearer than this, or than the margin [m].
 
     It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
-    sizes; -FREE if a bench without a place in rows[0] could come near one that leads a pair.
+    sizes; NO_BOUND if a bench without a place in rows[0] could come near one that leads a pair.
     """
     search.spend(STRETCH_WORK + FOLD_WORK * search.room)
     gap, _ = search.clearance(travel)
@@ -161,7 +162,7 @@ def least_left(search: Search, travel: float, theta: float) -> float:
         lead, rear = search.growth * theta * (1.0 - THETA_ROUNDING), float(radii[leaders] + arcs[leaders])
         reach = kernels.leaders_reach(search.growth, lead, rear, search.rings) + search.margin
         if radii[-1] - arcs[-1] < kernels.radius_beyond(search.growth, reach, search.rings):
-            return -FREE
+            return NO_BOUND
     least = gap - reached
     if least <= search.margin:
         least = kernels.clearance_left(search.scene, leaders, search.room, search.rows[0], moved)

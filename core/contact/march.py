@@ -1,8 +1,8 @@
-"""A march: the width of its bracket, the error of its travels, its last part before a fold, and how it ended."""
+"""A march: the width of its bracket, the error of its travels, and its last part before a fold."""
 
 from __future__ import annotations
 
-from enum import StrEnum
+from core.kernels import Ended
 
 # Half width of the bracket around a contact [m of head travel] at head speeds of 1 m/s and more, and the least half
 # width that rounding of the travel allows at lower speeds.
@@ -23,23 +23,5 @@ FOLD_SLIVER = 1e-9
 # that clearance. (With 1e-3 as the first one it is enough from 0.75 m on, and 0.66 to 0.74 m take 2.7 instead of 2.1
 # times as long as a contact; measured 2026-11-22.)
 FOLD_WAYS = (3e-4, 3e-5)
-
-
-class Ended(StrEnum):
-    """End of a march, in the order of the kernels' states: see core/kernels/marching.py, strips.py for TURNED.
-
-    No kernel ends with the last two, a bench that folds on the way, and a band of pitches for which no bound holds.
-    """
-
-    REACHED = "reached"
-    TOUCHED = "touched"
-    TOUCHED_AT_START = "touched_at_start"
-    STUCK = "stuck"
-    CAPACITY = "capacity"
-    TURNED = "turned"
-    FOLDED = "folded"
-    UNBOUNDED = "unbounded"
-
-
-ENDS = tuple(Ended)
+# Ends of a march at a contact.
 TOUCHES = (Ended.TOUCHED, Ended.TOUCHED_AT_START)

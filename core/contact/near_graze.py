@@ -22,9 +22,8 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
-from core.contact.march import Ended
 from core.contact.search import Search
-from core.kernels import Budget
+from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.constants import (
     ARC_ANGLE,
     ARC_RADIUS,
@@ -341,6 +340,6 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
 def others_clear(search: Search, pair: tuple[int, int], start: float, stop: float) -> bool:
     """True if all pairs except one are proven clear between two travels [m]."""
     search.scene.left_out, search.scene.left_out_too = pair
-    state, _ = search.march(stop, 0.0, start=start)
+    state, _ = search.march(stop, NO_BRACKET, start=start)
     search.scene.left_out = search.scene.left_out_too = kernels.NO_BENCH
     return state is Ended.REACHED

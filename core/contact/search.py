@@ -16,16 +16,14 @@ from core.contact.march import (
     BRACKET,
     BRACKET_MIN,
     BRACKETS_GRAZING,
-    ENDS,
     FOLD_SLIVER,
     FOLD_WAYS,
     TOUCHES,
     TRAVEL_ROUNDING,
-    Ended,
 )
 from core.dance import RunEnd
 from core.dragon import Dragon
-from core.kernels import Budget
+from core.kernels import Budget, Ended
 from core.kernels.constants import (
     CHORD,
     COIL_GROWTH,
@@ -35,6 +33,7 @@ from core.kernels.constants import (
     HALF_WIDTH,
     MX,
     MY,
+    NO_BRACKET,
     RADIUS,
     RATE,
     UX,
@@ -198,8 +197,8 @@ class Search:
     ) -> tuple[Ended, Marched]:
         """March from start, or from the end of the ring bound, to stop [m of travel]; returns its end and its result.
 
-        tolerance: half width of the bracket around a contact [m], 0: any instant of it is enough; dips: True finds
-            grazes also with tolerance 0
+        tolerance: half width of the bracket around a contact [m], NO_BRACKET: any instant of it is enough; dips: True
+            finds grazes also then
         opening: True if nothing before the start is proven clear, so all pairs are followed until the body repeats
         The march begins earlier and ends later by the rounding of travels, so that its claims on computed travels and
         times hold for the true ones.
@@ -215,10 +214,10 @@ class Search:
         if nothing or (start >= stop and not opening):
             return Ended.REACHED, Marched(asked[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
-        grazes = dips or tolerance > 0.0
+        grazes = dips or tolerance != NO_BRACKET
         while True:
             most_work = max(min(self.work, self.budget.left), 1.0)
-            ended = ENDS[self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, most_work)]
+            ended = self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, most_work)
             self.spend(float(self._march.work))
             self.budget.look()
             if ended is not Ended.CAPACITY:

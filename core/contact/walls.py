@@ -11,12 +11,11 @@ from core import kernels
 from core.contact.answer import Outcome
 from core.contact.clearance import Pair, least_over
 from core.contact.fold import moved_until
-from core.contact.march import Ended
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
-from core.kernels import Budget
+from core.kernels import Budget, Ended
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.paths.pieces import Coil

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from core.contact.march import TOUCHES, Ended
+from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
@@ -16,7 +16,7 @@ from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import SIZE_MAX, InvalidValue, asked_of, checked_number, checked_size, said
-from core.kernels import Budget, Halted
+from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import START_TURNS_MAX, Spiral
 from core.sampling import bisected
 from core.shown import Shown, worded
@@ -219,7 +219,7 @@ class _PitchSearch:
                 state, result = self.ways.march(sample)
                 feasible = state is Ended.REACHED
                 touching = None
-                if state not in (Ended.REACHED, Ended.FOLDED) and result.touching is not None:
+                if state not in (Ended.REACHED, Ended.BENCH_FOLDED) and result.touching is not None:
                     radius = self.search.theta_at(result.touching) * self.search.growth
                     touching = (radius, *result.benches)
             if feasible and not end:
@@ -248,7 +248,7 @@ class _PitchSearch:
             state, found = self.ways.march(infeasible)
         if state is Ended.TOUCHED_AT_START:
             return LimitedBy.START, found.benches, self.search.growth * 2.0 * math.pi * self.start_turns
-        if state is Ended.FOLDED:
+        if state is Ended.BENCH_FOLDED:
             return LimitedBy.FOLD, None, self.radius
         if found.touching is None:
             raise Halted(self.search.budget)  # rounding hides whether any pitch below is feasible

@@ -10,9 +10,10 @@ import math
 import numpy as np
 
 from core import kernels
-from core.contact.march import ENDS, TRAVEL_ROUNDING, Ended
+from core.contact.march import TRAVEL_ROUNDING
 from core.contact.search import Search
 from core.design.straight import Straight
+from core.kernels import Ended
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 
@@ -93,9 +94,9 @@ class Bands:
     def prove(self, low: float, high: float, outer: float) -> tuple[Ended, Marched]:
         """Outcome of a march for all pitches in [low, high] while the head's radius falls from outer to the circle [m].
 
-        'reached': all are clear; 'touched': the lowest one is not; 'stuck': not provable in one band; 'turned' and
-        'unbounded': perhaps not provable in narrower bands either, because a handle may move backwards, or because no
-        bound holds far out. The march is `proven` down to a radius, and `touching` at one.
+        REACHED: all are clear; TOUCHED: the lowest one is not; STUCK: not provable in one band; UNBOUNDED and
+        BENCH_FOLDED: perhaps not provable in narrower bands either, because no bound holds far out, a handle may move
+        backwards, or a bench folds. The march is `proven` down to a radius, and `touching` at one.
         """
         search = self.search
         search.use(Spiral(low, self.start_turns), self.margin)
@@ -110,7 +111,7 @@ class Bands:
         while True:
             band = self.band_to(high / math.tau)
             budget = min(BAND_WORK - self.work, search.budget.left)
-            ended = ENDS[band.run(outer, self.radius, leaders, rounding, least_step, budget)]
+            ended = band.run(outer, self.radius, leaders, rounding, least_step, budget)
             self.work += float(band.work)
             search.spend(float(band.work))
             search.budget.look()
@@ -154,7 +155,7 @@ class Bands:
             if high - low < BAND_MIN:
                 self.graze = None
                 return proven, "stuck"
-            if state in (Ended.UNBOUNDED, Ended.TURNED) and high - low < UNBOUNDED_WITHIN * high:
+            if state in (Ended.UNBOUNDED, Ended.BENCH_FOLDED) and high - low < UNBOUNDED_WITHIN * high:
                 return proven, "unbounded"
             border = None
             if state is Ended.TOUCHED:

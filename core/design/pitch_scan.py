@@ -11,13 +11,12 @@ import numpy as np
 
 from core import plots
 from core.contact.fold import clear_to_fold
-from core.contact.march import Ended
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, too_much
-from core.kernels import Budget, Halted
+from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, extent
 from core.tables import data_frame

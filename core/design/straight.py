@@ -9,7 +9,7 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import SIZE_MAX, InvalidValue, said
-from core.kernels.constants import FREE
+from core.kernels.constants import FREE, NO_BOUND
 from core.values import Floats
 
 # Rounding of the bound, in units of the lengths in its sums, u = 2^-53 [1]. The relative error of k is at most 8 u,
@@ -96,11 +96,11 @@ class Straight:
 
     def least(self, growth: float, radius: float) -> float:
         """Lower bound of the separation of any two benches that share no handle [m], with the front handle of the inner
-        one at the radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; -FREE if
+        one at the radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; NO_BOUND if
         there is no bound.
         """
         further = self._further(growth, radius)
-        if further == -FREE or self.gap >= FREE:
+        if further == NO_BOUND or self.gap >= FREE:
             return further
         rounding = STRAIGHT_ROUNDING * (abs(self.gap) + self.chord + self.overhang + 2.0 * self.half_width)
         return min(further, self._next_but_one(curvature_most(growth, radius))) - rounding
@@ -112,11 +112,11 @@ class Straight:
         if (
             2.0 * math.pi * growth <= diagonals and self.total >= half_around
         ):  # neighbouring turns of the spiral may meet
-            return -FREE
+            return NO_BOUND
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord
         if sine >= math.sqrt(0.5):  # 2 beta would pass pi / 2
-            return -FREE
+            return NO_BOUND
         if self.between >= FREE:
             return FREE
         beta = math.asin(sine)

@@ -6,13 +6,12 @@ import math
 
 from core import kernels
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
-from core.contact.march import Ended
 from core.contact.search import Search, before_fold
 from core.dance import EndReason, RunEnd, end_theta
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, TooMuchWork, too_much
-from core.kernels import Budget
+from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Marched
 from core.paths.spiral import Spiral
 
@@ -56,10 +55,10 @@ class Ways:
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
 
-    def march(self, pitch: float, width: float = 0.0, work: float = WAY_WORK) -> tuple[Ended, Marched]:
+    def march(self, pitch: float, width: float = NO_BRACKET, work: float = WAY_WORK) -> tuple[Ended, Marched]:
         """March from the start to the circle; REACHED proves that every clearance on the way exceeds the margin.
 
-        width: half width of the bracket around a contact [m of travel]; 0: any instant of the contact is enough
+        width: half width of the bracket around a contact [m of travel]; NO_BRACKET: any instant of it is enough
         work: largest work of this march
         raises: Halted if the budget of all ways and bands together is spent or stopped
         """
@@ -72,11 +71,12 @@ class Ways:
         self._start_nearer(path)
         circle = self.radius / path.growth
         stop = max(search.travel_at(circle), 0.0)
-        width = width and max(width, 2.0 * search.travel_rounding(0.0, stop))
+        if width != NO_BRACKET:
+            width = max(width, 2.0 * search.travel_rounding(0.0, stop))
         fold, bench = (0.0, None) if self.bands.bent_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
-            return Ended.FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
-        for state, travel in () if width else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
+            return Ended.BENCH_FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
+        for state, travel in () if width != NO_BRACKET else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):
             # Most ways with a contact show it at one of their ends, which needs no long dragon.
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
@@ -85,14 +85,14 @@ class Ways:
             return search.march(stop, width)
         end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
         last = min(stop, before_fold(end.time))
-        state, found = search.march(last, width or CONTACT_WIDTH)
+        state, found = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
         if (state is Ended.STUCK and found.touching is None) or (state is Ended.REACHED and last < stop):
             state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:
         """True if the whole way is free of contact; None if rounding of a graze hides it."""
-        for width, work in ((0.0, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
+        for width, work in ((NO_BRACKET, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
             state, found = self.march(pitch, width, work)
             if state is not Ended.STUCK or found.touching is not None:
                 return state is Ended.REACHED

@@ -83,7 +83,7 @@ def route_trajectory(
 # -- on either --
 
 class Curve:
-    kind: int
+    is_spiral: bool
     growth: float
 
 def spiral_curve(growth: float) -> Curve: ...
@@ -174,7 +174,6 @@ class Scene:
     benches: int
     room: int
     edges: int
-    against: int
     budget: Budget
     margin: float
     left_out: int
@@ -226,13 +225,13 @@ class March(Found):
         grazes: bool,
         rounding: float,
         most_work: float,
-    ) -> int: ...
+    ) -> Ended: ...
 
 class Strip(Found):
     def __init__(self, low: Interval, high: Interval, shifts: Floats) -> None: ...
     def run(
         self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, most_work: float
-    ) -> int: ...
+    ) -> Ended: ...
 
 class Peak:
     rate: float
@@ -261,7 +260,7 @@ class Excess:
         width: float,
         rounding: float,
         most_links: int,
-    ) -> int: ...
+    ) -> Judged: ...
 
 # -- chance --
 

@@ -6,7 +6,7 @@ from core.kernels.rounding cimport route_rounding, spiral_rounding
 
 @cython.final
 cdef class Curve:
-    cdef readonly int kind
+    cdef readonly bint is_spiral
     cdef readonly double growth
     cdef const double[:, ::1] pieces
 

@@ -14,22 +14,22 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 
 class Curve:
-    """A path. kind: ON_SPIRAL or ON_ROUTE; growth: of the spiral [m/rad], 1 on a route; pieces: the table of a route"""
+    """A path. is_spiral: else a route; growth: of the spiral [m/rad], 1 on a route; pieces: the table of a route"""
 
-    def __init__(self, kind, growth, pieces):
-        self.kind = kind
+    def __init__(self, is_spiral, growth, pieces):
+        self.is_spiral = is_spiral
         self.growth = growth
         self.pieces = pieces
 
 
 def spiral_curve(growth):
     """The spiral of a growth [m/rad]."""
-    return Curve(ON_SPIRAL, growth, None)
+    return Curve(True, growth, None)
 
 
 def route_curve(pieces):
     """The route of a table of pieces."""
-    return Curve(ON_ROUTE, 1.0, pieces)
+    return Curve(False, 1.0, pieces)
 
 
 def start_chain(theta, chain):
@@ -107,14 +107,14 @@ def extend_chain(growth, first, last, radius, sizes, chain):
 
 def extend(curve, first, last, sizes, chain):
     """Place handles after `first` up to the `last`; returns last, FOLDED at a fold."""
-    if curve.kind == ON_SPIRAL:
+    if curve.is_spiral:
         return extend_chain(curve.growth, first, last, FREE, sizes, chain)
     return extend_route(curve.pieces, first, last, FREE, sizes, chain)
 
 
 def start(curve, place, chain):
     """Fill in row 0 of a chain: the head at a place."""
-    if curve.kind == ON_SPIRAL:
+    if curve.is_spiral:
         start_chain(spiral_theta(place / curve.growth), chain)
     else:
         start_route(curve.pieces, -place, chain)
@@ -128,7 +128,7 @@ def place_chain(curve, place, last, sizes, chain):
 
 def chain_rounding(curve, last, sizes, chain):
     """Fill in SLIP, ERROR and SWAY of a chain up to handle `last`: the largest errors of its handles and benches."""
-    if curve.kind == ON_SPIRAL:
+    if curve.is_spiral:
         spiral_rounding(curve.growth, last, sizes, chain)
     else:
         route_rounding(curve.pieces, last, sizes, chain)

@@ -92,7 +92,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
     skipped.
     """
     growth = scene.curve.growth
-    if scene.against == EDGES:  # they follow the last handle's row, which holds no bench
+    if scene.edges > 0:  # they follow the last handle's row, which holds no bench
         for i in range(active):
             if scene.budget.stopped:
                 break
@@ -109,7 +109,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
             break
         reach = growth * chain[min(a * BLOCK + BLOCK, handles), THETA] + 3.0 * widest
         for b in range(a, blocks):
-            if scene.curve.kind == ON_SPIRAL and growth * chain[b * BLOCK, THETA] > reach + max(best.gap, 0.0):
+            if scene.curve.is_spiral and growth * chain[b * BLOCK, THETA] > reach + max(best.gap, 0.0):
                 break
             if boxes_apart(a, b, max(best.gap, 0.0), boxes):
                 continue

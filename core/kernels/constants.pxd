@@ -9,6 +9,9 @@ cdef extern from *:
     const double BEND_LIMIT "0.97"
     const double ROUTE_BEND_LIMIT "0.999"
     const double FREE "1e150"
+    const double NO_BOUND "-1e+150"
+    const double NO_BRACKET "0.0"
+    const Py_ssize_t AT_REST "-1"
     const double NO_ROOT "-1.0"
     const Py_ssize_t FOLDED "-1"
     const Py_ssize_t NO_BENCH "-1"
@@ -40,7 +43,13 @@ cdef enum:
     X0 = 5, X1 = 6, X2 = 7, X3 = 8, Y0 = 9, Y1 = 10, Y2 = 11, Y3 = 12, T_END = 13
     POINT_CURVATURE = 4, MISS_ACROSS = 0, MISS_ALONG = 1, MISS_KINK = 2, MISS_STEP = 3
     LINE = 0, ARC = 1, SPIRAL = 2, CREST = 4
-    REACHED = 0, TOUCHED = 1, TOUCHED_AT_START = 2, STUCK = 3, CAPACITY = 4, TURNED = 5
-    ADVANCED = 6, REFUSED = 7, KEPT = 0, EXCEEDED = 1, GIVEN_UP = 2
-    ON_SPIRAL = 0, ON_ROUTE = 1, BENCHES = 0, EDGES = 1
     SHIFT_CENTRE = 0, SHIFT_CORNER = 1, SHIFT_PULL = 2, SHIFT_TURN = 3
+
+cdef enum Ended:
+    REACHED = 0, TOUCHED = 1, TOUCHED_AT_START = 2, STUCK = 3, CAPACITY = 4, UNBOUNDED = 5, BENCH_FOLDED = 6
+
+cdef enum Step:
+    ADVANCED = 0, REFUSED = 1, ENDED = 2
+
+cdef enum Judged:
+    KEPT = 0, EXCEEDED = 1, GIVEN_UP = 2

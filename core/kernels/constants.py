@@ -3,6 +3,8 @@
 In compiled code the same names are literals, from constants.pxd; a test compares the two lists.
 """
 
+from enum import IntEnum
+
 PI = 3.141592653589793
 TWO_PI = 6.283185307179586
 
@@ -99,6 +101,7 @@ SEPARATION_COLUMNS = 9
 # Number of half planes of a hull, evenly spaced; number of hulls of a bench; and the columns of their corners [m].
 DIRECTIONS = 64
 HULLS = 3
+AT_REST = -1  # in place of the number of a hull, or of its first corner: an edge at rest, which has none
 HULL_X = 0
 HULL_Y = 1
 
@@ -126,8 +129,12 @@ BEND_LIMIT = 0.97
 ROUTE_BEND_LIMIT = 0.999
 
 # Larger than any step or distance, with a square that does not overflow [m]. As a radius or a place: nothing lies
-# beyond it. As a lower bound of a gap: there is no pair; -FREE: nothing is known.
+# beyond it. As a lower bound of a gap: there is no pair.
 FREE = 1e150
+# A lower bound of a gap of which nothing is known [m].
+NO_BOUND = -1e150
+# The half width of no bracket: a march ends at any instant that is found to be within the margin [m].
+NO_BRACKET = 0.0
 
 # A root that does not exist; the last handle of a chain in which a bench before it folds; no bench.
 NO_ROOT = -1.0
@@ -190,30 +197,34 @@ MISS_KINK = 2
 MISS_STEP = 3
 MISS_COLUMNS = 4
 
-# Kind of a path.
-ON_SPIRAL = 0
-ON_ROUTE = 1
 
-# Obstacles of the benches of a scene: each other, or edges at rest.
-BENCHES = 0
-EDGES = 1
+class Ended(IntEnum):
+    """End of a march, or of a strip of pitches: see marching.py and strips.py."""
 
-# How a march ended.
-REACHED = 0
-TOUCHED = 1
-TOUCHED_AT_START = 2
-STUCK = 3
-CAPACITY = 4
-TURNED = 5
-MARCH_STATES = ("reached", "touched", "touched_at_start", "stuck", "capacity", "turned")
-# Results of one step, if the march goes on.
-ADVANCED = 6
-REFUSED = 7
+    REACHED = 0
+    TOUCHED = 1
+    TOUCHED_AT_START = 2
+    STUCK = 3
+    CAPACITY = 4
+    UNBOUNDED = 5  # no bound on the motion is known: a handle may move backwards
+    BENCH_FOLDED = 6
 
-# How a search for the first excess ended.
-KEPT = 0
-EXCEEDED = 1
-GIVEN_UP = 2
+
+class Step(IntEnum):
+    """Result of one step: proven; to be tried again, shorter; or the last one."""
+
+    ADVANCED = 0
+    REFUSED = 1
+    ENDED = 2
+
+
+class Judged(IntEnum):
+    """End of a search for the first excess over a limit: see excess.py."""
+
+    KEPT = 0
+    EXCEEDED = 1
+    GIVEN_UP = 2
+
 
 # Spare distance beyond the radius or place from which a bound holds: relative to the radius [1], or along a route [m].
 # Every use of the bound checks that the error of a handle is less than this.

@@ -14,9 +14,9 @@ cdef class Excess:
 
     @cython.locals(
         scene=Scene, placed=cython.Py_ssize_t, links=cython.Py_ssize_t, k=cython.Py_ssize_t, opened=cython.bint,
-        outcome=cython.int
+        outcome=Judged
     )
-    cpdef int run(
+    cpdef object run(
         self, double start, double stop, double step, double limit, double kept, double width, double rounding,
         Py_ssize_t most_links
-    ) noexcept
+    )

@@ -2,6 +2,8 @@
 
 import cython
 
+import core.kernels.constants as of_python  # its enums; in compiled code their names alone are those of C
+
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.rates import certain_rate, lay_ahead, lively_chain, rate_bound
@@ -37,7 +39,7 @@ class Excess:
         self.handle = 0
 
     def run(self, start, stop, step, limit, kept, width, rounding, most_links):
-        """Search from start to stop [m of head travel]; returns how it ended: KEPT, EXCEEDED or GIVEN_UP.
+        """Search from start to stop [m of head travel]; returns how it ended.
 
         step: the first one tried [m]; limit, kept, width: see above; rounding: largest error of a travel [m];
         most_links: number of links followed before the search gives up
@@ -47,12 +49,12 @@ class Excess:
         end = stop + rounding
         h = 2.0 * rounding
         links = 0
-        outcome = KEPT
+        outcome = Judged.KEPT
         self.found = stop
         self.handle = 0
         self.rate = 0.0
         with cython.nogil:
-            if scene.curve.kind == ON_SPIRAL and end > scene.place:  # the centre ends the way
+            if scene.curve.is_spiral and end > scene.place:  # the centre ends the way
                 end = max(stop, scene.place)
             placed = lively_chain(
                 scene.curve, scene.place - travel, scene.benches, self.calm, scene.sizes, self.interval.before
@@ -72,19 +74,19 @@ class Excess:
                             rate, k = certain_rate(scene.curve, self.interval, rounding)
                 links += 1
                 if links > most_links or scene.budget.uses_up(max(self.interval.handles, 0) + 1):
-                    outcome = GIVEN_UP
+                    outcome = Judged.GIVEN_UP
                     break
                 if upper > limit and h > width:
                     h *= 0.5
                     continue
                 if rate > limit:
-                    outcome = EXCEEDED
+                    outcome = Judged.EXCEEDED
                     self.found = min(max(travel + h - rounding, start), stop)
                     self.handle = k
                     self.rate = rate
                     break
                 if upper > kept:
-                    outcome = GIVEN_UP
+                    outcome = Judged.GIVEN_UP
                     break
                 placed = self.interval.handles
                 self.interval.swap()
@@ -92,4 +94,4 @@ class Excess:
                 travel += h
                 h = step if opened else 1.5 * h
         self.proven = min(max(travel - rounding, start), stop)
-        return outcome
+        return of_python.Judged(outcome)

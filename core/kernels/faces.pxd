@@ -1,21 +1,21 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.bends cimport band_bends, band_between, bend_along, least_between
-from core.kernels.hulls cimport STEP, Kinds, best_beyond, corner_beyond, facing, gap_beyond, hulls_faced, hulls_in
-from core.kernels.hulls cimport hulls_of, nearest_corner, nearest_hulls, uphill, view_of
+from core.kernels.hulls cimport STEP, Kinds, best_beyond, corner_beyond, facing, gap_beyond, hulls_in
+from core.kernels.hulls cimport nearest_corner, nearest_hulls, uphill, view_of
 from core.kernels.records cimport Axis, Bends, Corner, Faced, Hulls, View, Views
 from core.kernels.scene cimport Band, Interval, Scene
 
 @cython.locals(
-    edge=cython.bint, n=cython.Py_ssize_t, others=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
-    k=cython.Py_ssize_t, start=View, end=View, hulls=Hulls, turned=Hulls, axis=Axis
+    edge=cython.bint, n=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
+    k=cython.Py_ssize_t, start=View, end=View, hulls=Hulls, swapped=Hulls, axis=Axis
 )
 cdef double hulls_least(
     Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double bend, double bend_back
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, start=View, end=View, axis=Axis)
-cdef double turned_least(
+cdef double swapped_least(
     Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, Hulls hulls, double bend, double enough
 ) noexcept nogil
 
@@ -29,7 +29,7 @@ cdef double face_least(
 ) noexcept nogil
 
 @cython.locals(
-    edge=cython.bint, faced=Faced, i=cython.Py_ssize_t, j=cython.Py_ssize_t, hulls=Hulls, view=View, at=Corner
+    faced=Faced, i=cython.Py_ssize_t, j=cython.Py_ssize_t, hulls=Hulls, view=View, at=Corner
 )
 cdef double hulls_most(
     Scene scene, Interval interval, Py_ssize_t a, Py_ssize_t b, double distance
@@ -46,7 +46,7 @@ cdef double band_hulls(
 ) noexcept nogil
 
 @cython.locals(views=Views)
-cdef double band_turned(
+cdef double band_swapped(
     Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Hulls hulls, Bends bends, double enough
 ) noexcept nogil
 

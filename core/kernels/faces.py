@@ -12,9 +12,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
         corner_beyond,
         facing,
         gap_beyond,
-        hulls_faced,
         hulls_in,
-        hulls_of,
         nearest_corner,
         nearest_hulls,
         uphill,
@@ -38,11 +36,10 @@ def hulls_least(scene, interval, i, j, enough, bend, bend_back):
     start = view_of(j, i, interval.before)
     end = view_of(j, i, interval.after)
     k = facing(end, j, i, scene.sizes)
-    others = hulls_of(scene.kinds, edge)
-    for n in range(HULLS * others):
+    for n in range(HULLS if edge else HULLS * HULLS):
         own = n % HULLS
-        other = (n // HULLS + 1) % others
-        hulls = hulls_in(scene.kinds, j, i, other, own, 1 if edge else 0, scene.sizes)
+        other = AT_REST if edge else (n // HULLS + 1) % HULLS
+        hulls = hulls_in(scene.kinds, j, i, other, own, scene.sizes)
         if face_along(scene.kinds, start, end, hulls, k, bend_back, h) >= best:
             continue
         if face_along(scene.kinds, start, end, hulls, 0, bend_back, h) >= best:
@@ -51,8 +48,8 @@ def hulls_least(scene, interval, i, j, enough, bend, bend_back):
             continue
         gap = face_least(scene.kinds, start, end, hulls, k, bend_back, h, enough)
         if gap <= enough:
-            turned = hulls_in(scene.kinds, i, j, own, other, 2 if edge else 0, scene.sizes)
-            gap = max(gap, turned_least(scene, interval, i, j, turned, bend, enough))
+            swapped = hulls_in(scene.kinds, i, j, own, other, scene.sizes)
+            gap = max(gap, swapped_least(scene, interval, i, j, swapped, bend, enough))
             if gap <= scene.margin:
                 axis = best_beyond(scene.kinds, end, hulls)
                 gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, bend_back, h))
@@ -62,7 +59,7 @@ def hulls_least(scene, interval, i, j, enough, bend, bend_back):
     return best
 
 
-def turned_least(scene, interval, i, j, hulls, bend, enough):
+def swapped_least(scene, interval, i, j, hulls, bend, enough):
     """face_least() along axes fixed in i; where that shows nothing, along the best axis of all at the end [m]."""
     start = view_of(i, j, interval.before)
     end = view_of(i, j, interval.after)
@@ -94,11 +91,10 @@ def hulls_most(scene, interval, a, b, distance):
 
     See corner_beyond(); distance: upper bound of the distance of their centres [m]
     """
-    edge = b > scene.room
-    faced = nearest_hulls(scene.kinds, a, b, edge, FREE, scene.sizes, interval.after)
-    i = b if faced.turned else a
-    j = a if faced.turned else b
-    hulls = hulls_faced(scene.kinds, i, j, edge, faced, scene.sizes)
+    faced = nearest_hulls(scene.kinds, a, b, b > scene.room, FREE, scene.sizes, interval.after)
+    i = b if faced.swapped else a
+    j = a if faced.swapped else b
+    hulls = hulls_in(scene.kinds, i, j, faced.own, faced.other, scene.sizes)
     view = view_of(i, j, interval.after)
     at = nearest_corner(scene.kinds, view, hulls, faced.k)
     most = corner_beyond(scene.kinds, view, hulls, at)
@@ -127,7 +123,7 @@ def band_hulls(scene, band, i, j, enough, distance):
     for n in range(HULLS * HULLS):
         own = n % HULLS
         other = (n // HULLS + 1) % HULLS
-        hulls = hulls_in(scene.kinds, j, i, other, own, 0, scene.sizes)
+        hulls = hulls_in(scene.kinds, j, i, other, own, scene.sizes)
         if band_beyond(scene.kinds, band, views, hulls, k, bends_back) >= best:
             continue
         if band_beyond(scene.kinds, band, views, hulls, 0, bends_back) >= best:
@@ -136,15 +132,15 @@ def band_hulls(scene, band, i, j, enough, distance):
             continue
         gap = band_face(scene, band, views, hulls, k, bends_back, enough)
         if gap <= enough:
-            hulls = hulls_in(scene.kinds, i, j, own, other, 0, scene.sizes)
-            gap = max(gap, band_turned(scene, band, i, j, hulls, bends, enough))
+            hulls = hulls_in(scene.kinds, i, j, own, other, scene.sizes)
+            gap = max(gap, band_swapped(scene, band, i, j, hulls, bends, enough))
         best = min(best, gap)
         if best <= scene.margin:
             break
     return best
 
 
-def band_turned(scene, band, i, j, hulls, bends, enough):
+def band_swapped(scene, band, i, j, hulls, bends, enough):
     """band_face() along axes fixed in i [m]."""
     views = views_of(i, j, band)
     return band_face(scene, band, views, hulls, facing(views.low_end, i, j, scene.sizes), bends, enough)

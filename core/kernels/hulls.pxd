@@ -15,15 +15,15 @@ cdef class Kinds:
 
     cpdef void lay(self, double[:, ::1] hulls, long long[::1] of, double[:, ::1] directions)
 
-cdef Py_ssize_t hulls_of(Kinds kinds, bint edge) noexcept nogil
 cdef Py_ssize_t first_corner(Kinds kinds, Py_ssize_t i, Py_ssize_t hull) noexcept nogil
 cdef Py_ssize_t sector(double y, double x) noexcept nogil
 cdef Py_ssize_t wrapped(Py_ssize_t k) noexcept nogil
 @cython.locals(forward=cython.bint)
 cdef Corner corner(Kinds kinds, Py_ssize_t first, Py_ssize_t k, double half_length) noexcept nogil
 
+@cython.locals(first=cython.Py_ssize_t)
 cdef Hulls hulls_in(
-    Kinds kinds, Py_ssize_t i, Py_ssize_t j, Py_ssize_t own, Py_ssize_t other, Py_ssize_t edge, double[:, ::1] sizes
+    Kinds kinds, Py_ssize_t i, Py_ssize_t j, Py_ssize_t own, Py_ssize_t other, double[:, ::1] sizes
 ) noexcept nogil
 
 @cython.locals(shift=cython.Py_ssize_t)
@@ -45,7 +45,7 @@ cdef Axis best_beyond(Kinds kinds, View view, Hulls hulls) noexcept nogil
 
 @cython.locals(
     best=Faced, view=View, back=View, start=cython.Py_ssize_t, start_back=cython.Py_ssize_t, own=cython.Py_ssize_t,
-    n=cython.Py_ssize_t, others=cython.Py_ssize_t, other=cython.Py_ssize_t, hulls=Hulls, hulls_back=Hulls, axis=Axis, axis_back=Axis
+    n=cython.Py_ssize_t, other=cython.Py_ssize_t, hulls=Hulls, hulls_back=Hulls, axis=Axis, axis_back=Axis
 )
 cdef Faced nearest_hulls(
     Kinds kinds, Py_ssize_t i, Py_ssize_t j, bint edge, double limit, double[:, ::1] sizes, double[:, ::1] chain
@@ -57,11 +57,6 @@ cdef Corner nearest_corner(Kinds kinds, View view, Hulls hulls, Py_ssize_t k) no
 @cython.locals(faced=Faced, a=cython.Py_ssize_t, b=cython.Py_ssize_t, hulls=Hulls, at=Corner)
 cdef void hulls_met(
     Kinds kinds, Py_ssize_t i, Py_ssize_t j, bint edge, double[:, ::1] sizes, double[:, ::1] chain, Witnesses out
-) noexcept nogil
-
-@cython.locals(at_rest=cython.Py_ssize_t)
-cdef Hulls hulls_faced(
-    Kinds kinds, Py_ssize_t a, Py_ssize_t b, bint edge, Faced faced, double[:, ::1] sizes
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, own=Corner)

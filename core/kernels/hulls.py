@@ -49,13 +49,10 @@ class Kinds:
         self.some = True
 
 
-def hulls_of(kinds, edge):
-    """Number of hulls of a bench, or of an edge at rest."""
-    return 1 if edge else HULLS
-
-
 def first_corner(kinds, i, hull):
-    """Row of the first corner of a hull of bench i."""
+    """Row of the first corner of a hull of bench i, or AT_REST."""
+    if hull == AT_REST:
+        return AT_REST
     return (kinds.of[i if i < kinds.alike else kinds.alike] * HULLS + hull) * DIRECTIONS
 
 
@@ -72,18 +69,17 @@ def wrapped(k):
 
 
 def corner(kinds, first, k, half_length):
-    """Corner k of the hull whose rows begin at `first`; of an edge at rest of this half length where first < 0."""
-    if first >= 0:
+    """Corner k of the hull whose rows begin at `first`; of an edge of this half length if that is AT_REST."""
+    if first != AT_REST:
         return Corner(kinds.hulls[first + k, HULL_X], kinds.hulls[first + k, HULL_Y])
     forward = k < DIRECTIONS // 4 or k >= DIRECTIONS - DIRECTIONS // 4  # a corner serves up to the next direction
     return Corner(half_length if forward else -half_length, 0.0)
 
 
-def hulls_in(kinds, i, j, own, other, edge, sizes):
-    """Hull `own` of row i and hull `other` of row j; edge: 1 if row i is an edge at rest, 2 if row j is, else 0."""
-    first = -1 if edge == 1 else first_corner(kinds, i, own)
-    second = -1 if edge == 2 else first_corner(kinds, j, other)
-    return Hulls(first, second, sizes[i, HALF_LENGTH], sizes[j, HALF_LENGTH])
+def hulls_in(kinds, i, j, own, other, sizes):
+    """Hull `own` of row i and hull `other` of row j, AT_REST in the row of an edge at rest."""
+    first = first_corner(kinds, i, own)
+    return Hulls(first, first_corner(kinds, j, other), sizes[i, HALF_LENGTH], sizes[j, HALF_LENGTH])
 
 
 def view_of(i, j, chain):
@@ -168,23 +164,22 @@ def best_beyond(kinds, view, hulls):
 
 def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
     """The nearest hulls of rows i and j, if they are nearer than the limit; edge: whether j is an edge at rest."""
-    best = Faced(0, 0, 0, 0, limit)
+    best = Faced(0, 0, 0, False, limit)
     view = view_of(i, j, chain)
     back = view_back(view)
     start = facing(view, i, j, sizes)
     start_back = facing(back, j, i, sizes)
-    others = hulls_of(kinds, edge)
-    for n in range(HULLS * others):
+    for n in range(HULLS if edge else HULLS * HULLS):
         own = n % HULLS
-        other = (n // HULLS + 1) % others  # the middle first, because most contacts are with it
-        hulls = hulls_in(kinds, i, j, own, other, 2 if edge else 0, sizes)
+        other = AT_REST if edge else (n // HULLS + 1) % HULLS  # the middle first, because most contacts are with it
+        hulls = hulls_in(kinds, i, j, own, other, sizes)
         if gap_beyond(kinds, view, hulls, start) >= best.gap:
             continue
         if gap_beyond(kinds, view, hulls, 0) >= best.gap:
             continue
         if gap_beyond(kinds, view, hulls, DIRECTIONS // 2) >= best.gap:
             continue
-        hulls_back = hulls_in(kinds, j, i, other, own, 1 if edge else 0, sizes)
+        hulls_back = hulls_in(kinds, j, i, other, own, sizes)
         axis_back = uphill(kinds, back, hulls_back, start_back, best.gap)
         if axis_back.gap >= best.gap:
             continue
@@ -199,9 +194,9 @@ def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
         if max(axis.gap, axis_back.gap) >= best.gap:
             continue
         if axis_back.gap > axis.gap:
-            best = Faced(axis_back.k, other, own, 1, axis_back.gap)
+            best = Faced(axis_back.k, other, own, True, axis_back.gap)
         else:
-            best = Faced(axis.k, own, other, 0, axis.gap)
+            best = Faced(axis.k, own, other, False, axis.gap)
     return best
 
 
@@ -224,9 +219,9 @@ def nearest_corner(kinds, view, hulls, k):
 def hulls_met(kinds, i, j, edge, sizes, chain, out):
     """Fill in the separation of the hulls in rows i and j, with its witnesses; edge: whether j is an edge at rest."""
     faced = nearest_hulls(kinds, i, j, edge, FREE, sizes, chain)
-    a = j if faced.turned else i
-    b = i if faced.turned else j
-    hulls = hulls_faced(kinds, a, b, edge, faced, sizes)
+    a = j if faced.swapped else i
+    b = i if faced.swapped else j
+    hulls = hulls_in(kinds, a, b, faced.own, faced.other, sizes)
     at = nearest_corner(kinds, view_of(a, b, chain), hulls, faced.k)
     x = kinds.directions[faced.k, HULL_X]
     y = kinds.directions[faced.k, HULL_Y]
@@ -237,16 +232,8 @@ def hulls_met(kinds, i, j, edge, sizes, chain, out):
     out.by = chain[b, MY] + at.x * chain[b, UY] + at.y * chain[b, UX]
     out.ax = out.bx - faced.gap * out.nx
     out.ay = out.by - faced.gap * out.ny
-    if faced.turned:
+    if faced.swapped:
         out.reverse()
-
-
-def hulls_faced(kinds, a, b, edge, faced, sizes):
-    """The hulls that nearest_hulls() found; a: the row in which its half plane is fixed, b: the other."""
-    at_rest = 0
-    if edge:
-        at_rest = 1 if faced.turned else 2
-    return hulls_in(kinds, a, b, faced.own, faced.other, at_rest, sizes)
 
 
 # Within the margin for certain, for hulls as for rectangles (pairs.py). Let X be a corner of the second hull. Its

@@ -52,22 +52,23 @@ cdef class March(Found):
     cdef Py_ssize_t graze_first
     cdef Py_ssize_t graze_second
 
-    @cython.locals(state=cython.int)
-    cpdef int run(
+    cpdef object run(
         self, double start, double stop, Py_ssize_t leaders, bint at_start, double tolerance, bint grazes,
         double rounding, double most_work
-    ) noexcept
+    )
+    @cython.locals(step=Step)
+    cdef Step march(self, Scene scene) noexcept nogil
     cdef bint repeats_ahead(self, Scene scene) noexcept nogil
     cdef double least_step(self) noexcept nogil
     @cython.locals(laid=Laid)
-    cdef int open(self, Scene scene) noexcept nogil
+    cdef Step open(self, Scene scene) noexcept nogil
     cdef bint surely_within(self, Scene scene, double place) noexcept nogil
-    cdef int refuse(self, double part) noexcept nogil
+    cdef Step refuse(self, double part) noexcept nogil
     @cython.locals(laid=Laid, nearest=Nearest)
-    cdef int try_step(self, Scene scene, Interval interval) noexcept nogil
+    cdef Step try_step(self, Scene scene, Interval interval) noexcept nogil
     @cython.locals(k=cython.Py_ssize_t)
     cdef bint must_follow(self, Scene scene, Interval interval) noexcept nogil
-    cdef int narrow(self, Scene scene, Interval interval, Nearest nearest) noexcept nogil
+    cdef Step narrow(self, Scene scene, Interval interval, Nearest nearest) noexcept nogil
     cdef double peek(self, Scene scene, Py_ssize_t a, Py_ssize_t b) noexcept nogil
     @cython.locals(here=Closest, dips=cython.bint)
     cdef void note_graze(self, Scene scene, Interval interval, double least) noexcept nogil

@@ -3,6 +3,7 @@
 import cython
 from cython.cimports.libc.math import fabs
 
+import core.kernels.constants as of_python  # its enums; in compiled code their names alone are those of C
 from core.kernels.results import Dip
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
@@ -23,7 +24,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # State. `travel`; the interval with the chains at travel and at travel + h, up to the last handle that matters there;
 # h, the step to try; `aims`, whether this step stops short of a contact, and `target`, the travel of that contact;
 # `opening`, the chain at the start.
-# Output. One of five ends, and the record Marched.
+# Output. How it ended, see "Ends" below, and the record Marched.
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
 # 1. A step is taken only if interval_least() proves more than the margin, after rounding, for every pair led by the
@@ -60,7 +61,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # margin for certain around target + tolerance, for all true travels within `rounding` of it (pair_most()), the first
 # contact of all lies between: proven = travel, touching = target + tolerance. If travel is beyond target - tolerance
 # already, the second condition suffices. An earlier crossing, of this pair or another, makes the step fail and is found
-# instead. Without a bracket (tolerance 0) touching is the far end itself, if the contact there is certain.
+# instead. Without a bracket (NO_BRACKET) touching is the far end itself, if the contact there is certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
 # STUCK: h is too short to help (LEAST_STEP of the bracket, or rounding), most_work is done, the scene's budget is
 # stopped, or the chain folds at the start. proven = travel still holds. touching is then a crossing of a pair that
@@ -107,12 +108,11 @@ class March(Found):
         self.graze_first = self.graze_second = 0
 
     def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, most_work):
-        """Advance the head from `start` to `stop` [m of travel]; returns how it ended, from REACHED to CAPACITY.
+        """Advance the head from `start` to `stop` [m of travel]; returns how it ended.
 
         leaders: number of benches whose pairs must be followed; at_start: follow all pairs until every bench has passed
             the start of the one before it
-        tolerance: half width of the bracket around a contact [m]; 0: no bracket, end at any instant found to be within
-            the margin; grazes: note the least graze on the way
+        tolerance: half width of the bracket around a contact [m], or NO_BRACKET; grazes: note the least graze
         rounding: largest error of a travel [m]; most_work: work after which the march gives up
         """
         self.start = start
@@ -124,23 +124,26 @@ class March(Found):
         self.rounding = rounding
         self.most_work = most_work
         with cython.nogil:
-            state = self.open(self.interval.scene)
-            if state != ADVANCED:
-                return state
-            while self.travel < stop and (self.at_start or self.repeats_ahead(self.interval.scene)):
-                self.proven = self.travel
-                if self.work >= self.most_work or self.interval.scene.budget.stopped:
-                    return STUCK
-                if self.h < rounding or self.h < self.least_step():
-                    return STUCK
-                self.steps += 1
-                self.work += STEP_WORK
-                self.h = min(self.h, stop - self.travel)
-                state = self.try_step(self.interval.scene, self.interval)
-                if state != ADVANCED and state != REFUSED:
-                    return state
-            self.proven = stop
-            return REACHED
+            self.march(self.interval.scene)
+        return of_python.Ended(self.ended)
+
+    def march(self, scene):
+        """Take steps to the end."""
+        step = self.open(scene)
+        while step != Step.ENDED and self.travel < self.stop and (self.at_start or self.repeats_ahead(scene)):
+            self.proven = self.travel
+            if self.work >= self.most_work or scene.budget.stopped:
+                return self.end(Ended.STUCK)
+            if self.h < self.rounding or self.h < self.least_step():
+                return self.end(Ended.STUCK)
+            self.steps += 1
+            self.work += STEP_WORK
+            self.h = min(self.h, self.stop - self.travel)
+            step = self.try_step(scene, self.interval)
+        if step != Step.ENDED:
+            self.proven = self.stop
+            self.end(Ended.REACHED)
+        return Step.ENDED
 
     def result(self):
         """What the march has found so far, see Marched in results.py."""
@@ -155,14 +158,14 @@ class March(Found):
 
     def least_step(self):
         """Shortest useful step [m]."""
-        return LEAST_STEP * self.tolerance if self.tolerance > 0.0 else LEAST_WAY
+        return LEAST_STEP * self.tolerance if self.tolerance != NO_BRACKET else LEAST_WAY
 
     def open(self, scene):
-        """Lay out the chain at the start; returns ADVANCED if no pair is within the margin, else how the march ends."""
+        """Lay out the chain at the start; returns ADVANCED if no pair is within the margin, else ENDED."""
         self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
-        self.opens = self.at_start and scene.curve.kind == ON_SPIRAL
+        self.opens = self.at_start and scene.curve.is_spiral
         self.allowance = CLEAR_SPARE * scene.rings.clear_radius
-        if scene.curve.kind == ON_ROUTE:
+        if not scene.curve.is_spiral:
             self.allowance = 0.5 * PLACE_SPARE if scene.rings.clear_place < FREE else FREE
         self.travel = self.older_travel = self.last_travel = self.start
         self.h = scene.rings.shortest
@@ -173,9 +176,9 @@ class March(Found):
         self.bend = 0.0
         laid = chain_between(scene, scene.place - self.start, self.followers, self.h, False, self.interval.before)
         if laid.last == scene.room and scene.room < scene.benches:
-            return CAPACITY
+            return self.end(Ended.CAPACITY)
         if laid.last == FOLDED:
-            return STUCK
+            return self.end(Ended.STUCK)
         self.placed = laid.last
         self.opened = laid.leading if laid.leading < scene.benches else scene.benches - 1
         self.opening[: self.placed + 1] = self.interval.before[: self.placed + 1]
@@ -183,13 +186,13 @@ class March(Found):
             scene, laid.leading, self.placed, Closest(FREE, 0, 0), self.interval.before, self.interval.motion
         )
         if self.last.gap > scene.margin:
-            return ADVANCED
+            return Step.ADVANCED
         self.first = self.last.first
         self.second = self.last.second
         if not self.surely_within(scene, scene.place - self.start):
-            return STUCK
+            return self.end(Ended.STUCK)
         self.meet(self.start)
-        return TOUCHED_AT_START
+        return self.end(Ended.TOUCHED_AT_START)
 
     def surely_within(self, scene, place):
         """Whether the pair `first`, `second` is within the margin with the head at a place, whatever its rounding."""
@@ -202,16 +205,16 @@ class March(Found):
         """Make this part of the step the next one, without stopping short of a crossing."""
         self.h *= part
         self.aims = False
-        return REFUSED
+        return Step.REFUSED
 
     def try_step(self, scene, interval):
-        """Try one step; returns ADVANCED if it is proven, REFUSED if it must be shorter, else how the march ends."""
-        outer = scene.curve.growth * interval.before[1, THETA] if scene.curve.kind == ON_SPIRAL else 0.0
+        """Try one step; returns ADVANCED if it is proven, REFUSED if it must be shorter, else ENDED."""
+        outer = scene.curve.growth * interval.before[1, THETA] if scene.curve.is_spiral else 0.0
         allowance = ALLOWANCE * drift(fabs(interval.before[1, RATE]) + 1.0, self.h, scene.curve.growth, outer)
         place = scene.place - self.travel - self.h
         laid = chain_between(scene, place, self.followers, allowance, self.turning, interval.after)
         if laid.last == scene.room and scene.room < scene.benches:
-            return CAPACITY
+            return self.end(Ended.CAPACITY)
         if laid.last == FOLDED:
             return self.refuse(0.5)
         self.active = laid.leading
@@ -225,12 +228,12 @@ class March(Found):
             nearest = interval_least(scene, interval, self.active)
             self.work += nearest.tried
             # a bench beyond the clear radius or place might not be there
-            if nearest.least == -FREE or nearest.error > self.allowance:
+            if nearest.least == NO_BOUND or nearest.error > self.allowance:
                 return self.refuse(0.5)
             if nearest.least <= scene.margin:
                 return self.narrow(scene, interval, nearest)
-            if scene.curve.kind == ON_SPIRAL and self.must_follow(scene, interval):
-                return REFUSED
+            if scene.curve.is_spiral and self.must_follow(scene, interval):
+                return Step.REFUSED
         self.travel += self.h
         self.placed = interval.handles
         interval.swap()
@@ -239,7 +242,7 @@ class March(Found):
         if self.aims and self.surely_within(scene, scene.place - self.target - self.tolerance):
             self.proven = self.travel
             self.meet(self.target + self.tolerance)
-            return TOUCHED
+            return self.end(Ended.TOUCHED)
         self.aims = False
         self.note_graze(scene, interval, nearest.least)
         if self.at_start and passed(scene, self.leaders, self.opened, self.placed, self.opening, interval.before):
@@ -247,7 +250,7 @@ class March(Found):
             self.followers = min(self.leaders, scene.room)
         room = 0.95 * nearest.room
         self.h = room if room < 2.0 * self.h else 2.0 * self.h
-        return ADVANCED
+        return Step.ADVANCED
 
     def must_follow(self, scene, interval):
         """Whether more benches must be followed over this step, because a handle of the spiral may turn back.
@@ -279,18 +282,18 @@ class March(Found):
             room = 0.95 * nearest.room
             self.refuse(0.5 if room < 0.5 * self.h or room >= self.h else room / self.h)
             if self.h >= self.tolerance:
-                return REFUSED
+                return Step.REFUSED
             far = self.peek(scene, nearest.first, nearest.second)
             if far > self.stop:
-                return REFUSED
+                return Step.REFUSED
         self.first = nearest.first
         self.second = nearest.second
-        if self.tolerance <= 0.0:
+        if self.tolerance == NO_BRACKET:
             if not self.surely_within(scene, scene.place - self.travel - self.h):
                 self.h *= 0.5
-                return REFUSED
+                return Step.REFUSED
             self.meet(self.travel + self.h)
-            return TOUCHED
+            return self.end(Ended.TOUCHED)
         width = CROSSING_WIDTH * self.tolerance
         self.target = contact_between(scene, self.travel, far, self.first, self.second, width, self.probe.before)
         self.aims = self.target > 0.0  # a contact before travel 0 is bracketed by the step after it
@@ -298,11 +301,11 @@ class March(Found):
         way = self.target - self.tolerance - self.travel
         if way > self.rounding and way < self.h:
             self.h = way
-            return REFUSED
+            return Step.REFUSED
         if self.target - self.tolerance <= self.travel:
             if self.surely_within(scene, scene.place - self.target - self.tolerance):
                 self.meet(self.target + self.tolerance)
-                return TOUCHED
+                return self.end(Ended.TOUCHED)
         return self.refuse(0.5)
 
     def peek(self, scene, a, b):

@@ -22,7 +22,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 
 def interval_least(scene, interval, active):
-    """Proven least separation over an interval of all pairs led by the first `active` benches; -FREE if too wide."""
+    """Proven least separation over an interval of all pairs led by the first `active` benches; NO_BOUND if too wide."""
     before: cython.double[:, ::1] = interval.before
     motion: cython.double[:, ::1] = interval.motion
     sizes: cython.double[:, ::1] = scene.sizes
@@ -33,19 +33,19 @@ def interval_least(scene, interval, active):
     a = 0
     b = 0
     if not interval.bound(False):
-        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+        return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     rounding = interval_rounding(scene, interval)
     # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
     reach = scene.margin * (1.0 + 1e-12) + 16.0 * rounding.point
     if not stays_beyond(scene, interval, active, rounding.point):
-        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+        return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(active):
         if scene.budget.stopped:
-            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+            return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
         far = reach_of(scene, interval, i, rounding.point)
         first = i + scene.between + 1
         end = interval.handles
-        if scene.against == EDGES:  # they follow the last handle's row, which holds no bench
+        if scene.edges > 0:  # they follow the last handle's row, which holds no bench
             first = interval.handles + 1
             end = first + scene.edges
         for j in range(first, end):
@@ -61,7 +61,7 @@ def interval_least(scene, interval, active):
             tried += 1
             least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
             if least != least:  # NaN is no bound
-                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+                return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
             width = 8.0 * (least - scene.margin) / k + interval.h * interval.h
             room = min(room, sqrt(width) if width > 0.0 else 0.0)
             if least < best:
@@ -74,7 +74,7 @@ def interval_least(scene, interval, active):
 
 def interval_rounding(scene, interval):
     """Largest errors of points and gaps of a bounded interval."""
-    if scene.curve.kind == ON_SPIRAL and interval.motion[interval.handles, RATE_LOW] > 0.0:
+    if scene.curve.is_spiral and interval.motion[interval.handles, RATE_LOW] > 0.0:
         error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
         end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
         error = max(error, end)
@@ -94,7 +94,7 @@ def innermost(scene, interval, k, rate):
 
 def reach_of(scene, interval, i, error):
     """Radius of a spiral beyond which benches stay clear of bench i during an interval [m]; FREE on a route."""
-    if scene.curve.kind == ON_ROUTE:
+    if not scene.curve.is_spiral:
         return FREE
     growth = scene.curve.growth
     rate = interval.motion[i, HANDLE_SPEED]
@@ -108,7 +108,7 @@ def stays_beyond(scene, interval, leaders, error):
     """Whether benches that are not laid out stay out of reach of those that lead pairs, during an interval."""
     if interval.handles == scene.benches:
         return True
-    if scene.curve.kind == ON_ROUTE:
+    if not scene.curve.is_spiral:
         return coil_stays_beyond(scene, interval, leaders, error)
     growth = scene.curve.growth
     high = growth * max(interval.before[leaders, THETA], interval.after[leaders, THETA])
@@ -176,10 +176,10 @@ def band_least(scene, band, leaders):
     rounding = band_rounding(scene, band)
     error = rounding.point
     if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a strip
-        return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+        return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
         if scene.budget.stopped:
-            return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+            return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
         beyond = growth_high * band.high.before[i + 1, THETA]
         beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
         beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error
@@ -201,7 +201,7 @@ def band_least(scene, band, leaders):
             tried += 1
             least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
             if least != least:
-                return Nearest(-FREE, 0.0, 0, 0, 0.0, 0.0, 0)
+                return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
             if least < best:
                 best = least
                 bend = k

@@ -201,7 +201,7 @@ def band_pair(scene, band, i, j, enough, distance):
 
     enough, distance: as for pair_least(); returns: the bound, and the bend along the path of the last axis tried [1/m]
     """
-    best = -FREE
+    best = NO_BOUND
     bends = band_bends(scene, band, j, i, distance)
     for trial in range(4):
         a = j if trial < 2 else i

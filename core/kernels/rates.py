@@ -28,7 +28,7 @@ def lively_chain(curve, place, last, calm, sizes, chain):
     place: of the head; calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece
     is calm
     """
-    if curve.kind == ON_SPIRAL:
+    if curve.is_spiral:
         start_chain(spiral_theta(place / curve.growth), chain)
         return extend_chain(curve.growth, 0, last, 2.0 * calm, sizes, chain)
     start_route(curve.pieces, -place, chain)
@@ -52,7 +52,7 @@ def climbs(curve, last, sizes, chain):
     """
     second = 0.0
     chain[0, CLIMB] = 0.0
-    if curve.kind == ON_SPIRAL:
+    if curve.is_spiral:
         for i in range(last + 1):
             chain[i, CURVATURE] = -spiral_curvature(chain[i, THETA]) / curve.growth
     for i in range(last):
@@ -183,7 +183,7 @@ def rate_bound(scene, interval, calm):
     climbs(scene.curve, handles, scene.sizes, interval.after)
     if not interval.bound(True):
         return FREE
-    if scene.curve.kind == ON_SPIRAL:
+    if scene.curve.is_spiral:
         if handles < scene.benches:
             inner = scene.curve.growth * min(interval.before[handles, THETA], interval.after[handles, THETA])
             rate = interval.motion[handles - 1, HANDLE_SPEED]
@@ -210,7 +210,7 @@ def handle_bound(scene, interval, k, enough):
     bound = 0.5 * (fabs(start) + fabs(end) + interval.motion[k, RATE_RATE] * h) + error
     bound = min(bound, interval.motion[k, RATE_HIGH])
     kink = False
-    if scene.curve.kind == ON_SPIRAL:
+    if scene.curve.is_spiral:
         start = fabs(start)
         end = fabs(end)
     elif bound > enough and interval.motion[k, CROSSED] <= 1.0:
@@ -228,7 +228,7 @@ def certain_rate(curve, interval, rounding):
     """
     best = 1.0
     at = 0
-    if curve.kind == ON_ROUTE or interval.motion[interval.handles, RATE_LOW] <= 0.0:
+    if not curve.is_spiral or interval.motion[interval.handles, RATE_LOW] <= 0.0:
         for k in range(1, interval.handles + 1):
             rate = fabs(interval.after[k, RATE]) - interval.motion[k, RATE_ERROR]
             rate -= 2.0 * rounding * interval.motion[k, RATE_RATE]

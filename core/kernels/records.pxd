@@ -106,5 +106,5 @@ cdef struct Faced:
     Py_ssize_t k
     Py_ssize_t own
     Py_ssize_t other
-    Py_ssize_t turned
+    bint swapped
     double gap

@@ -90,7 +90,7 @@ class Laid(NamedTuple):
 class Nearest(NamedTuple):
     """Proven bounds for all pairs over an interval."""
 
-    least: float  # a lower bound of their separations [m], FREE without pairs, -FREE where nothing is known
+    least: float  # a lower bound of their separations [m], FREE without pairs, or NO_BOUND
     bend: float  # K of the pair with that bound [1/m]
     first: int  # that pair
     second: int
@@ -130,7 +130,7 @@ class Axis(NamedTuple):
 
 
 class Hulls(NamedTuple):
-    """Two hulls, of which the first gives the half planes: their first rows, negative for an edge at rest, and half
+    """Two hulls, of which the first gives the half planes: their first rows, AT_REST for an edge at rest, and half
     lengths of such edges [m]."""
 
     first: int
@@ -164,5 +164,5 @@ class Faced(NamedTuple):
     k: int  # the half plane of the first hull beyond which the second is furthest
     own: int  # the first hull
     other: int  # the second
-    turned: int  # 1: the first hull is that of b, 0: that of a
+    swapped: bool  # whether the first hull is that of b
     gap: float  # [m]

@@ -24,7 +24,7 @@ def chain_between(scene, place, leaders, allowance, turning, chain):
 
     allowance: extra radius for motion during an interval [m], also added to the leading benches if they are `turning`
     """
-    if scene.curve.kind == ON_ROUTE:
+    if not scene.curve.is_spiral:
         return route_between(scene, place, leaders, allowance, chain)
     growth = scene.curve.growth
     theta = spiral_theta(place / growth)

@@ -170,7 +170,7 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     """Lower bound of the separation of two non-neighbours, the inner one's front handle at `radius` or further out [m].
 
     It holds for every growth in [growth_low, growth] [m/rad]. total: an upper bound of the sum of all chords, where
-    that may help [m]; returns -FREE where no bound is known
+    that may help [m]; returns NO_BOUND where nothing is known
     """
     chord = rings.all_chord
     overhang = rings.all_overhang
@@ -181,11 +181,11 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     gap = FREE
     at = growth_low
     if d2 <= DISCERNED * radius * radius or radius * radius < 1.5708 * chord * growth:
-        return -FREE
+        return NO_BOUND
     d = sqrt(d2)
     rho = d - (half_width if half_width > outer_half_width else outer_half_width)
     if d <= 2.0 * growth or rho <= 0.0:
-        return -FREE
+        return NO_BOUND
     for end in range(2):
         x_rear = 0.5 * chord + 1.67 * at
         q = 1.0 / d + 2.0 * at * (x_rear + overhang) / (d * d2)
@@ -204,7 +204,7 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     spread = 2.0 * (overhang + x_rear * half_width / d) / rho
     same_turn = same_turn / rho - spread
     if same_turn <= 0.0:
-        return -FREE
+        return NO_BOUND
     same_turn = 2.0 * rho * sin(0.5 * same_turn) if same_turn < PI else 2.0 * rho
     spread += total * asin(0.5 * chord / radius) / (0.5 * chord)
     if spread < TWO_PI:
@@ -212,7 +212,7 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
         if spread > gap:
             gap = spread
     if gap <= 0.0:
-        return -FREE
+        return NO_BOUND
     return gap if gap < same_turn else same_turn
 
 

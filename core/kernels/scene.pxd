@@ -18,7 +18,6 @@ cdef class Scene:
     cdef readonly Py_ssize_t benches
     cdef readonly Py_ssize_t room
     cdef readonly Py_ssize_t edges
-    cdef readonly int against
     cdef public Kinds kinds
     cdef public double margin
     cdef public Budget budget
@@ -43,6 +42,7 @@ cdef class Interval:
     cpdef bint lay_out(self, double place, double h, Py_ssize_t last) noexcept nogil
 
 cdef class Found:
+    cdef Ended ended
     cdef double proven
     cdef bint meets
     cdef double touching
@@ -53,6 +53,7 @@ cdef class Found:
 
     cdef void begin(self, double start) noexcept nogil
     cdef void meet(self, double touching) noexcept nogil
+    cdef Step end(self, Ended ended) noexcept nogil
 
 @cython.final
 cdef class Band:

@@ -24,7 +24,7 @@ class Scene:
     sizes: (room + 1 + edges, SIZE_COLUMNS), a row for every bench, an empty one, then a row for every edge at rest;
         chains have the same rows
     benches: number in the dragon; room: number of these that have a row
-    against: the obstacles: BENCHES, each other, or EDGES, the edges at rest alone, on a route only
+    edges: number of edges at rest, on a route only; where there are any, benches meet these alone, else each other
     budget: ends the loops before they are done
     kinds: the hulls of benches that are not rectangles; sizes then hold the rectangles around them
     margin: the clearance required [m]; left_out, left_out_too: a pair of benches that does not count, or NO_BENCH
@@ -39,7 +39,6 @@ class Scene:
         self.sizes = sizes
         self.benches = benches
         self.edges = edges
-        self.against = EDGES if edges > 0 else BENCHES
         self.room = min(benches, sizes.shape[0] - 1 - edges)
         self.margin = 0.0
         self.left_out = self.left_out_too = NO_BENCH
@@ -78,7 +77,7 @@ class Interval:
 
     def bound(self, climbing):
         """Bound the motion; False where no bound is known. climbing: see route_bounds(), which alone uses it."""
-        if self.scene.curve.kind == ON_SPIRAL:
+        if self.scene.curve.is_spiral:
             return motion_bounds(
                 self.scene.curve.growth, self.h, self.handles, self.scene.sizes, self.before, self.after, self.motion
             )
@@ -106,11 +105,13 @@ class Interval:
 class Found:
     """Progress of proven steps.
 
-    meets: whether a pair of benches comes within the margin; first, second: that pair; work: spent so far
+    ended: how they ended; meets: whether a pair of benches comes within the margin; first, second: that pair
+    work: spent so far
     proven, touching, steps: see Marched in results.py
     """
 
     def __init__(self):
+        self.ended = Ended.REACHED
         self.proven = self.touching = self.work = 0.0
         self.meets = False
         self.first = self.second = self.steps = 0
@@ -126,6 +127,11 @@ class Found:
         """Record that the pair `first`, `second` is within the margin here [m]."""
         self.meets = True
         self.touching = touching
+
+    def end(self, ended):
+        """Note how the steps end."""
+        self.ended = ended
+        return Step.ENDED
 
     def result(self, bend=0.0, graze=None):
         """What the steps have found so far, see Marched in results.py."""

@@ -127,7 +127,7 @@ class Peak:
                 if scene.budget.stopped or scene.budget.left <= 0.0:
                     break
                 left = self.stop - travel
-                if scene.curve.kind == ON_SPIRAL and h > APPROACH * left and left > LAST_SAMPLE * step:
+                if scene.curve.is_spiral and h > APPROACH * left and left > LAST_SAMPLE * step:
                     h = APPROACH * left
                 travel = travel + h if travel + h < self.stop and not self.gone(scene) else self.stop
             self.refine(scene, low, high, 0.0)
@@ -146,7 +146,7 @@ class Peak:
         self.ratio = FREE
         h = step
         end = self.stop + self.rounding
-        if scene.curve.kind == ON_SPIRAL and end > scene.place:  # the centre ends the way
+        if scene.curve.is_spiral and end > scene.place:  # the centre ends the way
             end = max(self.stop, scene.place)
         with cython.nogil:
             placed = lively_chain(
@@ -185,7 +185,7 @@ class Peak:
                     placed, handles, self.interval.before, self.interval.after
                 ):
                     self.refine(scene, travel, travel + h, NOISE)
-                if scene.curve.kind == ON_ROUTE and handles > self.alike and self.leaves(scene, upper, tolerance):
+                if not scene.curve.is_spiral and handles > self.alike and self.leaves(scene, upper, tolerance):
                     break
                 travel += h
                 placed = handles
@@ -214,7 +214,7 @@ class Peak:
 
     def gone(self, scene):
         """Whether handle alike + 1 of the sample has come to the first place of handle `alike` on its way out."""
-        if scene.curve.kind != ON_ROUTE or self.laid <= self.alike:
+        if scene.curve.is_spiral or self.laid <= self.alike:
             return False
         if self.ratio >= FREE:
             self.spare[self.alike, SLIP] = 0.0

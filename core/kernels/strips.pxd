@@ -7,9 +7,9 @@ from core.kernels.pairs cimport STRIP_ROUNDING
 from core.kernels.nearest cimport band_least
 from core.kernels.clearance cimport row_gap
 from core.kernels.records cimport Nearest
-from core.kernels.scene cimport Band, Found
+from core.kernels.scene cimport Band, Found, Scene
 
-cdef double TURNED_WITHIN
+cdef double BACKWARDS_WITHIN
 cdef double CHAIN_WORK
 cdef double WIDTH_ROUNDING
 cdef double ACROSS
@@ -31,13 +31,16 @@ cdef class Strip(Found):
     cdef double rounding
     cdef bint bounded
 
-    @cython.locals(state=cython.int)
-    cpdef int run(
+    cpdef object run(
         self, double outer, double inner, Py_ssize_t leaders, double rounding, double least_step, double most_work
-    ) noexcept
+    )
 
-    @cython.locals(state=cython.int, nearest=Nearest)
-    cdef int try_step(self, Band band, double inner) noexcept nogil
+    cdef Step march(
+        self, Scene scene, Band band, double inner, double least_step, double most_work
+    ) noexcept nogil
+
+    @cython.locals(nearest=Nearest)
+    cdef Step try_step(self, Band band, double inner) noexcept nogil
 
     @cython.locals(room=cython.Py_ssize_t, handles=cython.Py_ssize_t)
-    cdef int lay_out(self, Band band, double next_radius) noexcept nogil
+    cdef Step lay_out(self, Band band, double next_radius) noexcept nogil

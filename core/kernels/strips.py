@@ -3,6 +3,8 @@
 import cython
 from cython.cimports.libc.math import cos, sin, sqrt
 
+import core.kernels.constants as of_python  # its enums; in compiled code their names alone are those of C
+
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import extend_chain, start_chain
     from core.kernels.clearance import row_gap
@@ -13,8 +15,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.scene import Band, Found
     from core.kernels.spiral import spiral_arc, spiral_theta
 
-# Shortest step in which handles may turn back before a strip is given up, relative to the head's radius [1].
-TURNED_WITHIN = 1e-3
+# Shortest step in which handles may move backwards before a strip is given up, relative to the head's radius [1].
+BACKWARDS_WITHIN = 1e-3
 # Work of a step relative to one of a march [1]: it lays out four chains, at 0.6 us for each handle in all.
 CHAIN_WORK = 5.0
 
@@ -178,11 +180,10 @@ class Strip(Found):
 
         outer, inner: head radii [m]; rounding: largest error of a travel of the head [m]; least_step: head travel below
         which it gives up [m]; most_work: work after which it gives up
-        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; TURNED: perhaps not provable
-        in any strip, because a handle turns back or a bench folds; CAPACITY
+        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; UNBOUNDED, BENCH_FOLDED:
+        perhaps not provable in any strip, because a handle may move backwards or a bench folds; CAPACITY
         """
         low = self.band.low.scene.curve.growth
-        high = self.band.high.scene.curve.growth
         self.begin(outer)
         self.radius = outer
         self.place = low * spiral_arc(outer / low)
@@ -190,27 +191,31 @@ class Strip(Found):
         self.leaders = self.placed = leaders
         self.rounding = rounding
         self.bounded = True
-        if leaders > self.band.low.scene.room:
-            return CAPACITY
         with cython.nogil:
-            start_chain(outer / low, self.band.low.before)
-            start_chain(outer / high, self.band.high.before)
-            if extend_chain(low, 0, leaders, FREE, self.band.low.scene.sizes, self.band.low.before) == FOLDED:
-                return TURNED
-            if extend_chain(high, 0, leaders, FREE, self.band.low.scene.sizes, self.band.high.before) == FOLDED:
-                return TURNED
-            while self.radius > inner:
-                self.proven = self.radius
-                if not self.bounded and self.h < TURNED_WITHIN * self.radius:
-                    return TURNED
-                if self.h < least_step or self.work >= most_work or self.band.low.scene.budget.stopped:
-                    return STUCK
-                self.steps += 1
-                state = self.try_step(self.band, inner)
-                if state != ADVANCED and state != REFUSED:
-                    return state
+            self.march(self.band.low.scene, self.band, inner, least_step, most_work)
+        return of_python.Ended(self.ended)
+
+    def march(self, scene, band, inner, least_step, most_work):
+        """Take steps to the end."""
+        if self.leaders > scene.room:
+            return self.end(Ended.CAPACITY)
+        start_chain(self.radius / scene.curve.growth, band.low.before)
+        start_chain(self.radius / band.high.scene.curve.growth, band.high.before)
+        if extend_chain(scene.curve.growth, 0, self.leaders, FREE, scene.sizes, band.low.before) == FOLDED:
+            return self.end(Ended.BENCH_FOLDED)
+        if extend_chain(band.high.scene.curve.growth, 0, self.leaders, FREE, scene.sizes, band.high.before) == FOLDED:
+            return self.end(Ended.BENCH_FOLDED)
+        while self.radius > inner:
             self.proven = self.radius
-            return REACHED
+            if not self.bounded and self.h < BACKWARDS_WITHIN * self.radius:
+                return self.end(Ended.UNBOUNDED)
+            if self.h < least_step or self.work >= most_work or scene.budget.stopped:
+                return self.end(Ended.STUCK)
+            self.steps += 1
+            if self.try_step(band, inner) == Step.ENDED:
+                return Step.ENDED
+        self.proven = self.radius
+        return self.end(Ended.REACHED)
 
     def try_step(self, band, inner):
         """Try one step inwards; REFUSED if the next one must be shorter."""
@@ -221,9 +226,8 @@ class Strip(Found):
             next_radius = inner
             self.h = self.place - low * spiral_arc(inner / low)
         h_high = high * (spiral_arc(self.radius / high) - spiral_arc(next_radius / high))
-        state = self.lay_out(band, next_radius)
-        if state != ADVANCED:
-            return state
+        if self.lay_out(band, next_radius) == Step.ENDED:
+            return Step.ENDED
         self.work += CHAIN_WORK * (STEP_WORK + band.low.handles)
         band.low.h = self.h * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
         band.high.h = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
@@ -234,10 +238,10 @@ class Strip(Found):
         )  # fmt: skip
         if self.bounded:
             nearest = band_least(band.low.scene, band, self.leaders)
-            self.bounded = nearest.least != -FREE  # -FREE: no bound on its gaps is known
+            self.bounded = nearest.least != NO_BOUND
         if not self.bounded:
             self.h *= 0.5
-            return REFUSED
+            return Step.REFUSED
         room = 0.95 * nearest.room
         self.work += nearest.tried
         if nearest.least <= band.low.scene.margin:
@@ -245,25 +249,25 @@ class Strip(Found):
                 self.first = nearest.first
                 self.second = nearest.second
                 self.meet(next_radius)
-                return TOUCHED
+                return self.end(Ended.TOUCHED)
             self.h *= 0.5 if room < 0.5 * self.h or room >= self.h else room / self.h
-            return REFUSED
+            return Step.REFUSED
         self.radius = next_radius
         self.place -= self.h
         self.placed = band.low.handles
         band.low.swap()
         band.high.swap()
         self.h = room if room < 2.0 * self.h else 2.0 * self.h
-        return ADVANCED
+        return Step.ADVANCED
 
     def lay_out(self, band, next_radius):
-        """Lay out the four chains of a step, as far as the leaders reach; returns ADVANCED, else how the strip ends."""
+        """Lay out the four chains of a step, as far as the leaders reach; returns ADVANCED or ENDED."""
         low = band.low.scene.curve.growth
         high = band.high.scene.curve.growth
         start_chain(next_radius / low, band.low.after)
         start_chain(next_radius / high, band.high.after)
         if extend_chain(low, 0, self.leaders, FREE, band.low.scene.sizes, band.low.after) == FOLDED:
-            return TURNED
+            return self.end(Ended.BENCH_FOLDED)
         rear = high * band.high.before[self.leaders, THETA]
         slack = CLEAR_SPARE * high * band.high.before[self.leaders, THETA]
         beyond = leaders_reach(high, next_radius, rear + slack, band.low.scene.rings) + band.low.scene.margin
@@ -271,16 +275,16 @@ class Strip(Found):
         room = band.low.scene.room
         handles = extend_chain(low, self.leaders, room, beyond, band.low.scene.sizes, band.low.after)
         if handles == FOLDED:
-            return TURNED
+            return self.end(Ended.BENCH_FOLDED)
         if handles == room and room < band.low.scene.benches:
-            return CAPACITY
+            return self.end(Ended.CAPACITY)
         if extend_chain(high, 0, handles, FREE, band.low.scene.sizes, band.high.after) == FOLDED:
-            return TURNED
+            return self.end(Ended.BENCH_FOLDED)
         if self.placed < handles:
             if extend_chain(low, self.placed, handles, FREE, band.low.scene.sizes, band.low.before) == FOLDED:
-                return TURNED
+                return self.end(Ended.BENCH_FOLDED)
             if extend_chain(high, self.placed, handles, FREE, band.low.scene.sizes, band.high.before) == FOLDED:
-                return TURNED
+                return self.end(Ended.BENCH_FOLDED)
             self.placed = handles
         band.low.handles = band.high.handles = handles
-        return ADVANCED
+        return Step.ADVANCED

@@ -10,8 +10,7 @@ from core import kernels
 from core.contact.search import Search
 from core.dance import Dance
 from core.errors import InvalidValue, asked_of, checked_number, said_bound
-from core.kernels import Budget
-from core.kernels.constants import EXCEEDED, KEPT
+from core.kernels import Budget, Judged
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
 from core.sampling import bisected
 from core.shown import Shown
@@ -218,13 +217,15 @@ def _excess_in(search: Search, stretch: Stretch, limit: float) -> FirstExcess | 
     """The first excess in a part of the dance with one head speed."""
     ratio = limit / stretch.speed
     outcome, excess = _excess(search, stretch.first, stretch.last, stretch.speed, ratio)
-    if outcome == EXCEEDED:
+    if outcome is Judged.EXCEEDED:
         time = stretch.time(excess.found)
         return FirstExcess(time, (stretch.time(excess.proven), time), excess.handle)
-    return None if outcome == KEPT else _late_excess(search, ratio, stretch, stretch.time(excess.proven))
+    return None if outcome is Judged.KEPT else _late_excess(search, ratio, stretch, stretch.time(excess.proven))
 
 
-def _excess(search: Search, first: float, last: float, head_speed: float, ratio: float) -> tuple[int, kernels.Excess]:
+def _excess(
+    search: Search, first: float, last: float, head_speed: float, ratio: float
+) -> tuple[Judged, kernels.Excess]:
     """The search for the first excess over a rate between two travels of the head [m], and its outcome."""
     rounding = search.travel_rounding(first, last)
     step, way = SAMPLE_STEP * float(search.rings.all_chord), max(abs(first), abs(last), search.place)
@@ -243,7 +244,7 @@ def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) 
         """A handle that is certainly faster than the limit at an instant."""
         place = stretch.place(time)
         outcome, excess = _excess(search, place, place, stretch.speed, ratio)
-        return excess.handle if outcome == EXCEEDED else None
+        return excess.handle if outcome is Judged.EXCEEDED else None
 
     until = stretch.end
     times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]

@@ -29,12 +29,12 @@ from core.contact.clearance import (
     samples_where,
 )
 from core.contact.fold import clear_to_fold
-from core.contact.march import TOUCHES, Ended
+from core.contact.march import TOUCHES
 from core.contact.search import Search
 from core.dance import Dance, RunEnd
 from core.dragon import Dragon
 from core.errors import said, said_bound
-from core.kernels import Budget
+from core.kernels import NO_BRACKET, Budget, Ended
 from core.tolerance.between import held_apart
 from core.tolerance.reach import Reach, gains, reach, simple_reach
 from core.values import Floats
@@ -158,7 +158,7 @@ def _safe_stray(field: Field, most: float) -> Found:
             if tried < STRAY_MIN:
                 return Found(0.0, limiting, steps)
             search = field.search(tried)
-            state, met = search.march(until, 0.0, start=proven_to)
+            state, met = search.march(until, NO_BRACKET, start=proven_to)
             search.budget.afford()
             steps += met.steps
             if state is Ended.REACHED or (state is Ended.STUCK and met.touching is None):

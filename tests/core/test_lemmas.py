@@ -10,7 +10,7 @@ import pytest
 from core import Dance, Dragon, Outcome, Turn, first_contact
 from core.contact.march import BRACKET
 from core.contact.search import Search
-from core.kernels import FREE
+from core.kernels import FREE, Ended
 from tests.core.contact.test_first_contact import ACCURACY
 from tests.depth import some
 
@@ -105,7 +105,7 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
     every.resize(benches)
     slow = every.approach(start, path.end, 1.0)
     assert found[0] == slow[0]
-    if found[0] == "touched":
+    if found[0] is Ended.TOUCHED:
         assert found[1].touching == pytest.approx(slow[1].touching, rel=0, abs=ACCURACY)
         assert found[1].benches == slow[1].benches
 

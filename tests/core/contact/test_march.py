@@ -1,4 +1,4 @@
-"""A march: its ends in the order of the kernels, and the error of its travels to 50 digits."""
+"""A march: its brackets, and the error of its travels to 50 digits."""
 
 from __future__ import annotations
 
@@ -6,15 +6,10 @@ import numpy as np
 import pytest
 from flint import arb
 
-from core import Dragon, Spiral, kernels
-from core.contact.march import BRACKET, BRACKETS_GRAZING, ENDS, TRAVEL_ROUNDING, Ended
+from core import Dragon, Spiral
+from core.contact.march import BRACKET, BRACKETS_GRAZING, TRAVEL_ROUNDING
 from core.contact.search import Search
 from tests.core.exact_chain import spiral_place
-
-
-def test_ends_are_in_the_order_of_the_kernels_states() -> None:
-    assert [str(end) for end in ENDS[: len(kernels.MARCH_STATES)]] == list(kernels.MARCH_STATES)
-    assert set(ENDS) - set(map(Ended, kernels.MARCH_STATES)) == {Ended.FOLDED, Ended.UNBOUNDED}
 
 
 def test_wider_brackets_are_tried_one_after_the_other() -> None:

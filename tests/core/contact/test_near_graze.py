@@ -14,6 +14,7 @@ from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_c
 from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, gap_along, narrowed
 from core.contact.near_graze import separation as precise_separation
 from core.contact.search import Search
+from core.kernels import Ended
 from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
@@ -120,7 +121,7 @@ def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
     spiral = Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9)
     search = Search(Dragon(60), spiral, 0.0)
     state, found, half = search.approach(0.0, 300.0, 1.0)
-    assert (state, half > 0.5 * BRACKET) == ("touched", True)
+    assert (state, half > 0.5 * BRACKET) == (Ended.TOUCHED, True)
     assert narrowed(search, found, 0.4 * BRACKET) is not None
     assert narrowed(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, Turn
-from core.contact.march import Ended
 from core.contact.near_graze import others_clear
 from core.contact.search import Search, joined
+from core.kernels import Ended
 from core.kernels.results import Dip, Marched
 from tests.core.slow_search import SlowDance, arc_length
 
@@ -66,7 +66,7 @@ def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_after
 def test_a_search_whose_work_is_done_gives_up() -> None:
     search = Search(Dragon(), Turn(1.7), 0.0, work=2e4)
     state, found, _ = search.approach(-50.0, 100.0, 1.0)
-    assert state == "stuck"
+    assert state is Ended.STUCK
     assert -50.0 < found.proven < 100.0
 
 

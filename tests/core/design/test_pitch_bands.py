@@ -13,6 +13,7 @@ import pytest
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
 from core.design.pitch_bands import Bands
+from core.kernels import Ended
 from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_PULL, SHIFT_TURN, UX, UY
 from core.values import Floats
 
@@ -75,7 +76,7 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     search.use(Spiral(2 * math.pi * low, bands.start_turns), -1e3)  # no pair is within such a margin
     band = bands.band_to(high)
-    assert kernels.MARCH_STATES[band.run(outer, inner, leaders, 0.0, 0.0, 9)] == "reached"
+    assert band.run(outer, inner, leaders, 0.0, 0.0, 9) is kernels.Ended.REACHED
     assert band.result().steps == 1  # whose bounds are there still
     moved = int(np.count_nonzero(bands.shifts[:, SHIFT_CENTRE]))
     assert moved > 2
@@ -106,14 +107,14 @@ def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed: int) -> None:
     """At 9 x 30 samples between the two pitches, down to the radius that is reached, often not the circle."""
     bands, low, high = random_bands(seed)
     state, found = bands.prove(low, high, 3.0 * bands.radius)
-    if state == "unbounded":
+    if state is Ended.UNBOUNDED and not found.steps:  # no bound holds so far out
         return
     outer = max(3.0 * bands.radius, found.proven)
     benches = min(bands.search.dragon.benches, bands.search.room)
     for growth in np.linspace(low, high, 9) / (2 * math.pi):
         for radius in np.linspace(found.proven, outer, 30):
             assert chain(bands.search, growth, radius, benches)[0] > bands.margin
-    if state == "touched":
+    if state is Ended.TOUCHED:
         growth = low / (2 * math.pi)
         gap = chain(bands.search, growth, found.touching, benches)[0]
         assert gap <= bands.margin
@@ -127,9 +128,9 @@ def bands_of(case: dict[str, Any]) -> Bands:
 @pytest.mark.parametrize("case", GRAZES, ids=[case["name"] for case in GRAZES])
 def test_a_band_is_proven_just_above_a_minimum_and_not_across_it(case: dict[str, Any]) -> None:
     bands, pitch = bands_of(case), case["pitch"]
-    assert bands.prove(pitch + ACCURACY, pitch + 1e-6, math.inf)[0] == "reached"
+    assert bands.prove(pitch + ACCURACY, pitch + 1e-6, math.inf)[0] is Ended.REACHED
     for below, above in ((ACCURACY, ACCURACY), (ACCURACY, 1e-4), (1e-4, 1e-3)):
-        assert bands.prove(pitch - below, pitch + above, math.inf)[0] in ("stuck", "touched")
+        assert bands.prove(pitch - below, pitch + above, math.inf)[0] in (Ended.STUCK, Ended.TOUCHED)
 
 
 def test_a_band_from_an_island_to_the_minimum_is_not_proven() -> None:
@@ -137,7 +138,7 @@ def test_a_band_from_an_island_to_the_minimum_is_not_proven() -> None:
     [case] = [case for case in CASES if case["other_feasible_intervals"]]
     bands, [[start, end]] = bands_of(case), case["other_feasible_intervals"]
     for low in np.linspace(start, end - ACCURACY, 5):
-        assert bands.prove(low, case["pitch"] + ACCURACY, case["pitch"] * case["start_turns"])[0] != "reached"
+        assert bands.prove(low, case["pitch"] + ACCURACY, case["pitch"] * case["start_turns"])[0] is not Ended.REACHED
 
 
 @pytest.mark.parametrize("seed", range(30))

@@ -7,8 +7,9 @@ import pytest
 
 import core.design.ways
 from core import Dragon, Spiral, TooMuchWork, minimum_pitch
-from core.contact.march import TOUCHES, Ended
+from core.contact.march import TOUCHES
 from core.design.ways import CONTACT_WIDTH, Ways
+from core.kernels import Ended
 from tests.core.design.test_minimum_pitch import FOLDING
 from tests.core.slow_pitch import SlowWay
 from tests.core.slow_search import SlowDance
@@ -45,7 +46,7 @@ def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() 
     assert ways.march(pitch)[0] in TOUCHES
 
 
-@pytest.mark.parametrize(("more", "ended"), [(-1e-6, Ended.FOLDED), (1e-6, Ended.REACHED)])
+@pytest.mark.parametrize(("more", "ended"), [(-1e-6, Ended.BENCH_FOLDED), (1e-6, Ended.REACHED)])
 def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more: float, ended: Ended) -> None:
     ways = Ways(FOLDING, 0.85, 5.0, 0.0)
     assert ways.march(FOLDS_AT + more)[0] is ended

@@ -26,6 +26,6 @@ def test_a_chain_stands_and_moves_as_the_trajectory_says(path: Spiral | Route, t
 
 
 def test_curves_say_what_they_are() -> None:
-    assert kernels.spiral_curve(0.2).kind == kernels.ON_SPIRAL
+    assert kernels.spiral_curve(0.2).is_spiral
     assert kernels.spiral_curve(0.2).growth == 0.2
-    assert kernels.route_curve(Turn(1.7).table).kind == kernels.ON_ROUTE
+    assert not kernels.route_curve(Turn(1.7).table).is_spiral

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from pathlib import Path
 
 import pytest
 
+from core import Dragon, Spiral, kernels
+from core.contact.search import Search
 from core.kernels import constants
 
 pytestmark = pytest.mark.uncompiled
@@ -14,15 +17,39 @@ pytestmark = pytest.mark.uncompiled
 DECLARED = Path(constants.__file__).with_suffix(".pxd").read_text(encoding="utf-8")
 
 
+STATES = {
+    name: kind
+    for name, kind in vars(constants).items()
+    if inspect.isclass(kind) and kind.__module__ == constants.__name__
+}
+
+
+def declared(text: str) -> dict[str, float]:
+    return {name: float(value) for name, value in re.findall(r"(\w+) = (\d+)", text)}
+
+
 def test_constants_are_the_same_for_the_compiler() -> None:
-    literals = re.findall(r'(\w+) "([^"]+)"', DECLARED) + re.findall(r"(\w+) = (\d+)", DECLARED)
-    assert {name: float(value) for name, value in literals} == {
+    unnamed = re.search(r"cdef enum:\n((?:    .*\n)+)", DECLARED)
+    assert unnamed is not None
+    literals = {name: float(value) for name, value in re.findall(r'(\w+) "([^"]+)"', DECLARED)}
+    assert {**literals, **declared(unnamed[1])} == {
         name: value
         for name, value in vars(constants).items()
         if isinstance(value, int | float) and not name.endswith("_COLUMNS")
     }
 
 
-def test_every_state_of_a_march_has_a_name() -> None:
-    states = ("REACHED", "TOUCHED", "TOUCHED_AT_START", "STUCK", "CAPACITY", "TURNED")
-    assert [constants.MARCH_STATES[getattr(constants, name)].upper() for name in states] == list(states)
+def test_states_have_the_same_names_and_numbers_for_the_compiler() -> None:
+    compiled = dict(re.findall(r"cdef enum (\w+):\n((?:    .*\n)+)", DECLARED))
+    assert {name: declared(text) for name, text in compiled.items()} == {
+        name: dict(states.__members__) for name, states in STATES.items()
+    }
+    assert set(STATES) == {"Ended", "Step", "Judged"}
+
+
+def test_a_loop_returns_a_member_of_its_states() -> None:
+    search = Search(Dragon(3), Spiral(), 0.0)
+    march = kernels.March(search.interval, search.probe, search.rows[4])
+    ended = march.run(10.0, 11.0, 2, True, kernels.NO_BRACKET, False, 0.0, 1e6)
+    judged = kernels.Excess(search.interval, 0.0).run(10.0, 11.0, 1.0, 9.0, 9.0, 1e-9, 0.0, 1000)
+    assert (type(ended), type(judged)) == (kernels.Ended, kernels.Judged)

@@ -29,7 +29,7 @@ def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handl
     travels, rates = sampled(Search(Dragon(6), Turn(1.7), 0.0))
     limit = 1.0 + part * (rates.max() - 1.0)
     outcome, excess, search = excess_over(limit)
-    assert outcome == kernels.EXCEEDED
+    assert outcome is kernels.Judged.EXCEEDED
     assert excess.found - 2.0 * WIDTH <= excess.proven <= excess.found
     assert (rates[travels < excess.proven] <= limit).all()
     assert abs(search.rates(excess.found)[excess.handle]) > limit
@@ -38,8 +38,8 @@ def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handl
 def test_a_limit_above_all_rates_is_kept_to_the_end() -> None:
     _, rates = sampled(Search(Dragon(6), Turn(1.7), 0.0))
     outcome, excess, _ = excess_over(rates.max() + 0.01)
-    assert (outcome, excess.proven) == (kernels.KEPT, STOP)
+    assert (outcome, excess.proven) == (kernels.Judged.KEPT, STOP)
 
 
 def test_a_search_without_links_is_given_up() -> None:
-    assert excess_over(1.2, links=0)[0] == kernels.GIVEN_UP
+    assert excess_over(1.2, links=0)[0] is kernels.Judged.GIVEN_UP

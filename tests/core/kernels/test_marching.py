@@ -6,6 +6,7 @@ import numpy as np
 
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
+from core.kernels import Ended
 
 TOLERANCE, WORK, ROUNDING = 1e-10, 1e7, 1e-12
 DRAGON, SPIRAL = Dragon(40), Spiral()
@@ -17,14 +18,14 @@ def march_of(search: Search) -> kernels.March:
     return kernels.March(search.interval, search.probe, search.rows[4])
 
 
-def ended(march: kernels.March, start: float, stop: float, tolerance: float = TOLERANCE, budget: float = WORK) -> str:
-    return kernels.MARCH_STATES[march.run(start, stop, 2, True, tolerance, True, ROUNDING, budget)]
+def ended(march: kernels.March, start: float, stop: float, tolerance: float = TOLERANCE, budget: float = WORK) -> Ended:
+    return march.run(start, stop, 2, True, tolerance, True, ROUNDING, budget)
 
 
 def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
     search = Search(DRAGON, SPIRAL, 0.05)
     march = march_of(search)
-    assert ended(march, 300.0, 380.0) == "reached"
+    assert ended(march, 300.0, 380.0) is Ended.REACHED
     assert march.result()[:2] == (380.0, None)
     assert all(search.clearance(travel)[0] > 0.05 for travel in np.linspace(300.0, 380.0, 500))
 
@@ -32,7 +33,7 @@ def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
 def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     search = Search(DRAGON, SPIRAL, 0.0)
     march = march_of(search)
-    assert ended(march, 380.0, 420.0) == "touched"
+    assert ended(march, 380.0, 420.0) is Ended.TOUCHED
     found = march.result()
     assert found.touching is not None
     assert found.proven <= CONTACT <= found.touching <= found.proven + 3.0 * TOLERANCE
@@ -48,7 +49,7 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
 
 def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
     march = march_of(Search(DRAGON, SPIRAL, 0.0))
-    assert ended(march, 413.0, 420.0) == "touched_at_start"
+    assert ended(march, 413.0, 420.0) is Ended.TOUCHED_AT_START
     found = march.result()
     assert found.proven == found.touching == 413.0
     assert found.steps == 0
@@ -56,7 +57,7 @@ def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
 
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
     march = march_of(Search(DRAGON, SPIRAL, 0.0))
-    assert ended(march, 380.0, 420.0, budget=200.0) == "stuck"
+    assert ended(march, 380.0, 420.0, budget=200.0) is Ended.STUCK
     assert 380.0 < march.result().proven < CONTACT
     assert march.result().touching is None
 
@@ -64,14 +65,14 @@ def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
 def test_a_dragon_with_too_few_rows_ends_at_capacity() -> None:
     search = Search(DRAGON, SPIRAL, 0.0)
     search.resize(3)
-    assert ended(march_of(search), 380.0, 420.0) == "capacity"
+    assert ended(march_of(search), 380.0, 420.0) is Ended.CAPACITY
 
 
 def test_a_pair_that_is_left_out_is_not_found() -> None:
     search = Search(DRAGON, SPIRAL, 0.0)
     search.scene.left_out, search.scene.left_out_too = 0, 8
     march = march_of(search)
-    assert ended(march, 380.0, 420.0) == "touched"
+    assert ended(march, 380.0, 420.0) is Ended.TOUCHED
     found = march.result()
     assert found.benches != (0, 8)
     assert found.touching is not None

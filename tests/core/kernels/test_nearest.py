@@ -9,9 +9,9 @@ import pytest
 import shapely
 
 from core import Dance, Dragon, Line, Route, Spiral, Turn, bench_poses, kernels, trajectory
-from core.contact.march import Ended
 from core.contact.search import Search
 from core.design.pitch_bands import Bands
+from core.kernels import Ended
 from core.shapes.rectangles import corners
 
 # Samples of a way, and so much [m] a dip between two of them can lie lower.
@@ -59,11 +59,11 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)
         march = kernels.March(search.interval, search.probe, search.rows[4])
-        ended.add(kernels.MARCH_STATES[march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7)])
+        ended.add(march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7))
         found = march.result()
         assert found.proven < CONTACT
         assert found.touching is None or found.benches == (0, 8)
-    assert ended == {"capacity", "touched"}
+    assert ended == {Ended.CAPACITY, Ended.TOUCHED}
 
 
 @pytest.mark.parametrize("low", [0.44, 0.5, 0.56])
@@ -77,5 +77,5 @@ def test_a_band_of_pitches_is_proven_for_margins_below_its_least_sample_only(low
     for more, reached in ((-2e-3, True), (ABOVE, False)):
         search.use(Spiral(low), least + more)
         band = Bands(search, 4.5, 16.0, least + more).band_to(high / (2.0 * math.pi))
-        ended = kernels.MARCH_STATES[band.run(6.0, 4.5, 2, 1e-12, 1e-9, 1e7)]
-        assert (ended == "reached") is reached
+        ended = band.run(6.0, 4.5, 2, 1e-12, 1e-9, 1e7)
+        assert (ended is Ended.REACHED) is reached

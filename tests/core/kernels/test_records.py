@@ -16,7 +16,7 @@ DECLARED = Path(records.__file__).with_suffix(".pxd").read_text(encoding="utf-8"
 
 def test_records_are_the_same_for_the_compiler() -> None:
     structs = {
-        name: tuple(re.findall(r"(?:double|Py_ssize_t|View) (\w+)", fields))
+        name: tuple(re.findall(r"(?:double|Py_ssize_t|bint|View) (\w+)", fields))
         for name, fields in re.findall(r"cdef struct (\w+):\n((?:    .+\n)+)", DECLARED)
     }
     assert len(structs) > 9

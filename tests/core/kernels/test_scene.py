@@ -28,7 +28,6 @@ def test_a_scene_has_room_for_as_many_benches_as_rows() -> None:
     for rows, benches, edges, room in ((41, 223, 0, 40), (41, 10, 0, 10), (41, 30, 10, 30)):
         scene = kernels.Scene(curve, 9.0, rings, np.zeros((rows, kernels.SIZE_COLUMNS)), benches, edges)
         assert scene.room == room
-        assert scene.against == (kernels.EDGES if edges else kernels.BENCHES)
 
 
 def test_an_interval_whose_chain_folds_has_no_bounds() -> None:

@@ -20,7 +20,7 @@ def strip_of(pitch: float, benches: int = 60) -> tuple[Search, kernels.Strip]:
 
 def test_a_strip_that_reaches_the_circle_is_clear_at_samples() -> None:
     search, strip = strip_of(LOW)
-    assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)] == "reached"
+    assert strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK) is kernels.Ended.REACHED
     assert strip.result()[:2] == (CIRCLE, None)
     for pitch in np.linspace(LOW, HIGH, 5):
         search.use(Spiral(pitch), 0.0)
@@ -30,7 +30,7 @@ def test_a_strip_that_reaches_the_circle_is_clear_at_samples() -> None:
 
 def test_a_strip_too_narrow_for_its_benches_touches() -> None:
     search, strip = strip_of(0.42)
-    assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)] == "touched"
+    assert strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK) is kernels.Ended.TOUCHED
     found = strip.result()
     assert found.touching is not None
     travel = search.travel_at(found.touching / search.growth)
@@ -39,6 +39,6 @@ def test_a_strip_too_narrow_for_its_benches_touches() -> None:
 
 def test_without_work_a_strip_is_stuck_and_more_leaders_than_rows_do_not_fit() -> None:
     _, strip = strip_of(LOW)
-    assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, 0.0)] == "stuck"
+    assert strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, 0.0) is kernels.Ended.STUCK
     assert strip.result().proven == 6.0
-    assert kernels.MARCH_STATES[strip.run(6.0, CIRCLE, 61, 1e-12, 1e-9, WORK)] == "capacity"
+    assert strip.run(6.0, CIRCLE, 61, 1e-12, 1e-9, WORK) is kernels.Ended.CAPACITY
