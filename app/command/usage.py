@@ -10,7 +10,7 @@ from typing import Any
 
 import typer
 
-from app.wire.messages import ALIKE_SLIP, message
+from app.wire.messages import ALIKE_SLIP, fault_of
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
@@ -57,5 +57,4 @@ def _unfit(parameter: Any, quoted: str) -> str:
     if " range" in kind.name and re.fullmatch(r"[-+]?\d+", value):
         return f"{option} must be from {kind.min} to {kind.max}, got {value}"
     wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
-    words = message({**wrong, "loc": ("query", parameter.name)}, None)
-    return f"{option}{words.removeprefix(parameter.name)}"
+    return f"{option}{fault_of({**wrong, 'loc': ('query', parameter.name)}, None).rule}"

@@ -6,12 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from app.wire.dances import SHAPES
-from app.wire.messages import message
+from app.wire.messages import fault_of, place_of
 from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, plain, problem_of
 from core import BenchDragonError
 
-# Kinds of pydantic's errors about a union, where the field `kind` is wrong.
-UNION_ERRORS = frozenset({"union_tag_invalid", "union_tag_not_found"})
 # A function of the steps to the place of an error and its words; it returns the error of the problem.
 Placing = Callable[[Sequence[Any], str], ErrorItem]
 
@@ -27,9 +25,7 @@ def unfit(found: Sequence[Any], asked: Any, item: Placing) -> Problem:
 
     found: pydantic's errors, the first step to each is query or body; asked: type of the request
     """
-    for one in found:
-        one["loc"] = (*one["loc"], "kind") if one["type"] in UNION_ERRORS else one["loc"]
-    items = [item(one["loc"][1:], message(one, asked)) for one in found[:ERRORS_MAX]]
+    items = [item(place_of(one)[1:], fault_of(one, asked).message) for one in found[:ERRORS_MAX]]
     more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
     return problem_of(422, "invalid-value", items[0].detail + more, items)
 

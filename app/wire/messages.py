@@ -9,7 +9,7 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import takewhile
-from typing import Annotated, Any, TypeVar, get_args, get_origin
+from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, Tag, ValidationError
 
@@ -39,16 +39,11 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
         return model.model_validate(values)
     except ValidationError as error:
         first = error.errors()[0]
-        field = ".".join(str(part) for part in first["loc"] if part not in SHAPES)
-        words = message({**first, "loc": ("request", *first["loc"])}, model, thing)
-        # Words such as `times[1] must be ...` name the place in a list already.
-        outer = field.rstrip("0123456789").rstrip(".") if "[" in words.partition(" ")[0] else field
-        if "." in outer:
-            before, _, last = outer.rpartition(".")
-            own = words.removeprefix(f'"{last}"')
-            own = last + own if own != words else words
-            words = f"{spoken(before)}.{own}" if own.startswith(last) else f"{spoken(outer)}: {words}"
-        raise InvalidValue(field, words) from error
+        steps = [step for step in place_of(first) if step not in SHAPES]
+        fault, field = fault_of({**first, "loc": ("request", *first["loc"])}, model, thing), ".".join(map(str, steps))
+        named = next((step for step in reversed(steps) if isinstance(step, str)), fault.name) == fault.name
+        subject = fault.subject if len(steps) < 2 else spoken(field) if named else f"{spoken(field)}: {fault.subject}"
+        raise InvalidValue(field, subject + fault.rule) from error
 
 
 def shown(value: Any) -> str:
@@ -60,18 +55,51 @@ def shown(value: Any) -> str:
     return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 
 
-def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
-    """Message for one wrong field: its name, the value, the unit, the limit, and what to change.
+def place_of(error: Mapping[str, Any]) -> tuple[str | int, ...]:
+    """Steps to the wrong field of one of pydantic's errors; of a union without a matching `kind` that field."""
+    place: tuple[str | int, ...] = tuple(error["loc"])
+    return (*place, "kind") if error["type"].startswith("union_tag") else place
+
+
+class Fault(NamedTuple):
+    """One wrong field in words.
+
+    name: of the field; subject: the name with the indices at its end, or in quotes if it is unknown; rule: the rest of
+    the sentence: the limit, the unit, the value, and what to change
+    """
+
+    name: str
+    subject: str
+    rule: str
+
+    @property
+    def message(self) -> str:
+        return self.subject + self.rule
+
+
+def fault_of(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> Fault:
+    """The fault behind one of pydantic's errors.
 
     asked: type of the request; thing: name of an object in the format of its values
     """
-    units = known_units()
-    names = [part for part in error["loc"][1:] if isinstance(part, str)]
-    name = _name(names, units, error["loc"], asked)
-    kind, value, limits = error["type"], error["input"], error.get("ctx", {})
+    units, place = known_units(), place_of(error)
+    names = [part for part in place[1:] if isinstance(part, str)]
+    name = _name(names, units, place, asked)
     told_apart = next((part for part in reversed(names) if part in KINDS), "")
     unit = "" if AXIS in names else units.get(f"{told_apart}.{name}", units.get(name, ""))
-    name += "".join(f"[{part}]" for part in _last_indices(error["loc"]))
+    if error["type"] == "extra_forbidden":
+        return Fault(names[-1], shown(names[-1]), _stranger(names[-1], units, place, asked))
+    subject = name + "".join(f"[{part}]" for part in _last_indices(place))
+    if AXIS in names:
+        thing += " or a list of values"
+    elif subject == "times":
+        thing += ", or a list of instants [s]"
+    return Fault(name, subject, _rule(error, unit, thing))
+
+
+def _rule(error: Mapping[str, Any], unit: str, thing: str) -> str:
+    """The rest of the sentence after the name of the wrong field."""
+    kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     number = _number(value, text=error["loc"][0] == "query")
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
     got = f"got {words}" + (f" {unit}" if unit and number is not None else "")
@@ -79,52 +107,50 @@ def message(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> str:
     of_unit = f" [{unit}]" if unit else ""
     match kind:
         case "greater_than_equal":
-            return f"{name} must be at least {limit}, {got}"
+            return f" must be at least {limit}, {got}"
         case "greater_than":
-            return f"{name} must be more than {limit}, {got}"
+            return f" must be more than {limit}, {got}"
         case "less_than_equal":
-            return f"{name} must be at most {limit}, {got}{_unit_hint(number, limits['le'], unit)}"
+            return f" must be at most {limit}, {got}{_unit_hint(number, limits['le'], unit)}"
         case "finite_number":
-            return f"{name} must be a finite number{of_unit}, {got}"
+            return f" must be a finite number{of_unit}, {got}"
         case "float_type" | "float_parsing":
-            return f"{name} must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
+            return f" must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
-            return f"{name} must be a whole number, {got}"
+            return f" must be a whole number, {got}"
         case "string_pattern_mismatch" if unit:
-            return f"{name} must be a number{of_unit} in digits, such as 0.4503, {got}"
-        case "missing":
-            return f"{names[-1] if names else name} is missing"
-        case "extra_forbidden":
-            alike = ALIKE if names[-1] in units else ALIKE_SLIP
-            if homes := _homes(names[-1], asked, error["loc"][1:-1]):
-                return f"{shown(names[-1])} is unknown here: it belongs into {' or '.join(homes)}"
-            near = difflib.get_close_matches(names[-1], names_at(asked, error["loc"][1:-1]), n=1, cutoff=alike)
-            return f"{shown(names[-1])} is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
+            return f" must be a number{of_unit} in digits, such as 0.4503, {got}"
+        case "missing" | "union_tag_not_found":
+            return " is missing"
         case "model_type" | "model_attributes_type" | "dict_type":
-            other = (
-                ", or a list of instants [s]" if name == "times" else " or a list of values" if AXIS in names else ""
-            )
-            return f"{name} must be {thing}{other}, {got}"
+            return f" must be {thing}, {got}"
         case "list_type":
-            return f"{name} must be a list{f' of numbers [{unit}]' if unit else ''}, got {words}"
+            return f" must be a list{f' of numbers [{unit}]' if unit else ''}, got {words}"
         case "too_short":
             least, given = limits["min_length"], limits["actual_length"]
-            return f"{name} must have at least {least} {'entry' if least == 1 else 'entries'}, got {given or 'none'}"
+            return f" must have at least {least} {'entry' if least == 1 else 'entries'}, got {given or 'none'}"
         case "too_long":
-            return f"{name} must have at most {limits['max_length']} entries, got more"
+            return f" must have at most {limits['max_length']} entries, got more"
         case "union_tag_invalid":
-            return f"kind must be one of {limits['expected_tags']}, got {shown(limits['tag'])}"
-        case "union_tag_not_found":
-            return "kind is missing"
+            return f" must be one of {limits['expected_tags']}, got {shown(limits['tag'])}"
         case "too_deep":
-            return f"{name} must nest objects and lists at most {limits['most']} deep"
+            return f" must nest objects and lists at most {limits['most']} deep"
         case "literal_error" | "enum":
-            return f"{name} must be {limits['expected']}, {got}"
+            return f" must be {limits['expected']}, {got}"
         case "benches":
-            return f"{name}: {limits['words']}"
+            return f": {limits['words']}"
         case "too_many_names":
-            return f"{name} must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
-    return f"{name}: {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+            return f" must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
+    return f": {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:
+    """The rest of the sentence after a name that is unknown at its place."""
+    if homes := _homes(name, asked, place[1:-1]):
+        return f" is unknown here: it belongs into {' or '.join(homes)}"
+    alike = ALIKE if name in units else ALIKE_SLIP
+    near = difflib.get_close_matches(name, names_at(asked, place[1:-1]), n=1, cutoff=alike)
+    return " is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
 
 
 def _name(names: Sequence[str], units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:

@@ -181,7 +181,7 @@ def _placed(piece: LinePiece | ArcPiece | CoilPiece | WaypointsPiece, place: str
     try:
         return piece.to_piece()
     except InvalidValue as error:
-        raise error.named(error.field.replace(piece.kind, place, 1)) from error
+        raise error.renamed(lambda name: ".".join([place, *name.split(".")[1:]])) from error
 
 
 class WaypointsPath(WaypointsPiece, strict=True):

@@ -41,9 +41,9 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
     names = type(request).model_fields.keys()
     if found := INSTANT.fullmatch(error.field):
         error = _of_instants(error, request, int(found[1] or 0))
-    if error.field.endswith("turning_radius"):
-        radius = error.field
-        error = error.named(radius.replace("radius", "diameter"), None if error.got is None else 2.0 * error.got)
+    *outer, last = error.field.split(".")
+    if last == "turning_radius":
+        error = error.named(".".join([*outer, "turning_diameter"]), None if error.got is None else 2.0 * error.got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
     # A range of times may exist beside the name `times`, as in the options of the command.

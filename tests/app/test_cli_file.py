@@ -141,6 +141,12 @@ def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:
             "dragon.widths must be a list of numbers [m], got 0.3",
         ),
         ("dance.json", '{"path": {"pitch": -1}}', "path.pitch must be at least 0.001 m, got -1 m"),
+        (
+            "dance.json",
+            '{"path": {"kind": "waypoints", "points": [[0, 0], [1, "x"]]}}',
+            'path.points[1][1] must be a number [m], got "x"',
+        ),
+        ("dance.json", '{"path": {"kind": "route", "pieces": [{}]}}', "path.pieces[0].kind is missing"),
         ("dance.toml", 'venue = "yard.geojson"', "venue of dance.toml: yard.geojson: No such file or directory"),
         ("dance.txt", "", "dance.txt must end in .toml or .json, got .txt"),
         (

@@ -18,7 +18,7 @@ from app.service.main import create_app
 from app.service.reply import accepted
 from app.settings import Settings
 from app.wire.faults import pointer
-from app.wire.messages import message
+from app.wire.messages import fault_of
 
 pytestmark = pytest.mark.uncompiled
 
@@ -54,7 +54,7 @@ def test_a_message_names_the_field_the_value_the_unit_and_the_limit(values: dict
     with pytest.raises(ValidationError) as caught:
         CollisionQuery.model_validate(values)
     (error,) = caught.value.errors()
-    assert message({**error, "loc": ("query", *error["loc"])}, CollisionQuery) == words
+    assert fault_of({**error, "loc": ("query", *error["loc"])}, CollisionQuery).message == words
 
 
 def test_numbers_in_bodies_are_numbers() -> None:
