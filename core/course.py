@@ -9,7 +9,6 @@ import numpy as np
 from core.dragon import Dragon
 from core.errors import checked_type
 from core.paths.following import tightest_bend
-from core.paths.legs import Legs
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
@@ -70,23 +69,13 @@ def course(path: Spiral | Route, dragon: Dragon) -> Course:
     >>> course(Legs([(0, 0), (20, 0), (20, 20)], [0, 1], radius=1.0), Dragon()).bends
     (<TightBend: radius 1 m from s = 19 to 20.5707963 m>,)
     """
-    checked_type("path", path, Spiral if isinstance(path, Spiral) else Route)
+    checked_type("path", path, (Spiral, Route))
     checked_type("dragon", dragon, Dragon)
     length = path.end - path.begin
     s = np.linspace(path.begin, path.end, min(int(length / STEP) + 2, POINTS_MAX))
-    knots = path.knots if isinstance(path, Legs) else np.empty(0)
-    bends = () if isinstance(path, Spiral) else tuple(_tight_bends(path, dragon))
-    return Course(s, path.position(s), length, knots, bends)
-
-
-def _tight_bends(path: Route, dragon: Dragon) -> list[TightBend]:
-    """Rows of the route's table with too much curvature, joined if they meet."""
     least, bench = tightest_bend(dragon)
-    sharpest = np.abs(path.table[:, 3:5]).max(axis=1)
-    tight = np.flatnonzero(sharpest * least > 1.0)
-    found = []
-    for rows in np.split(tight, np.flatnonzero(np.diff(tight) > 1) + 1) if len(tight) else ():
-        start, end = float(path.table[rows[0], 1]), float(path.table[rows[-1], 2])
-        points = path.position(np.linspace(start, end, BEND_POINTS))
-        found.append(TightBend(start, end, points, 1.0 / float(sharpest[rows].max()), least, bench))
-    return found
+    bends = tuple(
+        TightBend(start, end, path.position(np.linspace(start, end, BEND_POINTS)), 1.0 / sharpest, least, bench)
+        for start, end, sharpest in path.tighter(least)
+    )
+    return Course(s, path.position(s), length, path.knots, bends)

@@ -22,15 +22,12 @@ from core.errors import InvalidValue, OutsideRun, checked_number, checked_type, 
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, words
 from core.paths.following import earliest_place, refuse_tight_bends
 from core.paths.route import Route
-from core.paths.spiral import Spiral
+from core.paths.spiral import FOLD_ROUNDING, Spiral
 from core.shown import Shown
 from core.values import Floats
 
 # Length of the default table of whole seconds, as in the contest [s].
 DEFAULT_SPAN = 300
-# Relative distance between the end of a run and its fold, so that every chord has a place there in spite of rounding
-# [1]; 1e-14 was enough for 1,494 random dragons (measured 2026-11-21).
-FOLD_ROUNDING = 1e-13
 # A run that stops nearer to its fold than this is searched up to the fold [m of head travel]. Handle speeds grow
 # without bound there, so steps would shrink to nothing; a bound on the remaining motion replaces them.
 NEAR_FOLD = 1e-5
@@ -195,7 +192,7 @@ class Dance(Shown):
 
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        if not isinstance(self.path, Route) or self.path.tail_begin is None:
+        if self.path.tail_begin is None:
             return -TIME_MAX
         return self.clock.time(earliest_place(self.dragon, self.path, self.path.tail_begin))
 
@@ -326,17 +323,18 @@ def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
 
 def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
     """End of the run."""
-    if isinstance(path, Route):
-        refuse_tight_bends(dragon, path)
+    spiral = path.spiral
+    if spiral is None:  # a route has bends to check and an end, a spiral a fold or a centre
+        refuse_tight_bends(dragon, path.as_route(path.end))
         return RunEnd(EndReason.END, clock.time(path.end), None, None)
-    theta, bench = end_theta(dragon, path)
-    if theta >= path.start_theta:
+    theta, bench = end_theta(dragon, spiral)
+    if theta >= spiral.start_theta:
         raise InvalidValue(
             "path.start_turns",
             f"path.start_turns must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
-            f"dragon folds, got {said(path.start_turns)} turns",
+            f"dragon folds, got {said(spiral.start_turns)} turns",
         )
-    time = clock.time(path.length - path.growth * float(kernels.spiral_arc(theta)))
+    time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 
 

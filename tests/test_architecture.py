@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from collections import Counter
 from functools import cache
 from pathlib import Path
 
@@ -66,8 +67,8 @@ ORDER = (
     "core.paths.pieces",
     "core.paths.frame",
     "core.paths.path",
-    "core.paths.spiral",
     "core.paths.route",
+    "core.paths.spiral",
     "core.paths.turn",
     "core.paths.legs",
     "core.paths.following",
@@ -294,6 +295,25 @@ ORDER = (
     "app.command.main",
     "app.command.entry",
 )
+# The classes of paths, in core and in requests. A certificate writes a Turn by its own numbers, any other path by kind.
+PATHS = {"Spiral", "Route", "Turn", "Legs", "SpiralPath", "TurnPath", "RoutePath", "WaypointsPath"}
+# How often rooms ask for Path.spiral: for a pitch, a centre or a fold, which only a spiral has.
+ON_SPIRALS = {
+    "core.dance": 1,  # its end: a fold
+    "core.contact.search": 3,  # bounds by radius instead of place
+    "core.contact.near_graze": 2,  # the exact arc length of its start
+    "core.tolerance.curve": 1,  # the time on a circle around the centre
+    "core.tolerance.wobble": 2,  # an error of the pitch
+    "core.tolerance.chance": 2,
+    "core.proof.paths": 3,
+    "core.proof.certificate": 2,  # proofs on spirals alone
+    "app.files.figures": 2,  # the pitch in a title
+    "app.plan.timing": 1,  # radius and angle of a mark
+    "app.grade.geometry": 2,  # known errors on a spiral
+    "app.grade.rings": 1,
+    "app.questions.tolerance": 2,  # a circle, and an error of the pitch
+    "app.command.trajectory": 1,  # times before the start
+}
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
 # Of continuous collision detection, which are only compared with.
@@ -345,6 +365,39 @@ def test_imports_point_one_way_along_the_pipeline(module: str) -> None:
 @pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
 def test_core_knows_no_http_json_files_or_clocks(module: str) -> None:
     assert top_names(module) & OUTSIDE_CORE == set()
+
+
+def names_in(node: ast.AST) -> set[str]:
+    """The names and the last parts of dotted names in a part of a file."""
+    nodes = list(ast.walk(node))
+    names = {one.id for one in nodes if isinstance(one, ast.Name)}
+    return names | {one.attr for one in nodes if isinstance(one, ast.Attribute)}
+
+
+def asked_for_its_class(module: str) -> list[str]:
+    """The tests for the class of a path: isinstance() and match."""
+    asked = [
+        node.args[1]
+        for node in ast.walk(tree(module))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance"
+    ]
+    asked += [node.cls for node in ast.walk(tree(module)) if isinstance(node, ast.MatchClass)]
+    return sorted(name for one in asked for name in names_in(one) & PATHS)
+
+
+def test_a_path_is_asked_for_what_it_does_not_for_its_class() -> None:
+    asked = {module: found for module in MODULES if (found := asked_for_its_class(module))}
+    assert asked == {"core.proof.paths": ["Turn"]}
+
+
+def test_few_rooms_ask_whether_a_path_is_a_spiral() -> None:
+    asked = [
+        module
+        for module in MODULES
+        for node in ast.walk(tree(module))
+        if isinstance(node, ast.Attribute) and node.attr == "spiral" and "path" in names_in(node.value)
+    ]
+    assert Counter(asked) == ON_SPIRALS
 
 
 def test_only_the_engines_import_fcl_and_shapely() -> None:

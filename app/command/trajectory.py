@@ -23,7 +23,7 @@ from app.settings import Settings
 from app.wire.dances import TimeRange
 from app.wire.messages import checked
 from app.wire.question import measure
-from core import Dance, Dragon, InvalidValue, RunEnd, Spiral, Trajectory
+from core import Dance, Dragon, InvalidValue, RunEnd, Trajectory
 from core.shown import counted
 from core.values import Floats
 
@@ -98,7 +98,7 @@ def trajectory(
 
 def _warn_before_start(dance: Dance, instants: Floats) -> None:
     """Warn of negative times on a spiral, where the dance begins at 0."""
-    if isinstance(dance.path, Spiral) and instants.size and instants.min() < 0.0:
+    if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
         words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
         print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
 

@@ -39,7 +39,7 @@ def trajectory_figure(
 
 
 def _pitch_words(path: Spiral | Route) -> str:
-    return f" (pitch {said(path.pitch)} m)" if isinstance(path, Spiral) else ""
+    return f" (pitch {said(path.spiral.pitch)} m)" if path.spiral is not None else ""
 
 
 def contact_figure(

@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 
 from app.grade.chains import Bent, Motion, equal_arcs, motion, on_bent, rounded_angles
-from app.grade.expected import PITCH
+from app.grade.expected import PITCH, right_turn
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core import trajectory as trajectory_of
 from core.values import Floats
@@ -55,11 +55,12 @@ def geometries(dance: Dance, times: Floats, head: Floats | None) -> Iterator[Mod
     yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
     yield Model("equal_arcs", equal_arcs(dance))
     yield from _other_dragons(dance)
-    if isinstance(dance.path, Spiral):
-        yield from _other_angles(dance, dance.path, times.size > 1)
-        yield from _rounded_spirals(dance, dance.path)
-    elif isinstance(dance.path, Turn):
-        yield from _other_turns(dance, dance.path)
+    spiral = dance.path.spiral
+    if spiral is None:
+        yield from _other_turns(dance, right_turn())
+    else:
+        yield from _other_angles(dance, spiral, times.size > 1)
+        yield from _rounded_spirals(dance, spiral)
     if head is not None:
         yield from _other_starts(dance, times, head)
 
@@ -79,8 +80,7 @@ def _other_dragons(dance: Dance) -> Iterator[Model]:
         try:
             yield Model(error, of_dance(Dance(dragon, dance.path)))
         except BenchDragonError:  # The arcs are too tight for this chord: a handle would jump.
-            assert isinstance(dance.path, Turn)
-            yield Model(error, on_bent(dragon, Bent(dance.path, tuple(arcs_of(dance.path)))))
+            yield Model(error, on_bent(dragon, Bent(right_turn(), tuple(arcs_of(right_turn())))))
 
 
 def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
@@ -185,12 +185,12 @@ def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
     known = np.flatnonzero(np.isfinite(head).all(axis=1))
     if not known.size:
         return
-    first, path = known[0], dance.path
-    if isinstance(path, Spiral) and times[first] == 0.0:
-        turns = round(float(np.hypot(*head[first])) / path.pitch, 3)
-        if turns > 1.0 and abs(turns - path.start_turns) > 1e-3:
+    first, path, spiral = known[0], dance.path, dance.path.spiral
+    if spiral is not None and times[first] == 0.0:
+        turns = round(float(np.hypot(*head[first])) / spiral.pitch, 3)
+        if turns > 1.0 and abs(turns - spiral.start_turns) > 1e-3:
             try:
-                moved = of_dance(Dance(dance.dragon, Spiral(path.pitch, turns)))
+                moved = of_dance(Dance(dance.dragon, Spiral(spiral.pitch, turns)))
                 yield Model("other_start", moved, {"turns": f"{turns:g}"})
             except BenchDragonError:
                 pass

@@ -12,14 +12,13 @@ import cmath
 
 import numpy as np
 
-from app.grade.expected import dance_of
+from app.grade.expected import dance_of, right_turn
 from app.grade.geometry import arcs_of
 from app.grade.labels import X, Y
 from app.grade.layout import HANDLES
 from app.grade.shortcuts import Finding
 from app.grade.verdict import RIGHT, Judgement
 from app.grade.words import note
-from core import Spiral, Turn
 from core.paths.path import Path
 from core.values import Floats
 
@@ -63,7 +62,7 @@ def places(path: Path, points: Floats) -> Floats:
     """Arc lengths of points on a spiral or a turn, (...) [m], NaN for others. points: (..., 2) [m]"""
     found = np.full(points.shape[:-1], np.nan)
     for s in _candidates(path, points):
-        inside = np.clip(np.nan_to_num(s), path.begin if isinstance(path, Turn) else -np.inf, path.end)
+        inside = np.clip(np.nan_to_num(s), *path.drawn_between(-np.inf, path.end))
         on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < ON_PATH
         found = np.where(on_path, inside, found)
     return found
@@ -72,13 +71,13 @@ def places(path: Path, points: Floats) -> Floats:
 def _candidates(path: Path, points: Floats) -> list[Floats]:
     """Arc lengths that points would have on each piece of a path [m]."""
     radius = np.linalg.norm(points, axis=-1)
-    if isinstance(path, Spiral):
-        return [path.length - _arc(radius, path.growth)]
-    assert isinstance(path, Turn)
-    growth = path.pitch / (2.0 * np.pi)
-    outside = _arc(radius, growth) - _arc(np.array(path.entry_radius), growth)
-    found, begun = [-outside, path.length + outside], 0.0
-    for centre, size, start, turned in arcs_of(path):
+    if path.spiral is not None:
+        return [path.end - _arc(radius, path.growth)]
+    turn = right_turn()
+    growth = turn.pitch / (2.0 * np.pi)
+    outside = _arc(radius, growth) - _arc(np.array(turn.entry_radius), growth)
+    found, begun = [-outside, turn.length + outside], 0.0
+    for centre, size, start, turned in arcs_of(turn):
         away = points[..., 0] + 1j * points[..., 1] - centre
         angle = np.angle(away * cmath.exp(-1j * start)) * np.sign(turned)
         found.append(begun + size * (angle % (2.0 * np.pi)))

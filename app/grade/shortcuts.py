@@ -26,7 +26,7 @@ from app.grade.contacts import (
     head_touches_at_start,
     stepped_pitch,
 )
-from app.grade.expected import PITCH, Workbook, contact_time, dance_of
+from app.grade.expected import PITCH, Workbook, contact_time, dance_of, right_turn
 from app.grade.geometry import geometries, of_dance
 from app.grade.labels import SPEED
 from app.grade.words import Note, note
@@ -104,7 +104,7 @@ def right_answer(name: str) -> float:
         return minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS).pitch
     if name == "speed":
         return maximum_head_speed(dance_of(Workbook.RESULT4), SPEED_LIMIT).head_speed
-    return Turn(PITCH).length
+    return right_turn().length
 
 
 @cache

@@ -283,8 +283,7 @@ def _is_along(told: Mapping[str, Any], points: Floats) -> bool:
         path = checked_path(told)
     except InvalidValue:
         return False
-    low = path.begin if isinstance(path, Route) else path.travel_to(float(np.hypot(*path.frame.back(points[:1])[0])))
-    drawn = line_of(path, low, path.end)
+    drawn = line_of(path, path.drawn_begin(points), path.end)
     begins, along = drawn[:-1], np.diff(drawn, axis=0)
     ends = np.hypot(*(points[[0, -1]] - drawn[[0, -1]]).T)
     for point in points[:: len(points) // TRIED + 1]:

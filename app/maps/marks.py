@@ -14,7 +14,6 @@ from app.wire.question import check_limit
 from core import Dance
 from core.motion.places import handle_places
 from core.paths.path import Path
-from core.paths.route import Route
 from core.values import Floats
 
 # Most marks of one path.
@@ -77,8 +76,8 @@ def drawing_of(
     """The dance as a map in metres. things: of the venue; told: the path as a request describes it"""
     features = features_of(things)
     path = dance.path
-    low = path.begin if isinstance(path, Route) else min(float(marks.s[0]), path.begin)
-    line = tuple(map(tuple, line_of(path, low, path.end).tolist()))
+    low, high = path.drawn_between(min(float(marks.s[0]), path.begin), path.end)
+    line = tuple(map(tuple, line_of(path, low, high).tolist()))
     features.append(Feature("line", (line,), "path", "path", properties={"path": told}))
     for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
         properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4)}

@@ -15,7 +15,6 @@ from app.maps.marks import line_of
 from app.plan.sheet import POINT, Box, PaperName, Scale, Sheet, north_arrow, scale_of
 from app.plan.timing import Timing
 from core import Dance, Venue
-from core.paths.route import Route
 from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons
 from core.values import Floats
@@ -55,9 +54,7 @@ def ground_of(
 ) -> Ground:
     """The ground of a plan, with the line of its path."""
     path, marks = dance.path, timing.marks
-    low = float(marks.s[0])
-    high = path.end if isinstance(path, Route) else float(marks.s[-1]) + marks.spacing
-    line = line_of(path, max(low, path.begin) if isinstance(path, Route) else low, min(high, path.end))
+    line = line_of(path, *path.drawn_between(float(marks.s[0]), float(marks.s[-1]) + marks.spacing))
     return Ground(dance, venue, *swept, width, timing, line, geographic)
 
 

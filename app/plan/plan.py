@@ -20,7 +20,6 @@ from app.plan.ground import Ground, draw_benches, draw_ground, draw_legend, scal
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
 from app.plan.tables import Table, draw_tables
 from app.plan.timing import Clock, points_of
-from core import Spiral
 
 # Fonts as outlines with a table of their characters: every machine draws them alike, and the text can be searched.
 FONTS: dict[Any, Any] = {"pdf.fonttype": 3, "hatch.linewidth": 0.4}
@@ -115,13 +114,12 @@ def _points(plan: Plan, say: Say) -> Table:
     ground = plan.ground
     marks = ground.timing.marks
     columns = [say("mark [m]", "标记 [m]"), "x [m]", "y [m]"]
-    if isinstance(ground.dance.path, Spiral):
-        columns += [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]
+    columns += [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]  # on a spiral
     rows = [
         [name, *(f"{value:.3f}" for value in values[:3]), *(f"{value:.2f}" for value in values[3:])]
         for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
     ]
-    return Table(say("Points to paint", "放样点"), columns, rows)
+    return Table(say("Points to paint", "放样点"), columns[: len(rows[0])], rows)
 
 
 def _marks(plan: Plan, say: Say) -> Table:

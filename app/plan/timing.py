@@ -8,7 +8,7 @@ import numpy as np
 
 from app.maps.marks import Marks
 from app.wire.clocks import time_of_day
-from core import Budget, Dance, Spiral
+from core import Budget, Dance
 from core.motion.places import Passing, handle_places
 from core.values import Floats
 
@@ -73,9 +73,10 @@ def timing_of(dance: Dance, marks: Marks, start: float, stop: float, budget: Bud
 def points_of(dance: Dance, marks: Marks) -> list[tuple[float, ...]]:
     """Coordinates x, y of each mark [m], and on a spiral also its distance from the centre [m] and its angle from 0 to
     360 [degrees], counter-clockwise from the x axis."""
-    if not isinstance(dance.path, Spiral):
+    spiral = dance.path.spiral
+    if spiral is None:
         return [(x, y) for x, y in marks.points.tolist()]
-    away = marks.points - np.array(dance.path.centre)
+    away = marks.points - np.array(spiral.centre)
     polar = np.stack([np.hypot(*away.T), np.degrees(np.arctan2(away[:, 1], away[:, 0]))], axis=1)
     polar[:, 1] = np.round(polar[:, 1], 2) % 360.0  # so that no angle is printed as 360.00
     return [tuple(row) for row in np.concatenate([marks.points, polar], axis=1).tolist()]

@@ -9,7 +9,6 @@ from pydantic import Field
 import core
 from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
 from app.wire.dances import DanceFields, SpanFields
-from app.wire.paths import SpiralPath
 from app.wire.question import (
     UNKNOWN_COST,
     Answer,
@@ -114,7 +113,7 @@ def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> Co
 def _cost(asked: CollisionQuery | CollisionRequest) -> float:
     """Estimated time [s]: a search on a spiral does not grow with the benches; a judgement of the whole dragon does."""
     if isinstance(asked, CollisionRequest):
-        repeats = isinstance(asked.path, SpiralPath) and isinstance(asked.dragon, UniformDragon)
+        repeats = asked.path.kind == "spiral" and isinstance(asked.dragon, UniformDragon)
         if not repeats:
             return UNKNOWN_COST
     if asked.strays:

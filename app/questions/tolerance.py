@@ -114,7 +114,7 @@ def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[fl
     start, stop = (asked.start, asked.stop) if isinstance(asked, SpanOrCircle) else (None, None)
     if asked.turning_diameter is None:
         return start, stop
-    if not isinstance(dance.path, core.Spiral) or stop is not None:
+    if dance.path.spiral is None or stop is not None:
         rule = "must be null except for a dance on a spiral without stop"
         raise InvalidValue.of("turning_diameter", rule, asked.turning_diameter, "m")
     circle = time_on_circle(dance, asked.turning_diameter / 2)
@@ -128,11 +128,12 @@ def _with_errors(asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, *,
     errors = {"length_error": asked.length_error, "pitch_error": asked.pitch_error}
     if not any(errors.values()):
         return None
-    if asked.turning_diameter is None or placed or not isinstance(dance.path, core.Spiral):
+    spiral = dance.path.spiral
+    if asked.turning_diameter is None or placed or spiral is None:
         field = next(name for name, error in errors.items() if error)
         rule = "must be 0 but for a dance without a venue on a spiral that ends on a circle (turning_diameter)"
         raise InvalidValue.of(field, rule, errors[field], "m")
-    return core.uncertain_tolerance(dance.dragon, dance.path.pitch, **errors, turning_radius=asked.turning_diameter / 2)
+    return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=asked.turning_diameter / 2)
 
 
 QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest)

@@ -180,7 +180,7 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
     start_clock: StartClock = None
 
     def most_benches(self, settings: Settings) -> int:
-        return super().most_benches(settings) if isinstance(self.path, SpiralPath) else settings.checked_benches_max
+        return super().most_benches(settings) if self.path.kind == "spiral" else settings.checked_benches_max
 
     def to_dance(self, benches_max: int) -> Dance:
         """raises: TooLarge, InvalidValue"""
@@ -214,7 +214,7 @@ class TimedDance(DanceFields):
     def times_of(self, dance: Dance, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
         handles = dance.dragon.benches + 1
-        if self.times is None and not isinstance(self.path, SpiralPath):
+        if self.times is None and self.path.kind != "spiral":
             times = dance.default_times
             check_limit("times", "instants x handles", len(times) * handles, cells_max, FEWER_CELLS)
             return times

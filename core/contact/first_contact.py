@@ -28,7 +28,6 @@ from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
-from core.paths.spiral import Spiral
 
 # Distance ahead at which a search that gave up first tests for a certain overlap [m of head travel].
 BEYOND = 1e-3
@@ -217,7 +216,7 @@ def _touching_features(
         elif corner is None:
             corner = Feature(bench, CORNERS[centre_on_left][feature])
     x, y = (met.bx, met.by) if corner and corner.bench == pair[1] else (met.ax, met.ay)
-    turned = search.theta_at(travel) if isinstance(search.path, Spiral) else 0.0
+    turned = search.path.head(travel).theta or 0.0
     cos, sin = math.cos(turned), math.sin(turned)
     point, frame = (float(x * cos - y * sin), float(x * sin + y * cos)), search.path.frame
     return corner, edge, point if frame == WORLD else frame.point(*point), float(met.separation)

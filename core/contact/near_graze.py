@@ -19,8 +19,6 @@ from decimal import Decimal, localcontext
 from threading import Lock
 from typing import NamedTuple
 
-import numpy as np
-
 from core import kernels
 from core.contact.search import Search
 from core.kernels import NO_BRACKET, Budget, Ended
@@ -38,17 +36,14 @@ from core.kernels.constants import (
     LINE_DY,
     LINE_X,
     LINE_Y,
-    PIECE,
     PIECE_KIND,
     PLACE,
     S_START,
     SIGN,
-    SPIRAL,
     TX,
     UX,
 )
 from core.kernels.results import Marched
-from core.paths.spiral import Spiral
 from core.sampling import falls_to_zero
 
 DIGITS = 40
@@ -122,15 +117,12 @@ class ExactPair:
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
-        if isinstance(search.path, Spiral):  # one coil inwards, s = travel
-            coil = np.zeros((1, kernels.PIECE_COLUMNS))
-            coil[0, PIECE_KIND], coil[0, COIL_GROWTH], coil[0, SIGN] = SPIRAL, search.growth, -1.0
-        table = coil if isinstance(search.path, Spiral) else search.path.table
-        self.pieces = [[Decimal(number) for number in row] for row in table.tolist()]
-        if isinstance(search.path, Spiral):  # growth and start_theta are doubles, but their arc length is not
+        path = search.path
+        self.pieces = [[Decimal(number) for number in row] for row in path.as_route(path.end).table.tolist()]
+        if path.spiral is not None:  # growth and start_theta are doubles, but their arc length is not
             with localcontext() as context:
                 context.prec = DIGITS
-                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(search.path.start_theta))
+                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(path.spiral.start_theta))
         names = {kernels.PIECE_KINDS[int(row[PIECE_KIND])] for row in self.pieces}
         self.can_follow = pair[1] <= LAST_BENCH and not names & {"cubic", "crest"}
 
@@ -138,12 +130,11 @@ class ExactPair:
         """The two benches with the head at a travel [m]."""
         search = self.search
         search.place_leaders(float(travel), self.pair[1] + 1)
-        rows, spiral = search.rows[0], isinstance(search.path, Spiral)
-        s, points = travel, [self._point(0 if spiral else int(rows[0, PIECE]), travel)]
+        rows, path = search.rows[0], search.path
+        s, points = travel, [self._point(path.piece_at(rows[0]), travel)]
         for k in range(self.pair[1] + 1):
-            chord, piece = Decimal(float(search.sizes[k, CHORD])), 0 if spiral else int(rows[k + 1, PIECE])
-            place = float(rows[k + 1, PLACE])
-            s = Decimal(search.place - search.growth * kernels.spiral_arc(place) if spiral else -place)
+            chord, piece = Decimal(float(search.sizes[k, CHORD])), path.piece_at(rows[k + 1])
+            s = Decimal(float(path.along(rows[k + 1, PLACE])))
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
             for _ in range(DIGITS):
                 point = self._point(piece, s)

@@ -106,18 +106,18 @@ class Search:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
         self.use(path, margin)
-        everyone = isinstance(path, Route) and rings.clear_place >= FREE  # no benches are known to be out of reach
+        everyone = path.spiral is None and rings.clear_place >= FREE  # no benches are known to be out of reach
         self.resize(dragon.benches if everyone else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Change the path and the margin of the search."""
         self.path, self.margin = path, margin
         self.growth, self.place, self.curve = path.growth, path.place, path.curve
-        if isinstance(path, Route):
-            self.clear_radius = radius = FREE
-            if path.tail_begin is None and not len(self.edges) and self.dragon.benches >= 3:
-                radius = float(kernels.clear_radius(float(path.table[0, COIL_GROWTH]), margin, self.rings))
-            places = clear_places(path, self.dragon, margin, radius, self.travel_rounding)
+        if path.spiral is None:
+            route, self.clear_radius, radius = path.as_route(path.end), FREE, FREE
+            if route.tail_begin is None and not len(self.edges) and self.dragon.benches >= 3:
+                radius = float(kernels.clear_radius(float(route.table[0, COIL_GROWTH]), margin, self.rings))
+            places = clear_places(route, self.dragon, margin, radius, self.travel_rounding)
             self.rings.clear_place, self.rings.end_place = places
         else:
             self.clear_radius = float(kernels.clear_radius(path.growth, margin, self.rings))
@@ -285,7 +285,7 @@ class Search:
         benches = self.room
         if leaders is None:
             leaders = benches
-        elif isinstance(self.path, Spiral):
+        elif self.path.spiral is not None:
             benches = min(benches, leaders + self._followed(travel, leaders))
         return self._clearance(travel, benches, leaders)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,7 +17,6 @@ from core.errors import asked_of, checked_number, checked_type
 from core.kernels import Budget, Ended
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
-from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside
@@ -159,20 +157,13 @@ def own_edges(area: Area, frame: Frame) -> Floats:
 
 def venue_route(path: Spiral | Route, stop: float) -> Route:
     """The path in its own frame up to a head travel [m]: a spiral as a coil."""
-    if isinstance(path, Route):
-        return path
-    theta = float(path.theta(min(max(stop, 0.0) + SPARE, path.length)))
-    return Route([Coil(path.pitch, path.start_turns, theta / (2.0 * math.pi))])
+    return path.as_route(max(stop, 0.0) + SPARE)
 
 
 def venue_end(dance: Dance) -> float:
     """Last time to which venue_clearance() can follow the dance [s]: a spiral may become too tight for a chord."""
-    end, path = dance.end.time, dance.path
-    if isinstance(path, Route):
-        return end
-    theta = min(path.gentle_theta(2.0 * kernels.ROUTE_BEND_LIMIT / float(dance.dragon.chords.max())), path.start_theta)
-    travel = path.length - path.growth * float(kernels.spiral_arc(theta)) - 2.0 * SPARE
-    return min(end, dance.clock.time(travel))
+    gentle = dance.path.gentle_end(2.0 * kernels.ROUTE_BEND_LIMIT / float(dance.dragon.chords.max()))
+    return min(dance.end.time, dance.clock.time(gentle - 2.0 * SPARE))
 
 
 def is_clear_beyond(

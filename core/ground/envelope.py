@@ -48,7 +48,7 @@ from core import kernels
 from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
-from core.ground.tracks import Track, last_theta, tracks
+from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import (
     CHAIN_COLUMNS,
@@ -58,13 +58,10 @@ from core.kernels.constants import (
     HALF_LENGTH,
     HALF_WIDTH,
     MOTION_COLUMNS,
-    NO_ROOT,
     RADIUS,
     SIZE_COLUMNS,
 )
 from core.paths.frame import Frame
-from core.paths.route import Route
-from core.paths.spiral import Spiral
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shapes.rectangles import bench_outlines
 from core.shown import Shown, counted
@@ -220,7 +217,7 @@ class _Lone:
         length, width, self.chord = (
             float(column[0]) for column in (self.dragon.lengths, self.dragon.widths, self.dragon.chords)
         )
-        self.last = last_theta(path, self.chord) if isinstance(path, Spiral) else 0.0
+        self.last = path.last_theta(self.chord)
         self.radius = 0.5 * math.hypot(length, width)
         sizes, self.motion = np.zeros((2, SIZE_COLUMNS)), np.zeros((2, MOTION_COLUMNS))
         columns = [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]
@@ -272,16 +269,9 @@ class _Lone:
         return float(self.motion[0, CORNER_PULL]) if known else FREE
 
     def moved(self, s: float, h: float) -> float:
-        """Upper bound of the distance of any point from its place at s, up to s + h, on a spiral [m]."""
-        if isinstance(self.path, Route):
-            return FREE
-        growth, chord2 = self.path.growth, (self.chord / self.path.growth) ** 2
-        outer, inner = (max(float(self.path.theta(place)), self.last) for place in (s, s + h))
-        least, most = (float(kernels.first_root(theta, chord2)) for theta in (outer, inner))
-        if most == NO_ROOT:
-            return FREE
-        rear = growth * float(kernels.spiral_arc(outer + most) - kernels.spiral_arc(inner + least))
-        return (h + rear) * (0.5 + self.radius / self.chord)
+        """Upper bound of the distance of any point from its place at s, up to s + h [m]; FREE where none is known."""
+        rear = self.path.rear_way(s, h, self.chord, self.last)
+        return (h + rear) * (0.5 + self.radius / self.chord) if rear < FREE else FREE
 
     def corners(self, s: Floats) -> Floats:
         """Corners (N, 4, 2) at places (N,) [m]."""

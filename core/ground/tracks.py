@@ -25,18 +25,16 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.dance import FOLD_ROUNDING, Dance
+from core.dance import Dance
 from core.kernels.constants import (
     BEND_LIMIT,
     CHAIN_COLUMNS,
     CHORD,
-    FREE,
     PLACE,
     SIZE_COLUMNS,
     SLIP,
 )
-from core.paths.route import Route
-from core.paths.spiral import Spiral
+from core.paths.path import Path
 from core.values import Floats
 
 # Width to which places are found where a handle turns back [m].
@@ -85,55 +83,38 @@ def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats
     """Least and largest place s of the front handle of every bench (n,), with the spare that both have (n,) [m]."""
     path, chords = dance.path, dance.dragon.chords
     spares = np.full(chords.size, PLACE_ROUNDING + path.slide)
-    if isinstance(path, Route):
-        ends = [_chain(path, -s, chords) for s in (begin, until)]
-        lows, highs = (-places for places, _ in ends)
-    else:
-        inner = max(float(path.theta(until)), dance.end.theta or 0.0)
-        angles = [(inner, float(path.theta(begin)))]
-        gentle = path.gentle_theta(2.0 * BEND_LIMIT / float(chords.max()))
-        while len(angles) <= chords.size and angles[-1][0] < gentle:
-            angles.append(_behind(path, *angles[-1], float(chords[len(angles) - 1]), gentle))
-        turned = len(angles) - 1
-        spares[1:] += TURNS if turned else 0.0
-        ends = [_chain(path, theta, chords[turned:]) for theta in angles[-1]]
-        front = np.array(angles[:turned]).reshape(-1, 2).T
-        highs, lows = (
-            path.length - path.growth * _arcs(np.concatenate([some, rest]))
-            for some, (rest, _) in zip(front, ends, strict=True)
-        )
+    inner, outer = path.places(np.array([until, begin]), dance.end.theta or 0.0).tolist()
+    places = [(inner, outer)]
+    gentle = path.gentle_theta(2.0 * BEND_LIMIT / float(chords.max()))
+    while len(places) <= chords.size and places[-1][0] < gentle:
+        places.append(_behind(path, *places[-1], float(chords[len(places) - 1]), gentle))
+    turned = len(places) - 1
+    spares[1:] += TURNS if turned else 0.0
+    ends = [_chain(path, place, chords[turned:]) for place in places[-1]]
+    front = np.array(places[:turned]).reshape(-1, 2).T
+    highs, lows = (path.along(np.concatenate([some, rest])) for some, (rest, _) in zip(front, ends, strict=True))
     spares += max(slip for _, slip in ends) + WAY_ROUNDING * max(np.abs([lows, highs]).max(), path.place)
     return lows - spares, highs + spares, 2.0 * spares
 
 
-def _arcs(theta: Floats) -> Floats:
-    """kernels.spiral_arc() of many angles."""
-    arcs: Floats = 0.5 * (theta * np.sqrt(1.0 + theta * theta) + np.arcsinh(theta))
-    return arcs
-
-
-def _chain(path: Spiral | Route, place: float, chords: Floats) -> tuple[Floats, float]:
+def _chain(path: Path, place: float, chords: Floats) -> tuple[Floats, float]:
     """The front handles of benches (n,) with the first one at `place`: polar angles on a spiral, minus s on a route;
     and their largest distance from the true ones [m]."""
     last = chords.size
     sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
     sizes[:last, CHORD] = chords
-    if isinstance(path, Route):
-        kernels.place_chain(path.curve, place, last, sizes, chain)
-    else:
-        kernels.start_chain(place, chain)
-        kernels.extend_chain(path.growth, 0, last, FREE, sizes, chain)
+    path.follow(place, last, sizes, chain)
     kernels.chain_rounding(path.curve, last, sizes, chain)
     return chain[:last, PLACE], float(chain[:last, SLIP].max(initial=0.0))
 
 
-def _behind(path: Spiral, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
-    """Least and largest polar angle of a rear handle, to within TURNS, while the front one is between two angles.
+def _behind(path: Path, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
+    """Range of the polar angle of a rear handle on a spiral, to within TURNS; the front one is between two angles.
 
     low: the angle further in; gentle: angle from which outwards the rear handle does not turn back
     """
     chord2 = (chord / path.growth) ** 2
-    low = max(low, last_theta(path, chord))
+    low = max(low, path.last_theta(chord))
     bent = min(high, gentle)
 
     def delta(theta: float) -> float:
@@ -155,8 +136,3 @@ def _behind(path: Spiral, low: float, high: float, chord: float, gentle: float) 
 
     outer = bound(1.0)
     return -bound(-1.0), max(outer, high + delta(high)) if high > gentle else outer
-
-
-def last_theta(path: Spiral, chord: float) -> float:
-    """Polar angle of the front handle just before a lone bench folds; 0 if it reaches the centre."""
-    return float(kernels.fold_theta((chord / path.growth) ** 2)) * (1.0 + FOLD_ROUNDING)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from core import kernels
 from core.dance import Dance
 from core.kernels import Budget
-from core.kernels.constants import CHAIN_COLUMNS, CHORD, FREE, PLACE, SIZE_COLUMNS
-from core.paths.route import Route
+from core.kernels.constants import CHAIN_COLUMNS, CHORD, PLACE, SIZE_COLUMNS
 from core.values import Floats
 
 # Travel of the head between two rows of a table of places [m], and largest number of rows.
@@ -28,25 +26,19 @@ def handle_places(dance: Dance, times: Floats | Sequence[float], *, budget: Budg
     array([[ 0.   , -2.873, -4.525]])
     """
     asked = dance.times(np.asarray(times, dtype=np.float64)).reshape(-1)
-    return _behind(dance, [dance.clock.place(time) for time in asked.tolist()], budget or Budget())
+    return _behind(dance, np.array([dance.clock.place(time) for time in asked.tolist()]), budget or Budget())
 
 
-def _behind(dance: Dance, heads: Iterable[float], budget: Budget) -> Floats:
+def _behind(dance: Dance, heads: Floats, budget: Budget) -> Floats:
     """Arc lengths (T, n + 1) of all handles for T places of the head [m]."""
     path, last = dance.path, dance.dragon.benches
     sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
     sizes[:last, CHORD] = dance.dragon.chords
     rows = []
-    for head in heads:
+    for head in path.places(heads, dance.end.theta or 0.0).tolist():
         budget.afford(float(last))
-        if isinstance(path, Route):
-            kernels.place_chain(path.curve, -head, last, sizes, chain)
-            rows.append(-chain[:, PLACE])
-        else:
-            kernels.start_chain(max(float(path.theta(head)), dance.end.theta or 0.0), chain)
-            kernels.extend_chain(path.growth, 0, last, FREE, sizes, chain)
-            theta = chain[:, PLACE]
-            rows.append(path.length - 0.5 * path.growth * (theta * np.sqrt(1.0 + theta**2) + np.arcsinh(theta)))
+        path.follow(head, last, sizes, chain)
+        rows.append(path.along(chain[:, PLACE]))
     return np.array(rows)
 
 
@@ -61,7 +53,7 @@ class Passing:
         self.clock = dance.clock
         first, last = self.clock.place(start), self.clock.place(stop)
         self.heads = np.linspace(first, last, min(ROWS_MAX, int((last - first) / STEP) + 2))
-        self.start, self.places = start, _behind(dance, self.heads.tolist(), budget or Budget())
+        self.start, self.places = start, _behind(dance, self.heads, budget or Budget())
 
     def when(self, handle: int, s: float) -> float | None:
         """The first time at which a handle is at s [s]; None if it is not there between the two instants."""

@@ -9,6 +9,7 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue
+from core.paths.path import Path
 from core.paths.route import Route
 from core.sampling import bisected
 
@@ -46,7 +47,7 @@ def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     )
 
 
-def earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
+def earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
     """Place of the head when the last handle is at the beginning of the path [m].
 
     A chord spans between 1 and pi / 2 times its own length of the path. These bounds, and the end of the path, give the
@@ -57,7 +58,8 @@ def earliest_place(dragon: Dragon, path: Route, tail_begin: float) -> float:
     chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
 
     def has_room(s: float) -> bool:
-        return bool(kernels.route_tail(path.table, min(s, path.end), dragon.benches, sizes, chain) >= tail_begin)
+        path.follow(-min(s, path.end), dragon.benches, sizes, chain)
+        return bool(-chain[dragon.benches, kernels.PLACE] >= tail_begin)
 
     low, straight = tail_begin, float(dragon.chords.sum())
     high = low + 0.5 * math.pi * straight

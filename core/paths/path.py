@@ -34,6 +34,8 @@ class Path(Protocol):
     slide: largest distance of a point from its s along the path, in addition to the rounding of s [m]
     block: number of places of the head for which handles() is quick, and multiples of it
     frame: the own frame, in which everything is computed; standard: the path in that frame
+    spiral: the path itself if it is a Spiral, which alone has a pitch, one centre and a fold; None on a route
+    knots: s of the points that define the path, empty for other paths [m]
     """
 
     @property
@@ -58,6 +60,10 @@ class Path(Protocol):
     def frame(self) -> Frame: ...
     @property
     def standard(self) -> Self: ...
+    @property
+    def spiral(self) -> Self | None: ...
+    @property
+    def knots(self) -> Floats: ...
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
@@ -89,11 +95,56 @@ class Path(Protocol):
         budget: ends it before it is done; the caller looks at it afterwards
         """
 
+    def places(self, s: Floats, last: float) -> Floats:
+        """Column PLACE of the head's row in a chain, at arc lengths s (T,) [m]; last: as for handles()."""
+
+    def follow(self, place: float, last: int, sizes: Floats, chain: Floats) -> None:
+        """Fill in a chain up to handle `last`, with the head at a place as from places()."""
+
+    def along(self, places: Floats) -> Floats:
+        """Arc lengths [m] of handles from their column PLACE (...)."""
+
+    def piece_at(self, row: Floats) -> int:
+        """Number of the piece of a handle, from its row of a chain."""
+
     def calm(self, curvature: float) -> float:
         """Part of the path where handles are no faster than their leaders, in the form of kernels.Peak.
 
         curvature: largest curvature at which handles follow without moving backwards [1/m]
         """
+
+    def gentle_theta(self, curvature: float) -> float:
+        """PLACE from which backwards no handle turns back, where the |curvature| is at most this [1/m]."""
+
+    def gentle_end(self, curvature: float) -> float:
+        """Largest s at which the |curvature| is at most this [1/m]; infinity on a route, whose bends Dance checks."""
+
+    def sharpest_before(self, s: float) -> float:
+        """Upper bound of the |curvature| under a dragon whose head is at s or before it [1/m]."""
+
+    def tighter(self, radius: float) -> list[tuple[float, float, float]]:
+        """Stretches that may bend more tightly than a radius [m]: their ends s [m] and largest |curvature| [1/m].
+
+        None on a spiral, where a dance ends in a fold.
+        """
+
+    def last_theta(self, chord: float) -> float:
+        """PLACE of the front handle just before a lone bench folds; 0 if it never does. chord: [m]"""
+
+    def rear_way(self, s: float, way: float, chord: float, last: float) -> float:
+        """Upper bound of the way of a lone bench's rear handle while its front one goes a way from s [m].
+
+        last: last_theta(chord); returns: FREE where no bound is known
+        """
+
+    def as_route(self, stop: float) -> Path:
+        """The path in its own frame as a route, at least up to s = stop if it goes on so far [m]."""
+
+    def drawn_between(self, low: float, high: float) -> tuple[float, float]:
+        """Ends s of a drawing that shows the places from low to high [m]."""
+
+    def drawn_begin(self, points: Floats) -> float:
+        """s at which a drawing of the path begins whose points are (N, 2) [m]."""
 
     def drawn(self, reached: Floats) -> Floats:
         """Points (N, 2) [m] for a picture; on a spiral as far out as the given points (..., 2)."""

@@ -40,7 +40,12 @@ class Route(Shown):
 
     # For the kernels: places are minus s, and a search may pass the end a little.
     growth, place, limit, block = 1.0, 0.0, math.inf, 1
-    frame = WORLD
+    frame, spiral = WORLD, None
+
+    @property
+    def knots(self) -> Floats:
+        """No points define a route of pieces."""
+        return np.empty(0)
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0, *, budget: Budget | None = None) -> None:
         budget = budget or Budget()
@@ -173,6 +178,22 @@ class Route(Shown):
         kernels.route_trajectory(self.table, s, head_speed, sizes, chain, position, velocity, speed)
         return s.size
 
+    def places(self, s: Floats, last: float) -> Floats:
+        """Minus the arc lengths s (T,) [m]."""
+        return -s
+
+    def follow(self, place: float, last: int, sizes: Floats, chain: Floats) -> None:
+        """Fill in a chain up to handle `last`, with the head at minus its arc length [m]."""
+        kernels.place_chain(self.curve, place, last, sizes, chain)
+
+    def along(self, places: Floats) -> Floats:
+        """Arc lengths [m] of places (...)."""
+        return -places
+
+    def piece_at(self, row: Floats) -> int:
+        """Number of the piece of a handle, from its row of a chain."""
+        return int(row[kernels.PIECE])
+
     def calm(self, curvature: float) -> float:
         """1 if no handle on the first piece is faster than its leader, else 0, in the form of kernels.Peak."""
         return 1.0 if self.calm_beginning else 0.0
@@ -182,6 +203,49 @@ class Route(Shown):
         kinds = [type(piece).__name__.lower() for piece in self.pieces]
         listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
         return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
+
+    def gentle_theta(self, curvature: float) -> float:
+        """Minus infinity, because no handle turns back on a route that a dance can follow."""
+        return -math.inf
+
+    def gentle_end(self, curvature: float) -> float:
+        """Infinity, because Dance refuses bends that are too tight."""
+        return math.inf
+
+    def sharpest_before(self, s: float) -> float:
+        """Upper bound of the |curvature| of the whole route [1/m]."""
+        return float(self.sharpest[0] + np.abs(self.table[:, kernels.BENT]).max())
+
+    def tighter(self, radius: float) -> list[tuple[float, float, float]]:
+        """Stretches that may bend more tightly than a radius [m], see Path: rows of the table, joined if they meet."""
+        table = self.table
+        sharpest = np.abs(table[:, [kernels.K_START, kernels.K_END]]).max(axis=1)
+        tight = np.flatnonzero(sharpest * radius > 1.0)
+        joined = np.split(tight, np.flatnonzero(np.diff(tight) > 1) + 1) if len(tight) else ()
+        return [
+            (float(table[rows[0], kernels.S_START]), float(table[rows[-1], kernels.S_END]), float(sharpest[rows].max()))
+            for rows in joined
+        ]
+
+    def last_theta(self, chord: float) -> float:
+        """0, because no bench folds on a route that a dance can follow."""
+        return 0.0
+
+    def rear_way(self, s: float, way: float, chord: float, last: float) -> float:
+        """FREE: no bound is known."""
+        return kernels.FREE
+
+    def as_route(self, stop: float) -> Route:
+        """The route itself."""
+        return self
+
+    def drawn_between(self, low: float, high: float) -> tuple[float, float]:
+        """From low, if it is on the route, to the end of the route [m]."""
+        return max(low, self.begin), self.end
+
+    def drawn_begin(self, points: Floats) -> float:
+        """The beginning of the route [m]."""
+        return self.begin
 
     def drawn(self, reached: Floats) -> Floats:
         """Points (N, 2) [m] for a picture: always the whole route."""

@@ -15,6 +15,8 @@ from core import kernels
 from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
 from core.paths.frame import WORLD, Frame
 from core.paths.path import HeadState
+from core.paths.pieces import Coil
+from core.paths.route import Route
 from core.sampling import bisected
 from core.shown import TABLE_DIGITS, Shown, worded
 from core.values import Floats, Point
@@ -24,6 +26,9 @@ START_TURNS_MAX = 1e5
 DRAWN_POINTS = 120
 # Relative width to which gentle_theta() is bisected [1].
 GENTLE_WIDTH = 1e-9
+# Relative distance between the end of a run and its fold, so that every chord has a place there in spite of rounding
+# [1]; 1e-14 was enough for 1,494 random dragons (measured 2026-11-21).
+FOLD_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, repr=False)
@@ -79,6 +84,7 @@ class Spiral(Shown):
     tail_begin = None
     slide = 0.0  # points are exact except for the rounding of s
     block = kernels.LANES_PER_BLOCK  # the kernels solve so many places together
+    knots = np.empty(0)
 
     @property
     def end(self) -> float:
@@ -86,6 +92,11 @@ class Spiral(Shown):
         return self.length
 
     limit = place = end
+
+    @property
+    def spiral(self) -> Spiral:
+        """The spiral itself."""
+        return self
 
     @cached_property
     def frame(self) -> Frame:
@@ -111,7 +122,29 @@ class Spiral(Shown):
 
     def travel_to(self, radius: float) -> float:
         """Arc length from the start to a radius [m]."""
-        return self.length - self.growth * float(kernels.spiral_arc(radius / self.growth))
+        return self._s(radius / self.growth)
+
+    def _s(self, theta: float) -> float:
+        """Arc length from the start to a polar angle [m]."""
+        return self.length - self.growth * float(kernels.spiral_arc(theta))
+
+    def places(self, s: Floats, last: float) -> Floats:
+        """Polar angles at arc lengths s (T,) [rad], not inside `last` in spite of rounding."""
+        return np.maximum(self.theta(s), last)
+
+    def follow(self, place: float, last: int, sizes: Floats, chain: Floats) -> None:
+        """Fill in a chain up to handle `last`, with the head at a polar angle [rad]."""
+        kernels.start_chain(place, chain)
+        kernels.extend_chain(self.growth, 0, last, kernels.FREE, sizes, chain)
+
+    def along(self, places: Floats) -> Floats:
+        """Arc lengths of polar angles (...) [m]."""
+        arcs: Floats = 0.5 * (places * np.sqrt(1.0 + places * places) + np.arcsinh(places))
+        return self.length - self.growth * arcs
+
+    def piece_at(self, row: Floats) -> int:
+        """0, the only coil."""
+        return 0
 
     def gentle_theta(self, curvature: float) -> float:
         """Polar angle beyond which the |curvature| stays below this [1/m]; rounded up [rad].
@@ -123,6 +156,36 @@ class Spiral(Shown):
             return bool(kernels.spiral_curvature(theta) <= curvature * self.growth)
 
         return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
+
+    def gentle_end(self, curvature: float) -> float:
+        """Largest s at which the |curvature| is at most this [1/m]."""
+        return self._s(min(self.gentle_theta(curvature), self.start_theta))
+
+    def sharpest_before(self, s: float) -> float:
+        """Upper bound of the |curvature| at arc length s and before it [1/m]."""
+        return float(kernels.spiral_curvature(float(self.theta(min(s, self.length))))) / self.growth
+
+    def tighter(self, radius: float) -> list[tuple[float, float, float]]:
+        """No stretches, because a dance ends in a fold where the spiral is too tight."""
+        return []
+
+    def last_theta(self, chord: float) -> float:
+        """Polar angle of the front handle just before a lone bench folds; 0 if it reaches the centre."""
+        return float(kernels.fold_theta((chord / self.growth) ** 2)) * (1.0 + FOLD_ROUNDING)
+
+    def rear_way(self, s: float, way: float, chord: float, last: float) -> float:
+        """Upper bound of the way of a lone bench's rear handle, see Path [m]."""
+        growth, chord2 = self.growth, (chord / self.growth) ** 2
+        outer, inner = (max(float(self.theta(place)), last) for place in (s, s + way))
+        least, most = (float(kernels.first_root(theta, chord2)) for theta in (outer, inner))
+        if most == kernels.NO_ROOT:
+            return kernels.FREE
+        return growth * float(kernels.spiral_arc(outer + most) - kernels.spiral_arc(inner + least))
+
+    def as_route(self, stop: float) -> Route:
+        """The spiral as a coil up to s = stop, around the origin."""
+        theta = float(self.theta(min(stop, self.length)))
+        return Route([Coil(self.pitch, self.start_turns, theta / (2.0 * math.pi))])
 
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive, so negative if clockwise. s: (...) [m]; returns (...) [1/m]."""
@@ -155,7 +218,7 @@ class Spiral(Shown):
         budget: kernels.Budget,
     ) -> int:
         """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
-        head = np.maximum(self.theta(s), last)
+        head = self.places(s, last)
         return kernels.spiral_trajectory(self.growth, head, chords, head_speed, position, velocity, speed, budget)
 
     def calm(self, curvature: float) -> float:
@@ -172,6 +235,14 @@ class Spiral(Shown):
         theta = np.linspace(0.0, radius / self.growth, DRAWN_POINTS * int(radius / self.pitch + 2))
         line: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         return self.frame.points(line * (self.growth * theta[:, None]))
+
+    def drawn_between(self, low: float, high: float) -> tuple[float, float]:
+        """From low, which may be on the outward extension, to high or the centre [m]."""
+        return low, min(high, self.end)
+
+    def drawn_begin(self, points: Floats) -> float:
+        """s of the first of the points (N, 2) [m]."""
+        return self.travel_to(float(np.hypot(*self.frame.back(points[:1])[0])))
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""

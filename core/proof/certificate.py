@@ -13,7 +13,6 @@ from flint import __FLINT_VERSION__, __version__, ctx
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused, spoken
-from core.paths.spiral import Spiral
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
@@ -56,8 +55,8 @@ def prove_collision_time(
     returns: a dictionary that json can write and check() verifies
     raises: ProofRefused if the claim is wrong, or too close to wrong for the balls to decide
     """
-    path = _steady(dance).path
-    if not isinstance(path, Spiral):
+    path = _steady(dance).path.spiral
+    if path is None:
         raise InvalidValue("path", "path must be a spiral: prove_contact() takes any other")
     claim = CollisionTimeClaim(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
     return _proven(claim, every_pair, progress)
@@ -137,8 +136,8 @@ def prove_tolerance(
     stop: None for the end of the run, or 0.5e-9 s before a fold or the centre
     every_pair, progress, returns, raises: as prove_collision_time(); OutsideRun for times outside the dance
     """
-    path = _steady(dance).path
-    if not isinstance(path, Spiral):
+    path = _steady(dance).path.spiral
+    if path is None:
         raise InvalidValue("path", "path must be a spiral: strays have no proof on any other")
     if stop is None:
         stop, _ = last_stop(dance.dragon, recorded_path(path), dance.head_speed)

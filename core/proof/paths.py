@@ -23,7 +23,6 @@ from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
 from core.proof.words import spiral_words
 
-AnyPath = Spiral | Route
 Record = Mapping[str, Any]
 
 # The members of each kind of path and of piece, in words that InvalidValue and the check of members share.
@@ -37,18 +36,17 @@ PIECES: dict[str, tuple[type[pieces.Line | pieces.Arc | pieces.Coil], tuple[str,
 POINTS = frozenset({"start", "end", "centre"})
 
 
-def recorded_path(path: AnyPath) -> dict[str, Any]:
+def recorded_path(path: Spiral | Route) -> dict[str, Any]:
     """A path as a certificate writes it.
 
     raises: InvalidValue for waypoints
     """
-    if isinstance(path, Spiral):
-        return {"kind": "spiral", "pitch": path.pitch, "start_turns": path.start_turns}
-    if isinstance(path, Turn):
-        first = path.pieces[0]
-        assert isinstance(first, pieces.Coil)
+    if path.spiral is not None:
+        return {"kind": "spiral", "pitch": path.spiral.pitch, "start_turns": path.spiral.start_turns}
+    path = path.as_route(path.end)
+    if isinstance(path, Turn):  # its arcs are computed in balls from these numbers, not taken from its rounded pieces
         values = {name: getattr(path, name) for name in TURN if name != "start_turns"}
-        return {"kind": "turn"} | values | {"start_turns": first.start_turns}
+        return {"kind": "turn"} | values | {"start_turns": path.start_turns}
     recorded = []
     for k, piece in enumerate(path.pieces):
         if isinstance(piece, pieces.Waypoints):

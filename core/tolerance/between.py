@@ -48,9 +48,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.dance import Dance
-from core.kernels import Budget, spiral_curvature
-from core.kernels.constants import BENT
-from core.paths.spiral import Spiral
+from core.kernels import Budget
 from core.shapes.rectangles import frames, frames_separation
 from core.values import Floats
 
@@ -88,11 +86,7 @@ def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float
 
 def _sharpest(dance: Dance, until: float) -> float:
     """Upper bound of the path's curvature under the dragon, with its head at this travel or before it [1/m]."""
-    path = dance.path
-    if isinstance(path, Spiral):
-        innermost = float(path.theta(min(until, path.length)))
-        return float(spiral_curvature(innermost)) / path.growth * (1.0 + ROUNDING)
-    return float(path.sharpest[0] + np.abs(path.table[:, BENT]).max()) * (1.0 + ROUNDING)
+    return dance.path.sharpest_before(until) * (1.0 + ROUNDING)
 
 
 def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) -> float:

@@ -23,7 +23,6 @@ from core.dance import Dance
 from core.errors import InvalidValue, asked_of, checked_type, said, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
-from core.paths.spiral import Spiral
 from core.shown import Shown, counted, worded
 from core.tolerance.reach import gains
 from core.tolerance.safe import safe_words
@@ -259,16 +258,16 @@ class _Sampled:
 
     def _pitches(self, batch: range) -> list[float]:
         """The pitch of each sample [m]."""
-        path, size = self.nominal.path, self.model.pitch_error
-        if size == 0.0 or not isinstance(path, Spiral):
+        spiral, size = self.nominal.path.spiral, self.model.pitch_error
+        if size == 0.0 or spiral is None:
             return []
-        return [path.pitch + size * float(self.numbers.of(sample, 1).standard_normal()) for sample in batch]
+        return [spiral.pitch + size * float(self.numbers.of(sample, 1).standard_normal()) for sample in batch]
 
     def _on_pitch(self, rows: slice, pitch: float) -> tuple[Floats, Floats, Floats]:
         """As _as_it_should_be(), on a spiral of another pitch [m], up to its fold at most; no bench has room."""
-        path, chords = self.nominal.path, self.nominal.dragon.chords
-        assert isinstance(path, Spiral)
-        theta = path.theta(self.times[rows] * self.nominal.head_speed) * (path.pitch / pitch)
+        spiral, chords = self.nominal.path.spiral, self.nominal.dragon.chords
+        assert spiral is not None
+        theta = spiral.theta(self.times[rows] * self.nominal.head_speed) * (spiral.pitch / pitch)
         shape = (theta.size, chords.size + 1)
         places, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
         growth = pitch / (2.0 * math.pi)

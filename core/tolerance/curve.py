@@ -108,13 +108,14 @@ def time_on_circle(dance: Dance, radius: float) -> float:
 
     raises: InvalidValue (turning_radius) for a circle that the dance starts on or inside, or does not reach
     """
-    assert isinstance(dance.path, Spiral)
-    first = dance.path.pitch * dance.path.start_turns
+    spiral = dance.path.spiral
+    assert spiral is not None
+    first = spiral.pitch * spiral.start_turns
     if radius >= first:
         where = "inside" if radius > first else "on"
-        rule = f"must be smaller: at a pitch of {said(dance.path.pitch)} m the dance starts {where} that circle"
+        rule = f"must be smaller: at a pitch of {said(spiral.pitch)} m the dance starts {where} that circle"
         raise InvalidValue.of("turning_radius", rule, radius, "m")
-    time = dance.clock.time(dance.path.travel_to(radius))
+    time = dance.clock.time(spiral.travel_to(radius))
     if time > dance.end.time:
         rule = f"must be larger: {dance.end.why} at {dance.end.time:.6f} s, before the head is on that circle"
         raise InvalidValue.of("turning_radius", rule, radius, "m")

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from core.dance import Dance
 from core.errors import SIZE_MAX, InvalidValue, checked_number, said
-from core.paths.spiral import Spiral
 from core.shown import Shown
 
 # Least number of instants in a correlation time [1].
@@ -89,10 +88,10 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
         rule = f"{{field}} must leave a play of at most {of} around its {{pin}}, got {model.play:.9g} m of play"
         raise InvalidValue("model.hole", rule, pin="model.pin")
     if model.pitch_error > 0.0:
-        if not isinstance(dance.path, Spiral):
+        if dance.path.spiral is None:
             rule = "must be 0 on a path that is not a spiral"
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
-        most = PITCH_PART * dance.path.pitch
+        most = PITCH_PART * dance.path.spiral.pitch
         if model.pitch_error > most:
             rule = f"must be at most {PITCH_PART} of the pitch ({most:.9g} m)"
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")

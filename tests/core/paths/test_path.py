@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Arc, Coil, Line, Route, Spiral, Turn, Waypoints
+from core import Arc, Coil, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.paths.path import Path
 
 PATHS: dict[str, Path] = {
@@ -65,4 +65,44 @@ def test_the_head_stands_at_its_place_and_angles_belong_to_spirals(path: Path) -
         assert head.radius == pytest.approx(
             math.hypot(head.x - path.frame.centre[0], head.y - path.frame.centre[1]), rel=0, abs=ON_PATH
         )
-        assert (head.theta is None) is not isinstance(path, Spiral)
+        assert (head.theta is None) is (path.spiral is None)
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> None:
+    sizes, chain = np.zeros((4, kernels.SIZE_COLUMNS)), np.zeros((4, kernels.CHAIN_COLUMNS))
+    sizes[:, kernels.CHORD] = 2.86, 1.65, 1.65, 0.0
+    s = np.array([path.begin + 9.0, path.begin + 11.0])
+    for place, asked in zip(path.places(s, 0.0).tolist(), s.tolist(), strict=True):
+        path.follow(place, 3, sizes, chain)
+        handles = path.along(chain[:, kernels.PLACE])
+        assert handles[0] == pytest.approx(asked, abs=ON_PATH)
+        assert (np.diff(handles) < 0.0).all()
+        chords = np.linalg.norm(np.diff(path.position(handles), axis=0), axis=-1)
+        np.testing.assert_allclose(chords, sizes[:3, kernels.CHORD], rtol=0, atol=ON_PATH)
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_the_path_as_a_route_is_the_same_in_its_own_frame(path: Path) -> None:
+    s = places(path)
+    route = path.as_route(60.0)
+    np.testing.assert_allclose(path.frame.points(route.position(s)), path.position(s), rtol=0, atol=ON_PATH)
+    assert route.spiral is None
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_the_curvature_is_below_its_bounds(path: Path) -> None:
+    s = np.linspace(path.begin, path.end, 2_000)[:-1]
+    bends, gentle = np.abs(path.curvature(s)), path.gentle_end(0.5)
+    assert bends.max() <= path.sharpest_before(float(s.max())) * (1.0 + 1e-12)
+    assert math.isinf(gentle) or (bends[s <= gentle].max() <= 0.5 < bends.max())
+    tight = np.array([any(a <= one <= b for a, b, _ in path.tighter(2.5)) for one in s.tolist()])
+    assert path.spiral is not None or (bends[~tight] <= 0.4).all()
+
+
+@pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
+def test_a_drawing_of_the_whole_path_begins_where_its_first_point_is(path: Path) -> None:
+    low, high = path.drawn_between(path.begin, path.end)
+    assert (low, high) == (path.begin, path.end)
+    assert path.drawn_begin(path.position(np.array([low, low + 5.0]))) == pytest.approx(low, abs=ON_PATH)
+    assert path.drawn_between(-1e4, path.end)[0] == (-1e4 if path.spiral else path.begin)

@@ -10,11 +10,11 @@ import pytest
 
 from core import Arc, Coil, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints
 from core.proof.chain import Chain
-from core.proof.paths import AnyPath, chain_on, core_path, described, recorded_path
+from core.proof.paths import chain_on, core_path, described, recorded_path
 from core.proof.route import RouteChain
 
 BEND = Arc((30.0, 3.0), 3.0, -math.pi / 2, 1.0)
-PATHS: dict[str, tuple[AnyPath, str]] = {
+PATHS: dict[str, tuple[Spiral | Route, str]] = {
     "spiral": (Spiral(0.55, 16.0), "the spiral of pitch 0.55 m inwards from 16 turns"),
     "turn": (Turn(1.7, ratio=1.5, entry_radius=4.2), "the turn of ratio 1.5, which it enters 4.2 m from the centre"),
     "route": (
@@ -26,7 +26,7 @@ PATHS: dict[str, tuple[AnyPath, str]] = {
 
 
 @pytest.mark.parametrize(("path", "words"), PATHS.values(), ids=PATHS)
-def test_a_path_reads_back_from_json_to_the_last_bit(path: AnyPath, words: str) -> None:
+def test_a_path_reads_back_from_json_to_the_last_bit(path: Spiral | Route, words: str) -> None:
     record = json.loads(json.dumps(recorded_path(path)))
     again = core_path(record)
     s = np.linspace(max(path.begin, -20.0), min(path.end, 60.0), 50)
@@ -37,7 +37,7 @@ def test_a_path_reads_back_from_json_to_the_last_bit(path: AnyPath, words: str) 
 
 
 @pytest.mark.parametrize(("path", "_"), PATHS.values(), ids=PATHS)
-def test_a_spiral_has_its_own_chain_and_everything_else_that_of_a_route(path: AnyPath, _: str) -> None:
+def test_a_spiral_has_its_own_chain_and_everything_else_that_of_a_route(path: Spiral | Route, _: str) -> None:
     chain = chain_on(Dragon(5), recorded_path(path), 0.0)
     assert type(chain) is (Chain if isinstance(path, Spiral) else RouteChain)
 
