@@ -6,7 +6,20 @@ import numpy as np
 import pytest
 
 from core import kernels
-from core.kernels.constants import CENTRE_SPEED, HALF_LENGTH, MX, MY, RADIUS, UX, UY
+from core.kernels.constants import (
+    CENTRE_PULL,
+    CENTRE_SPEED,
+    CORNER_PULL,
+    CORNER_SPEED,
+    HALF_LENGTH,
+    MX,
+    MY,
+    RADIUS,
+    TURN,
+    TURN_PULL,
+    UX,
+    UY,
+)
 from tests.core.kernels import test_bounds as route
 from tests.core.kernels.test_pairs import APART, checked_pairs, sampled
 from tests.depth import some
@@ -54,3 +67,16 @@ def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int
             bound = kernels.axis_bend(1.0, i, j, float(distance), sizes, motion)
             found = bend(centres, along, sizes[:, HALF_LENGTH:RADIUS], (i, j), route.APART)
             assert found <= bound * apart**2 + rounding
+
+
+def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_may() -> None:
+    """Bench 0 turns, and the corner behind it moves across its axis and is pulled along it."""
+    turn, centre, corner, pulls, distance, radius, step = 0.7, 1.1, 1.6, (0.4, 0.9), 3.0, 0.5, 1e-3
+    motion, sizes = np.zeros((3, kernels.MOTION_COLUMNS)), np.zeros((3, kernels.SIZE_COLUMNS))
+    motion[0, [TURN, TURN_PULL, CENTRE_SPEED, CENTRE_PULL]] = turn, turn**2, centre, pulls[0]
+    motion[2, [CORNER_SPEED, CORNER_PULL]], sizes[2, RADIUS] = (corner, pulls[1]), radius
+    times = np.array([-step, 0.0, step])
+    along, across = 0.5 * sum(pulls) * times**2 - distance - radius, (centre + corner) * times
+    gap = along * np.cos(turn * times) + across * np.sin(turn * times)
+    reached = (gap[2] - 2.0 * gap[1] + gap[0]) / step**2
+    assert reached == pytest.approx(kernels.axis_bend(1.0, 0, 2, distance, sizes, motion), rel=1e-5)
