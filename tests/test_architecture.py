@@ -314,6 +314,8 @@ ON_SPIRALS = {
     "app.questions.tolerance": 2,  # a circle, and an error of the pitch
     "app.command.trajectory": 1,  # times before the start
 }
+# Arrays whose columns core/kernels/constants.py names.
+TABLES = {"table", "pieces", "frame", "chain", "motion"}
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
 # Of continuous collision detection, which are only compared with.
@@ -365,6 +367,21 @@ def test_imports_point_one_way_along_the_pipeline(module: str) -> None:
 @pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
 def test_core_knows_no_http_json_files_or_clocks(module: str) -> None:
     assert top_names(module) & OUTSIDE_CORE == set()
+
+
+def numbered(index: ast.expr) -> bool:
+    """True if the last index is a number, or a slice between numbers."""
+    given = [one for one in index.elts if ast.unparse(one) != "None"] if isinstance(index, ast.Tuple) else [None]
+    last = given[-1]
+    parts = [last.lower, last.upper] if isinstance(last, ast.Slice) else [last]
+    return any(isinstance(part, ast.Constant) and isinstance(part.value, int) for part in parts)
+
+
+@pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
+def test_columns_have_names(module: str) -> None:
+    for node in ast.walk(tree(module)):
+        if isinstance(node, ast.Subscript) and numbered(node.slice):
+            assert names_in(node.value) & TABLES == set(), f"{module}, line {node.lineno}"
 
 
 def names_in(node: ast.AST) -> set[str]:

@@ -13,13 +13,27 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.kernels.constants import COIL_ARC, COIL_GROWTH, FREE, PIECE_KIND, S_END, S_START
+from core.kernels.constants import (
+    ARC_RADIUS,
+    CENTRE_X,
+    CENTRE_Y,
+    COIL_ARC,
+    COIL_GROWTH,
+    COIL_ROTATION,
+    FREE,
+    PIECE_KIND,
+    S_END,
+    S_START,
+    SIGN,
+)
 from core.paths.route import Route
 from core.values import Floats
 
 # Factor between the tried radii from which rings may be clear [1], and the largest one [m].
 RADIUS_FACTOR = 1.1
 RADIUS_MAX = 1e4
+# Columns of the centre of an arc or a coil.
+CENTRE = slice(CENTRE_X, CENTRE_Y + 1)
 # Upper bound of an arc over its chord [1].
 STRETCH = 0.5 * math.pi
 # Largest distance, in units of the growth, between the middle of a chord and the foot of the perpendicular from the
@@ -64,17 +78,17 @@ def two_coils(path: Route) -> TwoCoils | None:
     table = path.table
     first, last = table[0].tolist(), table[-1].tolist()
     spirals = [kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "spiral" for row in (first, last)]
-    if len(table) < 2 or not all(spirals) or (first[9], last[9]) != (-1.0, 1.0) or first[7] != last[7]:
+    if len(table) < 2 or not all(spirals) or (first[SIGN], last[SIGN]) != (-1.0, 1.0):
         return None
-    growth, centre = first[7], np.array(first[5:7])
-    if math.hypot(last[5] - first[5], last[6] - first[6]) > CENTRES_APART:
+    growth, centre = first[COIL_GROWTH], np.array(first[CENTRE])
+    if growth != last[COIL_GROWTH] or math.hypot(*(np.array(last[CENTRE]) - centre)) > CENTRES_APART:
         return None
-    turned = (last[8] - first[8]) % (2.0 * math.pi)
-    inner = first[10] - (first[2] - first[1])
+    turned = (last[COIL_ROTATION] - first[COIL_ROTATION]) % (2.0 * math.pi)
+    inner = first[COIL_ARC] - (first[S_END] - first[S_START])
     radii = [growth * float(kernels.spiral_theta(arc / growth)) for arc in (inner, last[COIL_ARC])]
     led = [growth * float(kernels.spiral_theta((arc + kernels.BLEND) / growth)) for arc in (inner, last[COIL_ARC])]
     extent = max([*led, *(_extent(path, row, centre) for row in table[1:-1])]) + CENTRES_APART
-    return TwoCoils(growth, min(turned, 2.0 * math.pi - turned), extent, last[1] - first[2], radii[1])
+    return TwoCoils(growth, min(turned, 2.0 * math.pi - turned), extent, last[S_START] - first[S_END], radii[1])
 
 
 def _extent(path: Route, row: Floats, centre: Floats) -> float:
@@ -82,10 +96,10 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
 
     It is the distance to one of its ends plus half its length; for an arc also the furthest point of the circle.
     """
-    ends = path.position(row[1:3])
-    extent = float(np.hypot(*(ends - centre).T).max() + 0.5 * (row[2] - row[1]))
+    ends = path.position(row[S_START : S_END + 1])
+    extent = float(np.hypot(*(ends - centre).T).max() + 0.5 * (row[S_END] - row[S_START]))
     if kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "arc":
-        extent = min(extent, float(math.hypot(*(row[5:7] - centre)) + row[7]))
+        extent = min(extent, float(math.hypot(*(row[CENTRE] - centre)) + row[ARC_RADIUS]))
     return extent
 
 

@@ -21,7 +21,7 @@ from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
-from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs
+from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs, upright_boxes
 from core.shown import Shown, worded
 from core.tolerance.reach import SHORT, Reach, reach
 from core.values import Floats
@@ -225,12 +225,12 @@ def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats)
 
     poses: (2, 2, 3) of the reported pair at both instants; sizes: (2, 2) length and width [m]
     """
-    frame, places = frames(poses, sizes), corners(poses, sizes)
+    places, half = corners(poses, sizes), 0.5 * sizes
     for own, other in ((0, 1), (1, 0)):
-        offset = places[:, other] - frame[:, own, None, :2]
-        cos, sin = frame[:, own, 2, None], frame[:, own, 3, None]
+        offset = places[:, other] - poses[:, own, None, :2]
+        cos, sin = np.cos(poses[:, own, 2, None]), np.sin(poses[:, own, 2, None])
         along, left = offset[..., 0] * cos + offset[..., 1] * sin, offset[..., 1] * cos - offset[..., 0] * sin
-        inside = (np.abs(along) <= frame[:, own, 4, None]) & (np.abs(left) <= frame[:, own, 5, None])
+        inside = (np.abs(along) <= half[own, 0]) & (np.abs(left) <= half[own, 1])
         if inside.any():
             return
     words.pop(Engine.ANGLE_SUM, None)
@@ -323,9 +323,7 @@ def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> I
     everyone = np.arange(len(poses))
     if len(poses) <= WHOLE_BENCHES and _is_manageable(poses, sizes, margin):
         return everyone
-    frame = frames(poses, sizes)
-    half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
-    low, high = frame[:, :2] - half, frame[:, :2] + half
+    low, high = np.split(upright_boxes(frames(poses, sizes)), 2, axis=1)
     reach = float(sizes[:, 0].max()) + margin
     rows = list(pair)
     is_near = (low <= high[rows].max(axis=0) + reach) & (high >= low[rows].min(axis=0) - reach)

@@ -18,6 +18,7 @@ import numpy as np
 from core import kernels
 from core.errors import InvalidValue
 from core.kernels import Budget
+from core.kernels.constants import K_END, K_SLOPE, K_START, PIECE_KIND, S_END, T_END, X0, X3, Y0, Y3
 from core.values import Floats
 
 # A cubic is divided until halving it changes its quadrature by less than this [1] ...
@@ -55,7 +56,8 @@ def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats
         kinds, bounds, slopes = _curvatures(coefficients, ends)
         whole = (np.abs(lengths - arcs.sum(axis=1)) <= CUBIC_ARC * lengths) & (kinds >= 0.0)
         rows = _rows(coefficients[whole], ends[whole])
-        rows[:, 0], rows[:, 2], rows[:, 3:5], rows[:, 14] = kinds[whole], lengths[whole], bounds[whole], slopes[whole]
+        rows[:, PIECE_KIND], rows[:, S_END], rows[:, K_SLOPE] = kinds[whole], lengths[whole], slopes[whole]
+        rows[:, K_START : K_END + 1] = bounds[whole]
         done.append(rows)
         order.append((piece[whole], place[whole]))
         left = ~whole
@@ -77,7 +79,7 @@ def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats
 def _rows(coefficients: Floats, ends: Floats) -> Floats:
     """Rows with the columns of the curve alone."""
     rows = np.zeros((len(ends), kernels.PIECE_COLUMNS))
-    rows[:, 5:9], rows[:, 9:13], rows[:, 13] = coefficients[..., 0], coefficients[..., 1], ends
+    rows[:, X0 : X3 + 1], rows[:, Y0 : Y3 + 1], rows[:, T_END] = coefficients[..., 0], coefficients[..., 1], ends
     return rows
 
 

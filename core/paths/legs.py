@@ -123,7 +123,7 @@ class Legs(Route):
 
     def _between(self, k: int, points: tuple[Point, ...]) -> list[float]:
         """s of the inner points of the curve in piece k [m], which are ends of cubics."""
-        ends = self.table[self.table[:, kernels.PART] == k, 2]
+        ends = self.table[self.table[:, kernels.PART] == k, kernels.S_END]
         places, found, row = self.position(ends), [], 0
         for x, y in points:
             row += int(np.argmax(np.hypot(*(places[row:] - (x, y)).T) < AT_WAYPOINT))

@@ -10,6 +10,7 @@ import numpy as np
 from core import kernels
 from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, listed
 from core.kernels import Budget
+from core.kernels.constants import S_END, S_START
 from core.paths.cubics import cut
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point
@@ -160,8 +161,8 @@ class Waypoints(Shown):
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
         rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)
-        ends = np.cumsum([s, *rows[:, 2]])
-        rows[:, 1], rows[:, 2] = ends[:-1], ends[1:]
+        ends = np.cumsum([s, *rows[:, S_END]])
+        rows[:, S_START], rows[:, S_END] = ends[:-1], ends[1:]
         return rows
 
     @staticmethod

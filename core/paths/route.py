@@ -11,6 +11,7 @@ import numpy as np
 from core import kernels
 from core.errors import InvalidValue, checked_number, listed, said, too_much
 from core.kernels import Budget, Halted
+from core.kernels.constants import K_END, K_START, POINT_CURVATURE, PX, PY, S_END, S_START, TX, TY
 from core.paths.frame import WORLD
 from core.paths.path import HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece
@@ -23,6 +24,8 @@ DRAWN_POINTS = 20_000
 # Largest gap [m] and kink [rad] of two joined pieces: rounding of coordinates up to 1 km.
 JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
+# Columns of the curvatures of a piece.
+BENDS = slice(K_START, K_END + 1)
 # Most pieces whose kinds are listed one by one [1].
 PIECES_LISTED = 6
 
@@ -67,10 +70,10 @@ class Route(Shown):
                 rule = "must come before fewer pieces, or have fewer points: the route was not laid out {then}"
                 raise too_much(budget, name, rule, k, "") from halted
             rows[-1][:, kernels.PART] = k
-            count, s = count + len(rows[-1]), float(rows[-1][-1, 2])
+            count, s = count + len(rows[-1]), float(rows[-1][-1, S_END])
         self.table = np.concatenate(rows)
         self.joints = tuple(s for s, _ in joints[1:])
-        self.begin, self.end = float(self.table[0, 1]), s
+        self.begin, self.end = float(self.table[0, S_START]), s
         first = self.pieces[0]
         inwards = isinstance(first, Coil) and first.start_turns > first.end_turns
         self.tail_begin = None if inwards else self.begin
@@ -92,10 +95,10 @@ class Route(Shown):
         kernels.joint_misses(table, misses)
         kernels.piece_slides(table, slides)
         across, along, kink, step = misses[1:].T
-        lengths = table[:, 2] - table[:, 1]
+        lengths = table[:, S_END] - table[:, S_START]
         over = np.minimum(kernels.BLEND, np.maximum(lengths[1:], lengths[:-1]))
         step = np.where(table[1:, kernels.PART] == table[:-1, kernels.PART], step, 0.0)
-        sharpest = np.abs(table[:, 3:5]).max()
+        sharpest = np.abs(table[:, BENDS]).max()
         loose = 2.0 * np.max(across + (kink + step * over) * over, initial=0.0)
         bent = 2.0 * np.max((10.0 * across / over + 6.0 * kink) / over + 3.0 * step, initial=0.0)
         slope = 2.0 * np.max(((60.0 * across / over + 36.0 * kink) / over + 9.0 * step) / over, initial=0.0)
@@ -143,7 +146,7 @@ class Route(Shown):
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
-        return self._points(s)[..., 0:2]
+        return self._points(s)[..., PX : PY + 1]
 
     @property
     def standard(self) -> Route:
@@ -219,11 +222,11 @@ class Route(Shown):
     def tighter(self, radius: float) -> list[tuple[float, float, float]]:
         """Stretches that may bend more tightly than a radius [m], see Path: rows of the table, joined if they meet."""
         table = self.table
-        sharpest = np.abs(table[:, [kernels.K_START, kernels.K_END]]).max(axis=1)
+        sharpest = np.abs(table[:, BENDS]).max(axis=1)
         tight = np.flatnonzero(sharpest * radius > 1.0)
         joined = np.split(tight, np.flatnonzero(np.diff(tight) > 1) + 1) if len(tight) else ()
         return [
-            (float(table[rows[0], kernels.S_START]), float(table[rows[-1], kernels.S_END]), float(sharpest[rows].max()))
+            (float(table[rows[0], S_START]), float(table[rows[-1], S_END]), float(sharpest[rows].max()))
             for rows in joined
         ]
 
@@ -254,15 +257,15 @@ class Route(Shown):
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
-        return self._points(s)[..., 2:4]
+        return self._points(s)[..., TX : TY + 1]
 
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive. s: (...) [m]; returns (...) [1/m]."""
-        return self._points(s)[..., 4]
+        return self._points(s)[..., POINT_CURVATURE]
 
     @cached_property
     def sharpest(self) -> tuple[float, float]:
         """The largest |curvature| [1/m], for a cubic its bound, and the s [m] of it."""
-        curvatures = np.abs(self.table[:, 3:5])
+        curvatures = np.abs(self.table[:, BENDS])
         row, end = np.unravel_index(int(curvatures.argmax()), curvatures.shape)
-        return float(curvatures[row, end]), float(self.table[row, 1 + end])
+        return float(curvatures[row, end]), float(self.table[row, S_START + end])

@@ -21,24 +21,20 @@ from core.kernels import Budget
 from core.kernels.constants import (
     FRAME_COLUMNS,
     FRAME_HALF_LENGTH,
+    FRAME_HALF_WIDTH,
     FRAME_UX,
     FRAME_UY,
     FRAME_X,
     FRAME_Y,
-    NORMAL_X,
-    NORMAL_Y,
-    SEPARATION,
-    SEPARATION_COLUMNS,
-    WITNESS_AX,
-    WITNESS_AY,
-    WITNESS_BX,
-    WITNESS_BY,
 )
 from core.shown import Shown, worded
 from core.values import Floats
 
 Pairs = NDArray[np.int64]
 
+# Columns of a frame: its centre, its direction, and the same with x and y exchanged.
+CENTRE, ALONG = slice(FRAME_X, FRAME_Y + 1), slice(FRAME_UX, FRAME_UY + 1)
+ACROSS = slice(FRAME_UY, FRAME_UX - 1, -1)
 # Sides of the centre on which the corners lie, in units of (half length, half width).
 CORNER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
@@ -90,14 +86,14 @@ class Separation(Shown):
 def frames_separation(a: Floats, b: Floats) -> Separation:
     """Signed separation of rectangles given as frames. a, b: (..., 6) as frames() returns, of equal shape."""
     shape = a.shape[:-1]
-    out = np.empty((a.size // FRAME_COLUMNS, SEPARATION_COLUMNS))
+    out = np.empty((a.size // FRAME_COLUMNS, kernels.SEPARATION_COLUMNS))
     rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, FRAME_COLUMNS) for frame in (a, b))
     kernels.pair_separations(rows_a, rows_b, out)
     return Separation(
-        separation=out[:, SEPARATION].reshape(shape),
-        witness_a=out[:, WITNESS_AX : WITNESS_AY + 1].reshape(*shape, 2),
-        witness_b=out[:, WITNESS_BX : WITNESS_BY + 1].reshape(*shape, 2),
-        normal=out[:, NORMAL_X : NORMAL_Y + 1].reshape(*shape, 2),
+        separation=out[:, kernels.SEPARATION].reshape(shape),
+        witness_a=out[:, kernels.WITNESS_AX : kernels.WITNESS_AY + 1].reshape(*shape, 2),
+        witness_b=out[:, kernels.WITNESS_BX : kernels.WITNESS_BY + 1].reshape(*shape, 2),
+        normal=out[:, kernels.NORMAL_X : kernels.NORMAL_Y + 1].reshape(*shape, 2),
     )
 
 
@@ -109,7 +105,7 @@ def frames(poses: Floats, sizes: Floats) -> Floats:
     """
     shape = np.broadcast_shapes(poses.shape[:-1], sizes.shape[:-1])
     out = np.empty((*shape, FRAME_COLUMNS))
-    out[..., FRAME_X : FRAME_Y + 1] = poses[..., :2]
+    out[..., CENTRE] = poses[..., :2]
     out[..., FRAME_UX] = np.cos(poses[..., 2])
     out[..., FRAME_UY] = np.sin(poses[..., 2])
     out[..., FRAME_HALF_LENGTH:] = 0.5 * sizes
@@ -125,9 +121,9 @@ def corners(poses: Floats, sizes: Floats) -> Floats:
     [[2.0, 0.5], [2.0, -0.5], [0.0, -0.5], [0.0, 0.5]]
     """
     frame = frames(np.asarray(poses, dtype=np.float64), np.asarray(sizes, dtype=np.float64))[..., None, :]
-    along = CORNER_SIDES[:, :1] * frame[..., 4:5] * frame[..., 2:4]
-    left = CORNER_SIDES[:, 1:] * frame[..., 5:6] * (frame[..., 3:1:-1] * [-1.0, 1.0])
-    return frame[..., :2] + along + left
+    along = CORNER_SIDES[:, :1] * frame[..., FRAME_HALF_LENGTH, None] * frame[..., ALONG]
+    left = CORNER_SIDES[:, 1:] * frame[..., FRAME_HALF_WIDTH, None] * (frame[..., ACROSS] * [-1.0, 1.0])
+    return frame[..., CENTRE] + along + left
 
 
 def bench_poses(handles: Floats) -> Floats:
@@ -178,6 +174,13 @@ def _checked_handles(handles: object) -> Floats:
     return places.astype(np.float64, copy=False)
 
 
+def upright_boxes(frame: Floats, spare: Floats | float = 0.0) -> Floats:
+    """Upright boxes (N, 4) around rectangles, x, y to x, y [m]; spare: added on every side. frame: rows of frames()"""
+    half = np.abs(frame[:, ALONG]) * frame[:, FRAME_HALF_LENGTH, None]
+    half += np.abs(frame[:, ACROSS]) * frame[:, FRAME_HALF_WIDTH, None]
+    return np.hstack([frame[:, CENTRE] - (half + spare), frame[:, CENTRE] + (half + spare)])
+
+
 # If two rectangles are within the margin, so are their upright boxes along x and along y; so these boxes meet when they
 # are grown by half the margin on every side.
 def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, budget: Budget | None = None) -> Pairs:
@@ -187,12 +190,10 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
     raises: TooLarge with the field benches for more than PAIRS_MAX pairs or CANDIDATES_MAX meeting boxes if exact, for
         more than CROSS_CANDIDATES_MAX otherwise
     """
-    half = np.abs(frame[:, 2:4]) * frame[:, 4:5] + np.abs(frame[:, 3:1:-1]) * frame[:, 5:6]
-    scale = np.abs(frame[:, :2]).sum(axis=1) + frame[:, 4:].sum(axis=1) + margin
-    half += 0.5 * margin + ROUNDING * scale[:, None]
-    boxes = np.hstack([frame[:, :2] - half, frame[:, :2] + half])
+    scale = np.abs(frame[:, CENTRE]).sum(axis=1) + frame[:, FRAME_HALF_LENGTH:].sum(axis=1) + margin
+    boxes = upright_boxes(frame, 0.5 * margin + ROUNDING * scale[:, None])
     leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
-    order = _tree_order(frame[:, :2], leaves)
+    order = _tree_order(frame[:, CENTRE], leaves)
     frame, boxes, tree = frame[order], boxes[order], np.empty((2 * leaves, kernels.BOX_COLUMNS))
     kernels.grow_tree(boxes, tree)
     most = (PAIRS_MAX, CANDIDATES_MAX) if exact else (CROSS_CANDIDATES_MAX, CROSS_CANDIDATES_MAX)

@@ -42,7 +42,7 @@ from core.dragon import Dragon
 from core.errors import TooLarge
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
-from core.shapes.rectangles import CORNER_SIDES, bench_poses, frames, frames_separation, meeting_pairs
+from core.shapes.rectangles import CENTRE, CORNER_SIDES, bench_poses, frames, frames_separation, meeting_pairs
 from core.tolerance.reach import gains
 from core.tolerance.wobble import Wobble
 from core.values import Floats
@@ -176,7 +176,7 @@ def _meeting(dragon: Dragon, places: Floats, laid: FirstOrder, deviations: float
         found = frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]])
         if (found.separation <= 0.0).any():
             return 1.0
-        apart = ((frame[pairs[:, 1], :2] - frame[pairs[:, 0], :2]) * found.normal).sum(axis=1)
+        apart = ((frame[pairs[:, 1], CENTRE] - frame[pairs[:, 0], CENTRE]) * found.normal).sum(axis=1)
         first, second = (_corners(dragon, laid, bounds, t, pairs[:, side], found.normal) for side in (0, 1))
         gap = apart[:, None, None] + second.place[:, None] - first.place[:, :, None] - ROUNDING
         gap -= first.left_out[:, :, None] + second.left_out[:, None]
