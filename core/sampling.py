@@ -1,7 +1,8 @@
 """Searches that other modules share: the place from which a claim holds, and the lowest samples.
 
 Functions are sampled first. Then the result is refined: a border by bisected() or falls_to_zero(), a minimum among the
-lowest samples of dips().
+lowest samples of dips(). The loops of core/kernels have a bisection and a false position of their own, which never
+call back into Python.
 """
 
 from __future__ import annotations

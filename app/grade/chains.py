@@ -136,7 +136,7 @@ def on_bent(dragon: Dragon, path: Bent) -> Motion:
 
 
 def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
-    """Places behind s with points one chord from `point`: bracketed, then by false position (Illinois)."""
+    """Places behind s with points one chord from `point`: bracketed, then by the Illinois method, all together."""
 
     def excess(at: Floats) -> Floats:
         found: Floats = np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord

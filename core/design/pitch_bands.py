@@ -171,8 +171,8 @@ class Bands:
     def border(self, low: float, high: float, found: Marched) -> float | None:
         """A pitch in (low, high) just above that at which a contact found at `low` becomes a graze [m]; None if lost.
 
-        The dip is followed from pitch to pitch; false position (Illinois) finds the pitch at which it reaches the
-        margin.
+        The dip is followed from pitch to pitch, each from the radius of the last one, first upwards until it is clear.
+        Then false position (Illinois) finds the pitch at which it reaches the margin.
         """
         assert found.touching is not None
         pair = found.benches

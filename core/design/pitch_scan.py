@@ -174,7 +174,7 @@ def pitch_scan(
     for k, pitch in enumerate(pitches.tolist()):
         known[pitch] = radius(pitch)
         intervals = [(float(pitches[k - 1]), pitch)] if k else []
-        while intervals:
+        while intervals:  # both halves, because there may be more than one jump between two pitches
             low, high = intervals.pop()
             before, after = known[low], known[high]
             if before is None or after is None or abs(before - after) <= JUMP:

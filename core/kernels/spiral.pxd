@@ -1,6 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.budget cimport Budget
+from core.kernels.fold cimport first_root
 
 cdef double HALLEY_STEP
 cdef double SERIES_LIMIT
@@ -16,14 +17,6 @@ cpdef void spiral_thetas(double[::1] arcs, double[::1] thetas) noexcept
 
 cdef double half_sine(double half) noexcept nogil
 cdef double half_cosine(double half) noexcept nogil
-cdef double half_slope(double theta, double delta) noexcept nogil
-
-@cython.locals(i=cython.int)
-cpdef double first_crest(double theta) noexcept nogil
-
-@cython.locals(i=cython.int)
-cpdef double first_root(double theta, double chord2) noexcept nogil
-
 cdef (double, double, double) halley_step(double theta, double chord2, double delta, double s, double c) noexcept nogil
 
 @cython.locals(i=cython.int)

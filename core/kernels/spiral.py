@@ -9,6 +9,7 @@ from cython.cimports.libc.math import asinh, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
+    from core.kernels.fold import first_root
 
 COMPILED = cython.compiled
 
@@ -44,18 +45,6 @@ def spiral_thetas(arcs, thetas):
             thetas[i] = spiral_theta(arcs[i])
 
 
-# Handles at theta and theta + delta are a chord apart when, in units of growth,
-#     f(delta) = delta^2 + 4 theta (theta + delta) sin^2(delta / 2) = chord^2,
-#     f_delta / 2 = h(delta) = delta + theta (1 - cos delta) + theta (theta + delta) sin delta,
-#     f_theta / 2 = (2 theta + delta) (1 - cos delta) >= 0.
-# h > 0 on (0, pi], so a root there is the first. Beyond pi,
-#     h' = 1 + 2 theta sin delta + theta (theta + delta) cos delta,
-#     h'' = 3 theta cos delta - theta (theta + delta) sin delta
-# has one zero on (pi, 2 pi), from - to +: h' falls, then rises to h'(2 pi) > 0, so h has one minimum after its last
-# fall, and at most one zero before it: the first crest of f. A root lies before this crest, or there is none (the
-# fold). As theta falls f falls, so the root grows: delta is a decreasing function of theta.
-
-
 def half_sine(half):
     """sin of a half angle up to SERIES_LIMIT, by its series."""
     z = half * half
@@ -74,59 +63,7 @@ def half_cosine(half):
     return 1.0 + z * (head + z2 * z2 * tail)
 
 
-def half_slope(theta, delta):
-    """h(delta) = f_delta / 2."""
-    return delta + theta * (1.0 - cos(delta)) + theta * (theta + delta) * sin(delta)
-
-
-def first_crest(theta):
-    """The delta at which f first stops growing, in (pi, 2 pi]; 2 pi if it grows throughout."""
-    low = PI
-    high = TWO_PI
-    for i in range(60):
-        middle = 0.5 * (low + high)
-        if 3.0 * cos(middle) - (theta + middle) * sin(middle) < 0.0:
-            low = middle
-        else:
-            high = middle
-    high = TWO_PI
-    for i in range(60):
-        middle = 0.5 * (low + high)
-        if 1.0 + 2.0 * theta * sin(middle) + theta * (theta + middle) * cos(middle) < 0.0:
-            low = middle
-        else:
-            high = middle
-    if half_slope(theta, low) >= 0.0:
-        return TWO_PI
-    high = low
-    low = PI
-    for i in range(60):
-        middle = 0.5 * (low + high)
-        if half_slope(theta, middle) > 0.0:
-            low = middle
-        else:
-            high = middle
-    return low
-
-
-def first_root(theta, chord2):
-    """First root delta of f = chord2 in (0, 2 pi], by safe bisection; NO_ROOT when the chain folds."""
-    low = 0.0
-    high = PI
-    if PI * PI + 4.0 * theta * (theta + PI) < chord2:
-        low = PI
-        high = first_crest(theta)
-        value = sin(0.5 * high)
-        if high * high + 4.0 * theta * (theta + high) * value * value < chord2:
-            return NO_ROOT
-    for i in range(60):
-        delta = 0.5 * (low + high)
-        value = sin(0.5 * delta)
-        if delta * delta + 4.0 * theta * (theta + delta) * value * value < chord2:
-            low = delta
-        else:
-            high = delta
-    return 0.5 * (low + high)
+# The next handle is at the first root of f (fold.py).
 
 
 def halley_step(theta, chord2, delta, s, c):

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
 
-# Arc lengths and roots are good to this part of themselves [1], chords to this [m].
+# Arc lengths are good to this part of themselves [1], chords to this [m].
 PART, CHORD_ERROR = 1e-13, 1e-13
 
 
@@ -19,17 +19,6 @@ def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: fl
     assert arc == pytest.approx(quad(lambda t: np.hypot(1.0, t), 0.0, theta, epsabs=0.0, epsrel=PART)[0], rel=PART)
     assert kernels.spiral_theta(arc) == pytest.approx(theta, rel=PART)
     assert kernels.spiral_theta(-arc) == 0.0
-
-
-@pytest.mark.parametrize("theta", [0.3, 2.0, 20.0])
-def test_the_first_root_is_a_root_and_none_lies_before_it(theta: float) -> None:
-    for chord in np.linspace(0.1, 1.9 * theta, 20):
-        delta = kernels.first_root(theta, chord**2)
-        angles = np.linspace(0.0, delta, 2_000)[1:-1]
-        square = angles**2 + 4.0 * theta * (theta + angles) * np.sin(0.5 * angles) ** 2
-        assert (square < chord**2).all()
-        end = delta**2 + 4.0 * theta * (theta + delta) * np.sin(0.5 * delta) ** 2
-        assert end == pytest.approx(chord**2, rel=PART)
 
 
 def test_every_bench_of_a_chain_is_as_long_as_its_chord() -> None:
