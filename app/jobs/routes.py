@@ -38,8 +38,8 @@ from app.service.bodies import BodyRoute, refuse_query, reply_body
 from app.service.middleware import client_of
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
-from app.service.routes import FILE, PROBLEM, SCHEMAS
-from app.service.token import GUARDED, guard
+from app.service.routes import FILE, SCHEMAS, refusals
+from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
@@ -135,15 +135,14 @@ asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
 
 def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:
     """OpenAPI description of a call: operation id, problems, and the media type if it is not JSON."""
-    problems = {number: {"description": PROBLEMS[number], "content": PROBLEM} for number in statuses}
     answer = {200: {"description": "The answer", "content": content}} if content else {}
     return {
         "operation_id": name,
         "summary": name.replace("_", " ").capitalize(),
         "response_class": Response if model is None else JSONResponse,  # FastAPI writes no schema for a plain Response.
         "response_model": model,
-        "responses": {**answer, **problems},
-        "openapi_extra": {"security": GUARDED if 401 in statuses else []},
+        "responses": {**answer, **refusals(statuses, PROBLEMS)},
+        "openapi_extra": {"security": WITHOUT if 401 in statuses else []},
     }
 
 
@@ -167,7 +166,7 @@ no_query = Depends(refuse_query)
 @asking.post(
     "/jobs",
     status_code=202,
-    dependencies=[Depends(guard), Depends(reply_body)],
+    dependencies=[TOKEN, Depends(guard), Depends(reply_body)],
     **told("ask_later", 400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
 )
 def ask_later(
@@ -196,7 +195,7 @@ def ask_later(
 @asking.post(
     "/sweeps",
     status_code=202,
-    dependencies=[Depends(guard), Depends(reply_body)],
+    dependencies=[TOKEN, Depends(guard), Depends(reply_body)],
     **told(SWEEP, 400, 401, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
 )
 def sweep(request: Request, wanted: Annotated[SweepRequest, Body(examples=[SWEEP_EXAMPLE])]) -> Response:
@@ -224,7 +223,7 @@ def format_of(value: Any, formats: type[FileFormat]) -> str:
 
 @router.get(
     "",
-    dependencies=[Depends(guard), no_query],
+    dependencies=[TOKEN, Depends(guard), no_query],
     **told("list_jobs", 401, 403, 422, 500, 503, model=JobList),
 )
 def list_jobs(request: Request, keeper: KeptKeeper) -> Response:

@@ -19,8 +19,8 @@ from app.service.bodies import WatchedRoute
 from app.service.graders import Graders
 from app.service.middleware import Lanes, client_of
 from app.service.problems import Refused
-from app.service.routes import FILE, PROBLEM, PROBLEMS
-from app.service.token import GUARDED, guard
+from app.service.routes import FILE, refusals
+from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 from app.wire.question import JSON, Wire, measure
@@ -81,11 +81,12 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
     "/grade",
     operation_id="grade",
     response_class=Response,
+    dependencies=[TOKEN],
     responses={
         200: {"description": "The answer", "model": GradeAnswer, "content": {JSON: {}}},
-        **{status: {"description": PROBLEMS[status], "content": PROBLEM} for status in STATUSES},
+        **refusals(STATUSES),
     },
-    openapi_extra={"security": GUARDED, "requestBody": {"required": False, "content": {FILE_TYPE: FILE}}},
+    openapi_extra={"security": WITHOUT, "requestBody": {"required": False, "content": {FILE_TYPE: FILE}}},
 )
 def grade(
     request: Request, data: Annotated[bytes, Depends(file_body(TYPES))], wanted: Annotated[GradeQuery, Query()]

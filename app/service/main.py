@@ -43,10 +43,8 @@ from app.service.middleware import (
 )
 from app.service.pages import add_pages
 from app.service.reply import Glances, KeptAnswers
-from app.service.token import TOKEN_SCHEME
 from app.service.version import VERSION, build
 from app.settings import SHARED_COUNTS, Settings
-from app.wire.problem import Problem
 from app.wire.question import JSON, Answer
 from core import Dragon, Spiral, contact_check, first_contact, trajectory
 from core.dance import Dance
@@ -191,39 +189,28 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 def _openapi(app: FastAPI) -> dict[str, Any]:
     if app.openapi_schema is None:
         schema = FastAPI.openapi(app)
-        problem = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
-        schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
-        for name, example in EXAMPLES.items():  # FastAPI drops every null in an example.
+        # Examples are added here, because FastAPI drops every null in an example that a route declares.
+        for name, example in EXAMPLES.items():
             method, path = name.split()
             forms = schema["paths"][path][method.lower()]["responses"]["200"]["content"]
             if JSON in forms:
                 forms[JSON]["example"] = example.answer
-        schema["components"]["securitySchemes"] = TOKEN_SCHEME
-        _state_benches(schema, app.state.settings.benches_max)
+        # The limit of benches is stated here, because the models are the same for all services of a process.
+        fields = [model["properties"] for model in schema["components"]["schemas"].values() if "properties" in model]
+        calls = [call for path in schema["paths"].values() for call in path.values()]
+        fields += [{one["name"]: one["schema"]} for call in calls for one in call.get("parameters", [])]
+        for field in fields:
+            if "maximum" in field.get("benches", {}):
+                field["benches"]["maximum"] = app.state.settings.benches_max
     return app.openapi_schema or {}
 
 
-def _state_benches(part: Any, most: int) -> None:
-    """Replace the largest number of benches in core by the limit of this service."""
-    if isinstance(part, dict):
-        for name, inner in part.items():
-            if name == "benches" and isinstance(inner, dict) and "maximum" in inner:
-                inner["maximum"] = most
-            _state_benches(inner, most)
-        if part.get("name") == "benches" and "maximum" in part.get("schema", {}):
-            part["schema"]["maximum"] = most
-    elif isinstance(part, list):
-        for inner in part:
-            _state_benches(inner, most)
-
-
 def _add_health(app: FastAPI) -> None:
-    problem = {"description": "Query parameters were given, but this call takes none", "content": routes.PROBLEM}
     described: dict[str, Any] = {
         "response_model": State,
         "dependencies": [Depends(refuse_query)],
         "tags": ["Service"],
-        "responses": {422: problem},
+        "responses": routes.refusals([422], {422: "Query parameters were given, but this call takes none"}),
         "openapi_extra": {"security": []},
     }
 

@@ -14,8 +14,8 @@ from app.service.graders import Graders
 from app.service.grading import COST, FILE_TYPE, STATUSES, UploadRoute, file_body
 from app.service.middleware import Lanes, client_of
 from app.service.problems import Refused
-from app.service.routes import FILE, PROBLEM, PROBLEMS
-from app.service.token import GUARDED
+from app.service.routes import FILE, refusals
+from app.service.token import TOKEN, WITHOUT
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 from app.wire.question import JSON, Coordinates, Wire
@@ -60,11 +60,12 @@ router = APIRouter(tags=["Maps"], route_class=MapRoute)
     "/places",
     operation_id="places",
     response_class=Response,
+    dependencies=[TOKEN],
     responses={
         200: {"description": "The answer", "model": Places, "content": {JSON: {}}},
-        **{status: {"description": PROBLEMS[status], "content": PROBLEM} for status in STATUSES},
+        **refusals(STATUSES),
     },
-    openapi_extra={"security": GUARDED, "requestBody": {"required": True, "content": {FILE_TYPE: FILE}}},
+    openapi_extra={"security": WITHOUT, "requestBody": {"required": True, "content": {FILE_TYPE: FILE}}},
 )
 def places(
     request: Request, data: Annotated[bytes, Depends(file_body(TYPES))], wanted: Annotated[PlacesQuery, Query()]

@@ -5,7 +5,7 @@ A call has the name of its question, such as `collision_time`; the twin with a b
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body, Path, Query, Response
@@ -20,6 +20,7 @@ from app.service.reply import QueryReply, QueryRoute, Reply
 from app.wire.problem import PROBLEM_TYPE
 from app.wire.question import JSON, FileFormat, Wire
 
+# The status of a job holds a problem, which brings the schema of problems into the description of the service.
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
 # Schemas of the forms that are not plain files.
@@ -39,6 +40,11 @@ PROBLEMS = {
 }
 QUERY_STATUSES = (406, 414, 422, 429, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 429, 500, 503)
+
+
+def refusals(statuses: Iterable[int], told: Mapping[int, str] = PROBLEMS) -> dict[int | str, dict[str, Any]]:
+    """Descriptions of problems. told: reason for each status"""
+    return {status: {"description": told[status], "content": PROBLEM} for status in statuses}
 
 
 def add_calls(router: APIRouter) -> None:
@@ -61,13 +67,8 @@ def _add(router: APIRouter, call: Call) -> None:
     statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
     if question.format_in_path:
         statuses = (404, *statuses)
-    problems: dict[int | str, dict[str, Any]] = {
-        status: {"description": PROBLEMS[status], "content": PROBLEM} for status in statuses
-    }
     unchanged = {"description": "The client already has this answer (If-None-Match)"}
-    content: dict[str, Any] = {form: SCHEMAS.get(form, FILE) for form in question.forms if form != JSON}
-    if question.model is not None:
-        content = {JSON: {"example": EXAMPLES[f"{method} {question.path}"].answer}, **content}
+    content = {form: SCHEMAS.get(form, FILE) for form in question.forms}
     answer = {"description": "The answer", "content": content, "model": question.model}
     title = question.name.replace("_", " ").capitalize()
     router.add_api_route(
@@ -79,7 +80,7 @@ def _add(router: APIRouter, call: Call) -> None:
         description=question.summary,
         tags=["Figures" if question.model is None else "Questions"],
         response_class=Response,
-        responses={200: answer, 304: unchanged, **problems},
+        responses={200: answer, 304: unchanged, **refusals(statuses)},
         openapi_extra={"security": []},
         route_class_override=BodyRoute if method == "POST" else None if question.format_in_path else QueryRoute,
     )

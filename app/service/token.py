@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from hmac import compare_digest
 
-from fastapi import Request
+from fastapi import Request, Security
+from fastapi.security import HTTPBearer
 
 from app.service.problems import Refused
 from app.wire.problem import ErrorItem
 
-TOKEN_SCHEME = {"token": {"type": "http", "scheme": "bearer", "description": "The token of a service that has one"}}
-# Security entry of calls that may need the token, in the description of the service.
-GUARDED: list[dict[str, list[str]]] = [{}, {"token": []}]
+# The token of a call that may need it, for the description of the service: guard() reads it. The second entry of such a
+# call's security says that a service may have none.
+TOKEN = Security(HTTPBearer(scheme_name="token", description="The token of a service that has one", auto_error=False))
+WITHOUT: list[dict[str, list[str]]] = [{}]
 
 
 def guard(request: Request) -> None:

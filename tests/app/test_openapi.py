@@ -148,7 +148,7 @@ def test_calls_are_named_as_their_questions_and_lock_nothing(document: Any) -> N
     assert calls.keys() == QUESTIONS.keys() | both | jobs | {"grade", "places", "healthz", "readyz"}
     # A service may have a token for who makes and lists jobs, and who sends files.
     guarded = {"ask_later", "list_jobs", "sweep", "grade", "places"}
-    assert all(calls[name]["security"] == [{}, {"token": []}] for name in guarded)
+    assert all(calls[name]["security"] == [{"token": []}, {}] for name in guarded)
     assert all(calls[name]["security"] == [] for name in calls.keys() - guarded)
     assert {tag for call in calls.values() for tag in call["tags"]} == {tag["name"] for tag in document["tags"]}
     assert document["info"]["license"]["identifier"] == "MIT"
