@@ -33,7 +33,6 @@ UNITS = {
     "forward": "m",
     "gap": "m",
     "growth": "m/rad",
-    "handles": "m",
     "head_radius": "m",
     "head_speed": "m/s",
     "head_speed_bracket": "m/s",
@@ -162,7 +161,7 @@ def extent(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = L
 
     values: (...), not empty
     """
-    least, most = float(np.min(values)), float(np.max(values))
+    least, most = float(np.min(values)) + 0.0, float(np.max(values)) + 0.0  # no -0
     return f"{least:.{digits}g}{'' if least == most else f' to {most:.{digits}g}'} {unit}".rstrip()
 
 
@@ -176,6 +175,8 @@ def counted(count: int, noun: str) -> str:
 
 
 def _entry(value: object, digits: int) -> str:
+    if value is None:
+        return "unknown"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, Enum):

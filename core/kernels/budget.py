@@ -37,6 +37,11 @@ class Budget:
         self.part = None
         self.then = f"within {self.work:g} steps of work, each a bench placed or a pair of benches tried"
 
+    def __repr__(self):
+        left = "no limit" if math.isinf(self.work) else f"{self.left:g} of {self.work:g} steps of work left"
+        left = left if self.limited else "the default work of each question"
+        return f"<Budget: {left}{', brief' if self.brief else ''}{', stopped' if self.stopped else ''}>"
+
     def within(self, work):
         """The budget of one question, which is stopped together with this: itself, or this default work [1]."""
         if self.limited:

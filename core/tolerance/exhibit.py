@@ -57,6 +57,7 @@ class Exhibit(Shown):
     benches: tuple[int, int | None]
     depth: float
     stray: float
+    _units = {"handles": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         a, b = self.benches

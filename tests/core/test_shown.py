@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import typing
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
@@ -26,7 +27,7 @@ from core import (
     Waypoints,
 )
 from core.errors import BenchDragonError
-from core.shown import Shown, units_of
+from core.shown import Shown, extent, units_of, worded
 
 # A line of a console and a half: nothing public is longer [characters].
 LINE_MOST = 220
@@ -99,6 +100,14 @@ OTHERS = [
 ]
 
 
+def spent() -> core.Budget:
+    """A budget of which a part is spent, and which was stopped."""
+    budget = core.Budget(10.0)
+    budget.spend(3.0)
+    budget.stop()
+    return budget
+
+
 @pytest.fixture(scope="module")
 def values() -> list[Any]:
     """What is shown: results, one of each kind, and what is given."""
@@ -143,6 +152,12 @@ def test_the_types_of_public_fields_are_public(kind: type) -> None:
 def test_every_number_of_a_public_result_has_its_unit(kind: type) -> None:
     floats = {name for name, hint in hints(kind).items() if {float, np.float64} & set(inside(hint))}
     assert floats - units_of(kind).keys() == set()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in public() if is_dataclass(kind)], ids=lambda kind: kind.__name__)
+def test_a_number_of_a_bench_or_a_count_has_no_unit(kind: type) -> None:
+    whole = {name for name, hint in hints(kind).items() if int in inside(hint) and float not in inside(hint)}
+    assert {name: units_of(kind)[name] for name in whole if units_of(kind).get(name)} == {}
 
 
 def test_a_repr_is_one_short_line(values: list[Any]) -> None:
@@ -193,6 +208,13 @@ def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
             core.minimum_pitch(Dragon()),
             "<MinimumPitch: 0.450337393 m, limited by graze of benches 0 and 19; proven for every larger pitch>",
         ),
+        (
+            core.highest_speed(DANCE, stop=10.0),
+            "<HighestSpeed: speed 1 m/s, speed bracket 1, 1 m/s, time 0 s, handles 0>",
+        ),
+        (core.Budget(), "<Budget: the default work of each question>"),
+        (core.Budget(math.inf, brief=True), "<Budget: no limit, brief>"),
+        (spent(), "<Budget: 7 of 10 steps of work left, stopped>"),
         (core.check(DANCE, stop=10.0), "<Report: passes from 0 to 10 s>"),
         (CURVE, "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>"),
         (core.separation([0, 0, 0], [2, 1], [3, 0, 0], [2, 1]), "<Separation: 1 m>"),
@@ -208,6 +230,13 @@ def test_a_table_has_every_field_with_its_unit() -> None:
     assert '<tr><th scope="row">time</th><td>412.473837682115 s</td></tr>' in html
     assert '<tr><th scope="row">benches</th><td>0, 8</td></tr>' in html
     assert '<tr><th scope="row">margin</th><td>0 m</td></tr>' in html
+    fastest = core.highest_speed(Dance(Dragon(9), Turn(1.7)), start=0.0, stop=30.0)
+    assert '<tr><th scope="row">handles</th><td>3, 4, 5, 6, 7</td></tr>' in fastest._repr_html_()
+
+
+def test_zero_has_no_sign_and_an_unknown_bound_is_called_so() -> None:
+    assert extent([-0.0, 1.0], "m") == "0 to 1 m"
+    assert worded((1.5, None), "m/s") == "1.5, unknown m/s"
 
 
 def test_a_name_in_a_table_is_escaped() -> None:
