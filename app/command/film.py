@@ -13,7 +13,7 @@ from app.command.options import asks
 from app.command.paths import PathOptions, dance_of
 from app.extras import require
 from app.files.disk import checked_output, write_whole
-from app.files.shooting import ENDINGS, GIF_TYPE
+from app.files.film_spec import ENDINGS, GIF_TYPE
 from app.questions import films
 from app.questions.films import FilmFields, FilmRequest
 from app.wire.question import Terms

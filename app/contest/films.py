@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from app.contest.solved import Solved
-from app.files.shooting import ENDINGS, LOOKS, Shooting
+from app.files.film_spec import ENDINGS, LOOKS, FilmSpec
 from app.files.words import Say
 
 # Names of the films, without their endings.
@@ -45,6 +45,6 @@ def films(
     forms = list(ENDINGS) if wanted.gif else list(ENDINGS)[:1]
     for name, dance, start, stop, title, touching in kinds:
         for form in forms:
-            shooting = Shooting(start, stop, wanted.seconds, *LOOKS[form], say.language, touching=touching)
+            spec = FilmSpec(start, stop, wanted.seconds, *LOOKS[form], say.language, touching=touching)
             file = name + ENDINGS[form]
-            yield file, film.film(dance, shooting, form, title=title, progress=partial(progress, file))
+            yield file, film.film(dance, spec, form, title=title, progress=partial(progress, file))

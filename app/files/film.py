@@ -28,8 +28,8 @@ from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
 from app.files.drawing import draw_venue, with_square
+from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families
-from app.files.shooting import MP4_TYPE, Shooting
 from app.files.tables import Language
 from app.wire.clocks import time_of_day
 from core import Budget, Dance, Venue, bench_outlines, trajectory
@@ -69,7 +69,7 @@ EDGE, TOUCHING_SHARE = 0.8, 0.0025
 @asked_of("dance", Dance, "the film was not drawn")
 def film(
     dance: Dance,
-    shooting: Shooting,
+    spec: FilmSpec,
     form: str,
     *,
     venue: Venue | None = None,
@@ -85,57 +85,57 @@ def film(
     budget = budget or Budget()
     encode = encoded_mp4 if form == MP4_TYPE else encoded_gif
     sink = io.BytesIO()
-    with encode(sink, shooting) as take:
-        for k, frame in enumerate(frames(dance, shooting, venue, title, budget)):
+    with encode(sink, spec) as take:
+        for k, frame in enumerate(frames(dance, spec, venue, title, budget)):
             take(frame)
-            progress((k + 1) / shooting.times.size)
+            progress((k + 1) / spec.times.size)
     return sink.getvalue()
 
 
 def frames(
-    dance: Dance, shooting: Shooting, venue: Venue | None, title: str, budget: Budget
+    dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget
 ) -> Iterator[NDArray[np.uint8]]:
     """Pictures (height, width, 4) in red, green, blue, alpha, each its own copy."""
-    times = shooting.times
-    stage = Stage(dance, shooting, venue, title)
+    times = spec.times
+    stage = Stage(dance, spec, venue, title)
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
         outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
         for k, (time, benches) in enumerate(zip(some, outlines, strict=True), start=first):
             budget.look()
-            yield stage.frame(float(time), benches, shooting.touching if k == times.size - 1 else None)
+            yield stage.frame(float(time), benches, spec.touching if k == times.size - 1 else None)
 
 
 class Stage:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
-    def __init__(self, dance: Dance, shooting: Shooting, venue: Venue | None, title: str) -> None:
-        size = (shooting.width / DPI, shooting.height / DPI)
-        points = TYPE_SHARE * shooting.height * 72.0 / DPI
-        self.language, self.start_clock = shooting.language, shooting.start_clock
-        with matplotlib.rc_context({"font.family": families(shooting.language), "font.size": points}):
+    def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
+        size = (spec.width / DPI, spec.height / DPI)
+        points = TYPE_SHARE * spec.height * 72.0 / DPI
+        self.language, self.start_clock = spec.language, spec.start_clock
+        with matplotlib.rc_context({"font.family": families(spec.language), "font.size": points}):
             figure = Figure(figsize=size, dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
             self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-            sampled = np.linspace(shooting.start, shooting.stop, EXTENT_INSTANTS)
+            sampled = np.linspace(spec.start, spec.stop, EXTENT_INSTANTS)
             handles = trajectory(dance, sampled).position.reshape(-1, 2)
             draw_dance(self.axes, dance.path, handles, np.empty((0, 4, 2)))
             draw_venue(self.axes, venue)
-            self._look(*with_square(venue, handles.min(axis=0), handles.max(axis=0)), shooting)
+            self._look(*with_square(venue, handles.min(axis=0), handles.max(axis=0)), spec)
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
         count = dance.dragon.benches
         self.head = self._benches(1, VERMILION, "black")
         self.body = self._benches(count - 1, BLUE, BODY_EDGE)
-        self.touching = self._benches(2, VERMILION, "black", TOUCHING_SHARE * shooting.height * 72.0 / DPI)
+        self.touching = self._benches(2, VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
 
-    def _look(self, low: Floats, high: Floats, shooting: Shooting) -> None:
+    def _look(self, low: Floats, high: Floats, spec: FilmSpec) -> None:
         """Show everything between two corners, at one scale for x and y that fills the frame."""
         middle, half = 0.5 * (low + high), 0.5 * (1.0 + 2.0 * AROUND) * (high - low) + 1.0
-        shape = shooting.width / shooting.height
+        shape = spec.width / spec.height
         tall = max(float(half[1]), float(half[0]) / shape)
         self.axes.set(xlim=(middle[0] - shape * tall, middle[0] + shape * tall))
         self.axes.set(ylim=(middle[1] - tall, middle[1] + tall), aspect="auto")
@@ -186,7 +186,7 @@ Take = Callable[[NDArray[np.uint8]], None]
 
 
 @contextmanager
-def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
+def encoded_mp4(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
     """Context that writes frames as H.264 in a second thread; yields the function that takes one.
 
     The table of the film (moov) stands first, so a player can begin before it has the whole film. libav can put it
@@ -202,8 +202,8 @@ def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
         av.open(path := f"{folder}/film.mp4", "w", options=FAST_START) as file,
         ThreadPoolExecutor(1) as encoder,
     ):
-        stream = file.add_stream("libx264", rate=round(shooting.rate), options=OPTIONS)
-        stream.width, stream.height, stream.pix_fmt = shooting.width, shooting.height, "yuv420p"
+        stream = file.add_stream("libx264", rate=round(spec.rate), options=OPTIONS)
+        stream.width, stream.height, stream.pix_fmt = spec.width, spec.height, "yuv420p"
         stream.codec_context.thread_count = THREADS
         stream.codec_context.colorspace, stream.codec_context.color_range = Colorspace.ITU709, ColorRange.MPEG
 
@@ -229,7 +229,7 @@ def encoded_mp4(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
 
 
 @contextmanager
-def encoded_gif(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
+def encoded_gif(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
     """Context that writes frames as a GIF that repeats; yields the function that takes one."""
     from PIL import Image
 
@@ -243,7 +243,7 @@ def encoded_gif(sink: io.BytesIO, shooting: Shooting) -> Iterator[Take]:
         pictures.append(Image.fromarray(picture[..., :3]).quantize(palette=palette, dither=Image.Dither.NONE))
 
     yield take
-    ticks = max(round(GIF_TICK * shooting.seconds / len(pictures)), 2)
+    ticks = max(round(GIF_TICK * spec.seconds / len(pictures)), 2)
     pictures[0].save(
         sink, "gif", save_all=True, append_images=pictures[1:], duration=1000 * ticks // GIF_TICK, loop=0,
         optimize=False, disposal=1,

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from app.extras import MissingPackage
 from app.files.tables import CSV_TYPE
-from app.jobs.mouth import Mouth
+from app.jobs.reports import Reports
 from app.jobs.task import Task
 from app.settings import Settings
 from app.sweeps.call import engine_of
@@ -36,7 +36,7 @@ class TooManyBytes(BenchDragonError):
     code = "content-too-large"
 
 
-def swept(task: Task, settings: Settings, folder: Path, mouth: Mouth) -> Path | Problem:
+def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Path | Problem:
     """File of the table in the format of the task, or the problem of a sweep without one.
 
     folder: of the shards; existing shards are not answered again
@@ -50,7 +50,7 @@ def swept(task: Task, settings: Settings, folder: Path, mouth: Mouth) -> Path | 
             patience=settings.sweep_seconds_max,
             first=FIRST_SECONDS,
         )
-        teller = _Teller(folder, settings.sweep_bytes_max, mouth)
+        teller = _Teller(folder, settings.sweep_bytes_max, reports)
         run(spec, folder, question=spec.asks, engine=engine, progress=teller)
         teller.tell(Progress(spec.designs, spec.designs, 0.0, None))
         return _table(Sweep(folder, spec), task.form)
@@ -68,16 +68,16 @@ def swept(task: Task, settings: Settings, folder: Path, mouth: Mouth) -> Path | 
 class _Teller:
     """Reports the progress of a run, and ends it when its files exceed their limit."""
 
-    def __init__(self, folder: Path, bytes_max: int, mouth: Mouth) -> None:
-        self.folder, self.bytes_max, self.mouth = folder, bytes_max, mouth
+    def __init__(self, folder: Path, bytes_max: int, reports: Reports) -> None:
+        self.folder, self.bytes_max, self.reports = folder, bytes_max, reports
         self.begun = False
 
     def __call__(self, progress: Progress) -> None:
         """raises: TooManyBytes"""
         if not self.begun:
             self.begun = True
-            self.mouth.say(kept=progress.designs)
-        if self.mouth.is_due():
+            self.reports.say(kept=progress.designs)
+        if self.reports.is_due():
             self.tell(progress)
 
     def tell(self, progress: Progress) -> None:
@@ -87,7 +87,7 @@ class _Teller:
             words = f"The sweep has {size} bytes after {progress.designs} of {progress.total} designs"
             raise TooManyBytes("over", f"{words}; the limit is {self.bytes_max} here: ask for fewer designs.")
         share, rate = progress.designs / progress.total, progress.rate / progress.total
-        self.mouth.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
+        self.reports.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
 
 
 def _renew(folder: Path, spec: Spec) -> None:

@@ -26,7 +26,7 @@ from queue import SimpleQueue
 from threading import Thread
 
 from app.jobs.job import SWEEP
-from app.jobs.mouth import Mouth
+from app.jobs.reports import Reports
 from app.jobs.runner import end_group
 from app.jobs.store import Store
 from app.jobs.task import Task
@@ -58,14 +58,14 @@ def is_small() -> bool:
     return peak * (1 if sys.platform == "darwin" else 1024) < SMALL
 
 
-def answer(task: Task, settings: Settings, mouth: Mouth, shards: Path) -> bytes | Path | Problem:
+def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> bytes | Path | Problem:
     """The answer of the service to the task; for a sweep the file of its table. shards: folder of a sweep"""
     try:
         if task.call == SWEEP:
             from app.jobs.sweeping import swept  # The import takes 0.3 s, and no other job needs it.
 
-            return swept(task, settings, shards, mouth)
-        return task.answer(settings, mouth.share)
+            return swept(task, settings, shards, reports)
+        return task.answer(settings, reports.share)
     except MemoryError:
         most = settings.job_memory_max
         detail = f"The job needs more memory than {most} bytes, the limit here: ask for less."
@@ -93,10 +93,10 @@ def written(found: bytes | Path, folder: Path) -> Path:
     return Path(name)
 
 
-def do(store: Store, job: str, settings: Settings, mouth: Mouth) -> dict[str, object]:
+def do(store: Store, job: str, settings: Settings, reports: Reports) -> dict[str, object]:
     """Run the job until it has an answer or a problem, and return the message that says so."""
     task = Task.from_bytes(store.call(job))
-    found = answer(task, settings, mouth, store.shards(job))
+    found = answer(task, settings, reports, store.shards(job))
     most = settings.job_result_bytes_max
     if not isinstance(found, Problem):
         size = len(found) if isinstance(found, bytes) else found.stat().st_size
@@ -134,13 +134,13 @@ def main() -> None:
     settings, folder = Settings(), Path(sys.argv[1])
     log_to_stderr(settings.log_json)
     limit_memory(settings.job_memory_max)
-    mouth = Mouth()
+    reports = Reports()
     for job in jobs():
-        mouth.begin()
+        reports.begin()
         with closing(Store(folder)) as store:
-            said = do(store, job, settings, mouth)
+            said = do(store, job, settings, reports)
         again = is_small()
-        mouth.say(**said, again=again)
+        reports.say(**said, again=again)
         if not again:
             return
 

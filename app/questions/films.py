@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from app.files.shooting import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, Shooting
+from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
 from app.wire.dances import PlacedDance
 from app.wire.question import Instant, Question, Terms, Wire, check_limit, measure
@@ -59,11 +59,9 @@ def filmed(asked: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes:
     )
     start, stop, touching = stretch(asked, dance, terms)
     clock = placed.start_clock if placed else None
-    shooting = Shooting(start, stop, asked.seconds, rate, height, asked.language, clock, touching)
+    spec = FilmSpec(start, stop, asked.seconds, rate, height, asked.language, clock, touching)
     venue = placed.to_place(dance.dragon).venue if placed else None
-    return film.film(
-        dance, shooting, form, venue=venue, title=asked.title, budget=terms.budget, progress=terms.progress
-    )
+    return film.film(dance, spec, form, venue=venue, title=asked.title, budget=terms.budget, progress=terms.progress)
 
 
 def look(asked: FilmFields, form: str) -> tuple[int, int]:

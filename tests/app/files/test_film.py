@@ -13,7 +13,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 from app.files.film import Stage, film
-from app.files.shooting import GIF_TYPE, MP4_TYPE, Shooting
+from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, first_contact, trajectory
 from tests.app.command import run
 from tests.depth import some
@@ -50,10 +50,10 @@ def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path
     )
     assert done.returncode == 0, done.stderr
     found = decoded(file.read_bytes())
-    shooting = Shooting(0.0, 90.0, 1.0, 10)
-    stage = Stage(dance, shooting, None, "")
-    assert len(found) == shooting.times.size == 10
-    for instant, picture in zip(shooting.times, found, strict=True):
+    spec = FilmSpec(0.0, 90.0, 1.0, 10)
+    stage = Stage(dance, spec, None, "")
+    assert len(found) == spec.times.size == 10
+    for instant, picture in zip(spec.times, found, strict=True):
         assert picture.shape == (1080, 1920, 3)
         places = centres(stage, dance, float(instant))
         assert is_like(picture[tuple(places[0])], HEAD), instant
@@ -78,7 +78,7 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_pat
     else:
         with Image.open(file) as picture:
             before, last = (np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture))
-    stage = Stage(dance, Shooting(0.0, found.time), None, "")
+    stage = Stage(dance, FilmSpec(0.0, found.time), None, "")
     for instant, picture, marked in ((0.0, before, {0}), (found.time, last, {0, 1, 8})):
         places = centres(stage, dance, instant)
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
@@ -90,9 +90,9 @@ def test_the_contest_s_turn_is_filmed_by_its_name(tmp_path: Path) -> None:
     times = ("--start", "-20", "--stop", "40", "--seconds", "1", "--rate", "4")
     done = run("film", "--path", "turn", "--benches", "30", *times, "--output", str(file))
     assert done.returncode == 0, done.stderr
-    dance, shooting = Dance(Dragon(benches=30), Turn(1.7)), Shooting(-20.0, 40.0, 1.0, 4)
-    stage = Stage(dance, shooting, None, "")
-    for instant, picture in zip(shooting.times, decoded(file.read_bytes()), strict=True):
+    dance, spec = Dance(Dragon(benches=30), Turn(1.7)), FilmSpec(-20.0, 40.0, 1.0, 4)
+    stage = Stage(dance, spec, None, "")
+    for instant, picture in zip(spec.times, decoded(file.read_bytes()), strict=True):
         places = centres(stage, dance, float(instant))
         assert is_like(picture[tuple(places[0])], HEAD), instant
         assert all(is_like(picture[tuple(place)], BODY) for place in places[1:]), instant
@@ -152,10 +152,10 @@ def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
     budget = Budget()
 
     def stop_after(share: float) -> None:
-        if share * shooting.times.size >= frames:
+        if share * spec.times.size >= frames:
             budget.stop()
 
-    shooting = Shooting(0.0, 60.0, 2.0, 12)
+    spec = FilmSpec(0.0, 60.0, 2.0, 12)
     with pytest.raises(TooMuchWork, match="the film was not drawn"):
-        film(Dance(Dragon(benches=5), Spiral()), shooting, form, budget=budget, progress=stop_after)
-    assert len(film(Dance(Dragon(benches=5), Spiral()), Shooting(0.0, 1.0, 0.2, 10), form)) > 1000
+        film(Dance(Dragon(benches=5), Spiral()), spec, form, budget=budget, progress=stop_after)
+    assert len(film(Dance(Dragon(benches=5), Spiral()), FilmSpec(0.0, 1.0, 0.2, 10), form)) > 1000

@@ -13,8 +13,8 @@ import orjson
 PROGRESS_SECONDS = 0.5
 
 
-class Mouth:
-    """Sends messages to the runner on the original standard output; other prints go to standard error."""
+class Reports:
+    """Reports to the runner on the original standard output; other prints go to standard error."""
 
     def __init__(self) -> None:
         self._line = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)

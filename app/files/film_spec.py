@@ -1,4 +1,4 @@
-"""Interval, length, size and form of a film, checked before anything is drawn."""
+"""The spec of a film: interval, length, size and form."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 
 
 @dataclass(frozen=True)
-class Shooting:
+class FilmSpec:
     """start, stop: times in the dance [s]; seconds: length of the film [s]; rate: [frames/s]; height: [pixels]
     start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant"""
 
