@@ -4,7 +4,7 @@
       InvalidValue            a parameter is outside what its type allows (also a ValueError)
       TooLarge                the requested work is beyond a stated limit
       TooMuchWork             an answer was not found within the work that one question may take
-      OutsideRun              an instant lies after the end of the run (fold, centre or end of path)
+      OutsideRun              a time is after the end of the run, or before the whole dragon is on the path
       ProofRefused            a claim could not be proven, or a certificate does not prove its claim
 
 A message names the field, the value, its unit and the limit. A collision is an answer, never an error.
@@ -167,7 +167,7 @@ def too_much(budget: Budget, field: str, rule: str, got: float, unit: str) -> To
 
 
 class OutsideRun(BenchDragonError):
-    """An instant lies after the end of the run."""
+    """A time is after the end of the run, or before the whole dragon is on the path."""
 
     code = "outside-run"
 

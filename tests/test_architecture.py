@@ -451,6 +451,12 @@ def test_a_question_named_like_its_room_stays_a_question() -> None:
     assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).split() == ["True", "True"]
 
 
+def test_proofs_are_reached_from_core_and_loaded_only_then() -> None:
+    code = "import core, sys; print('flint' in sys.modules, core.proof.check.__module__, 'flint' in sys.modules)"
+    said = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
+    assert said.split() == ["False", "core.proof.certificate", "True"]
+
+
 def functions(module: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
     return [node for node in ast.walk(tree(module)) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
 

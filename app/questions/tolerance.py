@@ -105,7 +105,7 @@ def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Toleran
     dance, budget = asked.to_dance(terms.settings.checked_benches_max), terms.budget
     venue = asked.to_place(dance.dragon).venue if isinstance(asked, ToleranceRequest) else None
     start, stop = span_asked(asked, dance)
-    with_errors = _with_errors(asked, dance, placed=venue is not None)
+    with_errors = _with_errors(asked, dance, budget, placed=venue is not None)
     return Tolerance.of(core.tolerance(dance, venue, start=start, stop=stop, budget=budget), with_errors)
 
 
@@ -124,7 +124,9 @@ def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[fl
     return start, circle
 
 
-def _with_errors(asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, *, placed: bool) -> float | None:
+def _with_errors(
+    asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, budget: core.Budget, *, placed: bool
+) -> float | None:
     errors = {"length_error": asked.length_error, "pitch_error": asked.pitch_error}
     if not any(errors.values()):
         return None
@@ -133,7 +135,8 @@ def _with_errors(asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, *,
         field = next(name for name, error in errors.items() if error)
         rule = "must be 0 but for a dance without a venue on a spiral that ends on a circle (turning_diameter)"
         raise InvalidValue.of(field, rule, errors[field], "m")
-    return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=asked.turning_diameter / 2)
+    radius = asked.turning_diameter / 2
+    return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=radius, budget=budget)
 
 
 QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest)

@@ -25,6 +25,7 @@ from core import kernels
 from core.contact.search import Search
 from core.dragon import Dragon
 from core.errors import asked_of, checked_number, checked_size
+from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.sampling import bisected
 from core.tolerance.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
@@ -33,7 +34,7 @@ from core.tolerance.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 WIDTH = 1e-6
 
 
-@asked_of("dragon", Dragon)
+@asked_of("dragon", Dragon, "the stray that is safe in spite of errors was not found")
 def uncertain_tolerance(
     dragon: Dragon,
     pitch: float,
@@ -41,18 +42,19 @@ def uncertain_tolerance(
     length_error: float = 0.0,
     pitch_error: float = 0.0,
     turning_radius: float = 4.5,
+    budget: Budget | None = None,
 ) -> float:
     """Safe stray until the head is on the turning circle, whatever the errors of sizes are [m].
 
     length_error: largest error of the chord of every bench, whose overhangs and width are as given [m]; pitch_error:
         largest error of the pitch of the whole spiral [m]; turning_radius: [m]
     returns: a stray proven safe, smaller than that of tolerance() for sizes without errors; 0 if the bound proves none
-    raises: InvalidValue
+    raises: InvalidValue; TooMuchWork
 
     >>> round(uncertain_tolerance(Dragon(), 0.7, length_error=0.01, pitch_error=0.005), 4)
     0.094
     """
-    radius, spiral = checked_size("turning_radius", turning_radius), Spiral(pitch)
+    radius, spiral, budget = checked_size("turning_radius", turning_radius), Spiral(pitch), budget or Budget()
     shortest = float(dragon.chords.min())
     error = checked_number("length_error", length_error, "m", 0.0, 0.5 * shortest)
     spread = checked_number("pitch_error", pitch_error, "m", 0.0, 0.5 * spiral.pitch)
@@ -63,6 +65,7 @@ def uncertain_tolerance(
         return _longer_reach(reach(shorter, stray), longer, stray)
 
     def touches(stray: float) -> bool:
+        budget.afford(float(kernels.DIRECTIONS * min(dragon.uniform_from + 1, dragon.benches)))
         search = Search(longer, spiral, 0.0, stray=stray, covered=covered)
         search.rings.between_shortest -= 2.0 * error
         return not kernels.ring_clears(low, high, radius, 0.0, search.rings)

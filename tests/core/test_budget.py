@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import threading
 import time
@@ -48,6 +49,7 @@ from core import (
     tolerance,
     tolerance_curve,
     trajectory,
+    uncertain_tolerance,
     venue_clearance,
 )
 from core.errors import spoken
@@ -88,6 +90,7 @@ QUESTIONS: dict[str, Question] = {
     "tolerance_curve": lambda budget: tolerance_curve(Dragon(30), PITCHES, budget=budget),
     "contact_probability": lambda budget: contact_probability(SPIRAL, Wobble(), 20, 1, stop=50.0, budget=budget),
     "first_contact with a stray": lambda budget: first_contact(SPIRAL, stray=0.02, budget=budget),
+    "uncertain_tolerance": lambda budget: uncertain_tolerance(Dragon(30), 0.7, length_error=0.01, budget=budget),
     "overlaps": lambda budget: overlaps(POSES, *SIZES, budget=budget),
     "cross_check": lambda budget: cross_check(POSES, *SIZES, budget=budget),
     "contact_check": lambda budget: contact_check(CONTACT, Dance(Dragon(), Spiral()), budget=budget),
@@ -149,6 +152,8 @@ def test_every_public_question_about_a_dance_or_a_dragon_takes_a_budget() -> Non
         or (name == "Route" and "budget" in Route.__init__.__annotations__)
     }
     assert taking == asked
+    functions = {name for name in core.__all__ if inspect.isfunction(getattr(core, name))}
+    assert functions - taking == {"bench_outlines", "bench_poses", "course", "separation", "verdicts"}
 
 
 def stopped_after(seconds: float, question: Callable[[Budget], Any]) -> tuple[TooMuchWork, float]:
