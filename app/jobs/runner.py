@@ -54,7 +54,7 @@ class Work:
     """A process that does jobs, and its present one.
 
     job: None while it waits; begun: start of the job on the monotonic clock [s]; most: largest duration [s]
-    over: True if nobody needs the job any more
+    over: True if the result of the job is no longer needed
     first: time of its first report of progress [s], and the share done then
     """
 
