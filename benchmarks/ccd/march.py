@@ -1,11 +1,11 @@
 """Our own engine for one corner and one edge: the march of core/kernels/marching.py, with the bounds of the kernels.
 
 In the frame of the edge's bench the edge is at rest and the corner is at q(x) after the travel x. K of
-core/kernels/bends.py bounds the second derivative of e . q for every unit vector e fixed in that bench; here e is the
-direction outwards from the edge. So over a step h the corner is further out than what least_between() leaves of its
-ends: where that exceeds the margin and the rounding G of core/kernels/pairs.py, it did not meet the edge in between. A
-step that is not proven is halved or ends at the crossing; contact is claimed where the corner is within the margin for
-certain, a bracket after the last proven travel.
+core/kernels/gap_curvature.py bounds the second derivative of e . q for every unit vector e fixed in that bench; here e
+is the direction outwards from the edge. So over a step h the corner is further out than what least_between() leaves of
+its ends: where that exceeds the margin and the rounding G of core/kernels/pairs.py, it did not meet the edge in
+between. A step that is not proven is halved or ends at the crossing; contact is claimed where the corner is within the
+margin for certain, a bracket after the last proven travel.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class March:
         search, (a, b) = self.stage.search, self.pair
         h += 2.0 * self.slack
         self.motion.evaluations += 2
-        bends = kernels.pair_bends(search.scene, search.probe, self.query.place - start + self.slack, h, a, b)
+        bends = kernels.pair_curvatures(search.scene, search.probe, self.query.place - start + self.slack, h, a, b)
         bend = bends[self.pair.index(self.query.edge_bench)]
         if bend >= FREE:
             return None

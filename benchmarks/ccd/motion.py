@@ -20,8 +20,8 @@ from core.kernels.constants import (
     HALF_WIDTH,
     MX,
     MY,
+    OMEGA_PULL,
     RADIUS,
-    TURN_PULL,
     UX,
     UY,
 )
@@ -114,7 +114,7 @@ class Motion:
         """How far a point of a bench may be from the straight and even way between its places at two times [m].
 
         reach: of the point from the centre [m]
-        |X''| <= K = CENTRE_PULL + TURN_PULL reach over the interval (core/kernels/bounds.py): no more than K h^2 / 8.
+        |X''| <= K = CENTRE_PULL + OMEGA_PULL reach over the interval (core/kernels/bounds.py): no more than K h^2 / 8.
         """
         h, search = (stop - start) * self.query.span, self.stage.search
         if self._bounded != (start, stop):  # all points of both benches share these bounds
@@ -124,7 +124,7 @@ class Motion:
                 self._bounded = (math.nan, math.nan)
                 return math.inf
         rounding = float(max(search.rows[2][bench, ERROR], search.rows[3][bench, ERROR]))
-        pull = float(search.motion[bench, CENTRE_PULL] + search.motion[bench, TURN_PULL] * reach)
+        pull = float(search.motion[bench, CENTRE_PULL] + search.motion[bench, OMEGA_PULL] * reach)
         return pull * h * h / 8.0 + 4.0 * rounding
 
     def even_steps(self, bow: float) -> int:

@@ -42,7 +42,7 @@ class Feature(Shown):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Evidence(Shown):
-    """Evidence for the answer.
+    """Evidence for the answer; a certificate that others can check comes from `core.proof`.
 
     method: the claim and its proof, in sentences (core/contact/first_contact.py)
     steps: number of proven steps

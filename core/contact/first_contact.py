@@ -1,12 +1,12 @@
 """First contact, with a certificate.
 
-The proof is written above its loops: `core/kernels/bounds.py`, `bends.py`, `pairs.py`, `rings.py`, `repeats.py` and
-`marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in one
-of the two benches separates them by more than the margin over all of [L, R]: the gap along that axis is known at both
-ends, and its second derivative is bounded in between. Benches further out than a radius in closed form cannot touch. In
-a dragon with equal body benches, pair (i, j) repeats, in the same place, the meeting of pair (m, m + j - i) when handle
-m was where handle i is now (m: the first of the equal benches). So once every bench has passed the start of the one
-before it, only the pairs of the first m + 1 benches need a search.
+The proof is written above its loops: `core/kernels/bounds.py`, `gap_curvature.py`, `pairs.py`, `rings.py`, `repeats.py`
+and `marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in
+one of the two benches separates them by more than the margin over all of [L, R]: the gap along that axis is known at
+both ends, and its second derivative is bounded in between. Benches further out than a radius in closed form cannot
+touch. In a dragon with equal body benches, pair (i, j) repeats, in the same place, the meeting of pair (m, m + j - i)
+when handle m was where handle i is now (m: the first of the equal benches). So once every bench has passed the start of
+the one before it, only the pairs of the first m + 1 benches need a search.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ def _result(
     outcome = OUTCOMES[state]
     method = _method(dance, search, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Evidence(method, found.steps, clear_until, found.bend, graze)
+    certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, graze)
     asked: dict[str, Any] = {"margin": search.margin, "stray": search.stray, "dance": dance}
     if outcome is Outcome.CLEAR:
         return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate, **asked)

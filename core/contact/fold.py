@@ -122,7 +122,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 # From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
 # differ by delta(theta), which falls with theta (spiral.py), so handle k + 1 stands in
 #     [low_k + delta(high_k), high_k + delta(low_k)],
-# and where the curvature at low_k times half the chord is at most BEND_LIMIT (chord lemma, bounds.py) in
+# and where the curvature at low_k times half the chord is at most SINE_LIMIT (chord lemma, bounds.py) in
 #     [low_k + delta(low_k), high_k + delta(high_k)],
 # as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
 # once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
@@ -183,11 +183,11 @@ def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
         if k == benches:
             break
         curvature = kernels.spiral_curvature(low) / growth
-        if 0.5 * curvature * longest_behind[k] <= kernels.BEND_LIMIT:
+        if 0.5 * curvature * longest_behind[k] <= kernels.SINE_LIMIT:
             arcs[k:], curvatures[k:] = arcs[k], curvature
             break
         inner, outer = _deltas(search.growth, low, high, float(chords[k]))
-        if 0.5 * curvature * chords[k] <= kernels.BEND_LIMIT:
+        if 0.5 * curvature * chords[k] <= kernels.SINE_LIMIT:
             inner, outer, curvatures[k] = outer, inner, curvature
         low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
     both = arcs[:-1] + arcs[1:]

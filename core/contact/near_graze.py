@@ -163,13 +163,13 @@ class ExactPair:
                 self.search.budget.look()
                 slack = search.travel_rounding(start, stop)
                 place = search.place - start + slack
-                bends = kernels.pair_bends(search.scene, search.probe, place, h + 2.0 * slack, a, b)
-                if max(bends) >= kernels.FREE:
+                curvatures = kernels.pair_curvatures(search.scene, search.probe, place, h + 2.0 * slack, a, b)
+                if max(curvatures) >= kernels.FREE:
                     return False
                 there = self.benches(Decimal(start + h))
                 axis = separation(*there)[1]
                 least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
-                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * bends[axis.owner] * h * h / 8.0):
+                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * curvatures[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
                 tried += 1

@@ -1,6 +1,7 @@
 """Search: one dragon on one path, in the form that the certified march of the kernels needs.
 
-The proof of a march is written above its loops: `core/kernels/bounds.py`, `bends.py`, `pairs.py` and `rings.py`.
+The proof of a march is written above its loops: `core/kernels/bounds.py`, `gap_curvature.py`, `pairs.py`
+and `rings.py`.
 """
 
 from __future__ import annotations
@@ -330,6 +331,6 @@ def joined(passed: Marched, further: Marched) -> Marched:
     return further._replace(
         proven=max(passed.proven, further.proven),
         steps=passed.steps + further.steps,
-        bend=max(passed.bend, further.bend),
+        gap_curvature=max(passed.gap_curvature, further.gap_curvature),
         graze=min((dip for dip in (passed.graze, further.graze) if dip is not None), default=None),
     )

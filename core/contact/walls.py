@@ -162,7 +162,7 @@ def venue_route(path: Spiral | Route, stop: float) -> Route:
 
 def venue_end(dance: Dance) -> float:
     """Last time to which venue_clearance() can follow the dance [s]: a spiral may become too tight for a chord."""
-    gentle = dance.path.gentle_end(2.0 * kernels.ROUTE_BEND_LIMIT / float(dance.dragon.chords.max()))
+    gentle = dance.path.gentle_end(2.0 * kernels.ROUTE_SINE_LIMIT / float(dance.dragon.chords.max()))
     return min(dance.end.time, dance.clock.time(gentle - 2.0 * SPARE))
 
 

@@ -1,6 +1,6 @@
 """Bands of pitches: each is an interval of pitches that are proven free of contact all at once.
 
-The proof for one band is written above its loop in `core/kernels/strips.py`.
+The proof for one band is written above its loop in `core/kernels/band_march.py`.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Bands:
         self.straight = Straight(search.dragon)
         # outside the circle the path curves so little that no handle moves backwards and no bench folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.rings.all_chord) / radius
-        self.bent_little = most <= kernels.BEND_LIMIT
+        self.curved_little = most <= kernels.SINE_LIMIT
         self.total = self.straight.total
         self._make_room(search.room)
 
@@ -81,15 +81,15 @@ class Bands:
         self.motions = np.zeros((2, benches + 1, kernels.MOTION_COLUMNS))
         self.shifts = np.zeros((benches + 1, kernels.SHIFT_COLUMNS))
 
-    def band_to(self, growth_high: float) -> kernels.Strip:
-        """The band from the growth of the search to a higher one [m/rad]."""
+    def march_to(self, growth_high: float) -> kernels.BandMarch:
+        """The march of the band from the growth of the search to a higher one [m/rad]."""
         search, curve = self.search, kernels.spiral_curve(growth_high)
         high = kernels.Scene(curve, search.place, search.rings, search.sizes, search.dragon.benches, 0)
         high.kinds = search.kinds
         (before, after), (before_high, after_high) = self.rows
         low_interval = kernels.Interval(search.scene, before, after, self.motions[0])
         high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])
-        return kernels.Strip(low_interval, high_interval, self.shifts)
+        return kernels.BandMarch(low_interval, high_interval, self.shifts)
 
     def prove(self, low: float, high: float, outer: float) -> tuple[Ended, Marched]:
         """Outcome of a march for all pitches in [low, high] while the head's radius falls from outer to the circle [m].
@@ -109,14 +109,14 @@ class Bands:
         rounding = TRAVEL_ROUNDING * outer * max(outer / (low / math.tau), 1.0)
         least_step = max(STEP_MIN, STEP_PER_WIDTH * (high - low))
         while True:
-            band = self.band_to(high / math.tau)
+            march = self.march_to(high / math.tau)
             budget = min(BAND_WORK - self.work, search.budget.left)
-            ended = band.run(outer, self.radius, leaders, rounding, least_step, budget)
-            self.work += float(band.work)
-            search.spend(float(band.work))
+            ended = march.run(outer, self.radius, leaders, rounding, least_step, budget)
+            self.work += float(march.work)
+            search.spend(float(march.work))
             search.budget.look()
             if ended is not Ended.CAPACITY:
-                return ended, band.result()
+                return ended, march.result()
             search.resize(min(4 * search.room, search.dragon.benches))
             self._make_room(search.room)
 

@@ -1,6 +1,6 @@
 """The shortest turn: the deepest entry inside its circle.
 
-A closed form says whether handles can follow: the radius of a bend must be at least half a chord over ROUTE_BEND_LIMIT
+A closed form says whether handles can follow: the radius of a bend must be at least half a chord over ROUTE_SINE_LIMIT
 (core/kernels/constants.py). The sum of the arcs' radii is S = sqrt(E^2 + growth^2) for the entry radius E (see Turn).
 Both radii shrink with E, and so does that of the coil at the entry: so there is one least entry.
 

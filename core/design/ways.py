@@ -73,7 +73,7 @@ class Ways:
         stop = max(search.travel_at(circle), 0.0)
         if width != NO_BRACKET:
             width = max(width, 2.0 * search.travel_rounding(0.0, stop))
-        fold, bench = (0.0, None) if self.bands.bent_little else end_theta(search.dragon, path)
+        fold, bench = (0.0, None) if self.bands.curved_little else end_theta(search.dragon, path)
         if fold > circle * (1.0 - THETA_ROUNDING):
             return Ended.BENCH_FOLDED if fold > circle * (1.0 + THETA_ROUNDING) else Ended.STUCK, Marched(0.0)
         for state, travel in () if width != NO_BRACKET else ((Ended.TOUCHED_AT_START, 0.0), (Ended.TOUCHED, stop)):

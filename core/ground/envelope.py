@@ -72,7 +72,7 @@ EXCESS_MIN, EXCESS_MAX = 5e-4, 1.0
 # Parts of the excess [1]: the largest bow plus the largest slip, the largest bow alone, and the largest distance
 # outside the union of a polygon that is left out of it. The union is grown by the first and the last of these; with bow
 # and slip themselves that is 0.93 of the excess, and the rest is for the grid of the union and for ends of stretches.
-BENT, BOW, LEFT_OUT = 0.4, 0.125, 0.12
+BOW_AND_SLIP, BOW, LEFT_OUT = 0.4, 0.125, 0.12
 # Largest excess of the convex hull of an edge's places over its swept ground, relative to the whole excess [1].
 FLAT = 0.02
 # Excess of the two triangles over the swept ground where one crossing is outside the edge, in slips; and the largest
@@ -161,9 +161,9 @@ def envelope(
     parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
     core = [polygons for part in parts for polygons in part.core]
     rest = [polygons for part in parts for polygons in part.rest]
-    added = (BENT + LEFT_OUT) * excess + GRID + ROUNDING
+    added = (BOW_AND_SLIP + LEFT_OUT) * excess + GRID + ROUNDING
     polygons = united(core, rest, added, LEFT_OUT * excess, budget)
-    most = GROWTH_MOST * added + GRID + BENT * excess + max(part.over for part in parts) + ROUNDING
+    most = GROWTH_MOST * added + GRID + BOW_AND_SLIP * excess + max(part.over for part in parts) + ROUNDING
     cells = sum(part.cells for part in parts)
     proof = SweepProof(_method(found, cells, (begin, until), most), cells)
     area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
@@ -189,7 +189,7 @@ def _method(found: list[Track], cells: int, span: tuple[float, float], most: flo
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """Ground that a lone bench sweeps over one stretch, up to `BENT` of the excess.
+    """Ground that a lone bench sweeps over one stretch, up to `BOW_AND_SLIP` of the excess.
 
     core: arrays of convex polygons (N, corners, 2) that hold nearly all of it; rest: the other polygons
     over: largest motion of the bench over the spare places at the ends of the stretch [m]
@@ -233,7 +233,7 @@ class _Lone:
             while True:
                 corners, bows = self.corners(nodes), 0.125 * pulls * np.diff(nodes) ** 2
                 core, rest, slips = _swept(corners, pulls > 0.0, FLAT * self.excess)
-                wide = np.flatnonzero(slips > (BENT - BOW) * self.excess)
+                wide = np.flatnonzero(slips > (BOW_AND_SLIP - BOW) * self.excess)
                 if not wide.size:
                     break
                 self.budget.afford(CELL_WORK * wide.size)
@@ -250,7 +250,7 @@ class _Lone:
             pull, count = self.pull(s, h), CELLS + 1
             if pull < FREE:
                 count = max(1, math.ceil(min(h * math.sqrt(0.125 * pull / (BOW * self.excess)), count)))
-            if count > CELLS and self.moved(s, h) <= (BENT - BOW) * self.excess:
+            if count > CELLS and self.moved(s, h) <= (BOW_AND_SLIP - BOW) * self.excess:
                 count, pull = 1, 0.0
             if count > CELLS:
                 h *= 0.5

@@ -7,8 +7,8 @@ of these stretches. In a dance each bench follows the one before it, so that the
 as long as the dragon and its way together. The cost of a sweep follows from this length, not from the number of benches
 times the time.
 
-The places of handle k + 1 are one chord behind those of handle k, and form an interval too. No handle turns back on a
-route, nor on a spiral while half of the chord times the curvature is at most BEND_LIMIT (core/kernels/bounds.py), so
+The places of handle k + 1 are one chord behind those of handle k, and form an interval too. No handle reverses on a
+route, nor on a spiral while half of the chord times the curvature is at most SINE_LIMIT (core/kernels/bounds.py), so
 the ends of one interval give those of the next. Nearer to the centre of a spiral, let g(theta) = theta + delta(theta)
 be the rear handle's angle. As delta falls with theta (core/kernels/spiral.py), on [a, b]
     a + delta(b) <= g <= b + delta(a),
@@ -27,17 +27,17 @@ import numpy as np
 from core import kernels
 from core.dance import Dance
 from core.kernels.constants import (
-    BEND_LIMIT,
     CHAIN_COLUMNS,
     CHORD,
     PLACE,
+    SINE_LIMIT,
     SIZE_COLUMNS,
     SLIP,
 )
 from core.paths.path import Path
 from core.values import Floats
 
-# Width to which places are found where a handle turns back [m].
+# Width to which places are found where a handle reverses [m].
 TURNS = 1e-8
 # Rounding of places, added to that of the chain: absolute [m], and relative to the longest way [1]; the latter exceeds
 # TRAVEL_ROUNDING of core/contact/search.py.
@@ -85,7 +85,7 @@ def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats
     spares = np.full(chords.size, PLACE_ROUNDING + path.slide)
     inner, outer = path.places(np.array([until, begin]), dance.end.theta or 0.0).tolist()
     places = [(inner, outer)]
-    gentle = path.gentle_theta(2.0 * BEND_LIMIT / float(chords.max()))
+    gentle = path.gentle_theta(2.0 * SINE_LIMIT / float(chords.max()))
     while len(places) <= chords.size and places[-1][0] < gentle:
         places.append(_behind(path, *places[-1], float(chords[len(places) - 1]), gentle))
     turned = len(places) - 1
@@ -111,7 +111,7 @@ def _chain(path: Path, place: float, chords: Floats) -> tuple[Floats, float]:
 def _behind(path: Path, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
     """Range of the polar angle of a rear handle on a spiral, to within TURNS; the front one is between two angles.
 
-    low: the angle further in; gentle: angle from which outwards the rear handle does not turn back
+    low: the angle further in; gentle: angle from which outwards the rear handle does not reverse
     """
     chord2 = (chord / path.growth) ** 2
     low = max(low, path.last_theta(chord))

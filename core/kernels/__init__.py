@@ -18,16 +18,16 @@ route        points and chain on a table of pieces             chain       of a 
 rounding     how far all of these may be from the truth
 scene        who dances where, intervals of head travel        bounds      how fast handles and benches move at most
 stretches    how curved the path under a bench is
-hulls        benches as unions of hulls                        bends       how a gap of two curves at most
+hulls        benches as unions of hulls                        gap_curvature  how a gap of two curves at most
 faces        how near two unions of hulls come                 pairs       how near two benches come at most
 nearest      how near any two come                             rings       benches too far out to touch
 repeats      benches that repeat what others met               clearance   at one instant
-marching     to first contact                                  strips      all pitches between two at once
+marching     to first contact                                  band_march  all pitches between two at once
 rates        how fast handles are at most                      speed       the highest speed
 excess       when a limit is first exceeded                   wobble      who touches when people wobble
 """
 
-from core.kernels.bends import axis_bend, pair_bends
+from core.kernels.band_march import BandMarch
 from core.kernels.boxes import BOXES_PER_LEAF, Meetings, grow_tree
 from core.kernels.budget import Budget, Halted
 from core.kernels.chain import (
@@ -45,6 +45,7 @@ from core.kernels.clearance import bottom_between, clearance_at, clearance_left,
 from core.kernels.constants import *
 from core.kernels.excess import Excess
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
+from core.kernels.gap_curvature import axis_curvature, pair_curvatures
 from core.kernels.hulls import Kinds, largest_supports
 from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding
@@ -64,6 +65,5 @@ from core.kernels.spiral import (
     spiral_thetas,
     spiral_trajectory,
 )
-from core.kernels.stretches import steepest_bend
-from core.kernels.strips import Strip
+from core.kernels.stretches import steepest_curvature
 from core.kernels.wobble import Wobbler

@@ -7,10 +7,10 @@ from core.kernels.rounding cimport spiral_rounding
 
 cdef double TRIAL
 cdef double RATIO_FOLLOWED
-cdef double SPIRAL_TURN
+cdef double SPIRAL_SWAY
 cdef double LOOSEN
 cdef double TIGHTEN
-cdef double ROUTE_BEND_ROUNDED
+cdef double ROUTE_SINE_ROUNDED
 
 cdef void stand_between(
     Py_ssize_t k, double[:, ::1] before, double[:, ::1] after, double widened, double[:, ::1] motion
@@ -25,7 +25,7 @@ cdef double summed_widening(
     double growth, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after
 ) noexcept nogil
 
-cdef Link bent_link(double chord, double k_low, double k_high, double rate_a, double rate_low) noexcept nogil
+cdef Link curved_link(double chord, double k_low, double k_high, double rate_a, double rate_low) noexcept nogil
 
 cdef Link followed_link(
     Py_ssize_t k, double h, double k_high, double rate_a, double[:, ::1] sizes, double[:, ::1] before,

@@ -1,4 +1,4 @@
-"""Certified motion: upper bounds on the speed and turn of handles and benches over an interval of head travel."""
+"""Certified motion: upper bounds on the speed and rotation of handles and benches over an interval of head travel."""
 
 import cython
 from cython.cimports.libc.math import fabs, sqrt
@@ -73,25 +73,25 @@ RATIO_FOLLOWED = 1.001
 #   curvature    of a handle that is SLIP along the path from its true place: on a spiral |d k / d s| <= 2 k / growth,
 #                as theta (4 + theta^2) / ((2 + theta^2) (1 + theta^2)^(3/2)) <= 2, so k is good to 2 SLIP / growth of
 #                itself (up to the first handle that is followed SLIP <= spiral_error() with chords up to 2 r) besides a
-#                few u; on a route to K_SLOPE SLIP + BENT. `widened` adds 32 u (benches + 8), so that k_high and k_low
-#                also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, even where
-#                these are much smaller than their terms: d (1 - sin^2) = 2 sin^2 widened is more than its rounding,
-#                3 u, unless sin^2 < 1 / 170, and there cos is good to 3 u of itself.
+#                few u; on a route to K_SLOPE SLIP + CURVATURE_SLACK. `widened` adds 32 u (benches + 8), so that k_high
+#                and k_low also make up for the few u of sin_high, cos_low, cos_high and of differences like swing, even
+#                where these are much smaller than their terms: d (1 - sin^2) = 2 sin^2 widened is more than its
+#                rounding, 3 u, unless sin^2 < 1 / 170, and there cos is good to 3 u of itself.
 #   cosines      followed from the ends: u of a link is off by SWAY or less, T by up to 13 SLIP / chord (rounding.py),
 #                on a route, whose curvature is below 2 / chord, by 2.2 SLIP / chord, and by the rotation of the frame,
 #                which SWAY includes too: `blur` = 2 SWAY + 13 (2.2) SLIP / chord + 16 u.
 #   recurrences  from link to link are sums, products and quotients of terms >= 0, each good to u, and fewer than 30 for
 #                each link: a factor LOOSEN (TIGHTEN for lower bounds) at each link keeps them above (below) the truth.
 # A number computed from a motion row only once, not from link to link, is good to 1e-13 of itself; h makes up for that.
-SPIRAL_TURN = 13.0
+SPIRAL_SWAY = 13.0
 LOOSEN = 1.0 + 4e-15
 TIGHTEN = 1.0 - 4e-15
 # The sharpest bend that a chord can follow on a route, widened by its rounding [1].
-ROUTE_BEND_ROUNDED = ROUTE_BEND_LIMIT * (1.0 + 1e-9)
+ROUTE_SINE_ROUNDED = ROUTE_SINE_LIMIT * (1.0 + 1e-9)
 
 
 def stand_between(k, before, after, widened, motion):
-    """Fill in the ranges of theta and curvature of handle k of a spiral, if it does not turn back in the interval."""
+    """Fill in the ranges of theta and curvature of handle k of a spiral, if it does not reverse in the interval."""
     motion[k, THETA_LOW] = after[k, THETA]
     motion[k, THETA_HIGH] = before[k, THETA]
     motion[k, CURVATURE_LOW] = spiral_curvature(before[k, THETA]) * (1.0 - widened)
@@ -104,8 +104,8 @@ def bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion):
     motion[k, CORNER_SPEED] = 0.5 * (rate_a + rate_b) + omega * sizes[k, RADIUS]
     motion[k, CENTRE_PULL] = pull
     motion[k, CORNER_PULL] = pull + spin * sizes[k, RADIUS]
-    motion[k, TURN] = omega
-    motion[k, TURN_PULL] = spin
+    motion[k, OMEGA] = omega
+    motion[k, OMEGA_PULL] = spin
     motion[k, HANDLE_SPEED] = rate_a if rate_a > rate_b else rate_b
 
 
@@ -116,7 +116,7 @@ def summed_widening(growth, benches, sizes, before, after):
     return 32.0 * ULP * (benches + 8.0) + 2.0 * max(before[benches, SLIP], after[benches, SLIP]) / growth
 
 
-def bent_link(chord, k_low, k_high, rate_a, rate_low):
+def curved_link(chord, k_low, k_high, rate_a, rate_low):
     """Bounds on a link by the chord lemma, from the range of its curvature and of its leader's rate."""
     sine = 0.5 * k_high * chord
     rear = sqrt(1.0 - sine * sine)
@@ -129,7 +129,7 @@ def bent_link(chord, k_low, k_high, rate_a, rate_low):
 def followed_link(k, h, k_high, rate_a, sizes, before, after):
     """Bounds on a link whose angles are followed from the ends of the interval; cos_rear is 0 where none is known."""
     chord = sizes[k, CHORD]
-    blur = blur_of(k, SPIRAL_TURN / chord, before, after)
+    blur = blur_of(k, SPIRAL_SWAY / chord, before, after)
     front, rear = link_cosines(k, before)
     front_end, rear_end = link_cosines(k, after)
     front = (fabs(front) if fabs(front) > fabs(front_end) else fabs(front_end)) + blur
@@ -181,13 +181,13 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
         stand_between(k, before, after, widened, motion)
         inner = after[k, THETA] if after[k, THETA] < before[k, THETA] else before[k, THETA]
         outer = before[k + 1, THETA] if after[k + 1, THETA] < before[k + 1, THETA] else after[k + 1, THETA]
-        if followed:  # the handle may turn back between the ends: it goes no further in than its rate allows
+        if followed:  # the handle may reverse between the ends: it goes no further in than its rate allows
             slid = 2.0 * rate_a * h / (growth * inner) if inner > 0.0 else FREE
             inner = max(inner - slid if slid <= 0.5 * inner else inner - rate_a * h / growth, 0.0)
         k_high = spiral_curvature(inner) * inwards
-        if 0.5 * k_high * chord <= BEND_LIMIT:
+        if 0.5 * k_high * chord <= SINE_LIMIT:
             k_low = 0.0 if followed else spiral_curvature(outer) * outwards
-            link = bent_link(chord, k_low, k_high, rate_a, rate_low)
+            link = curved_link(chord, k_low, k_high, rate_a, rate_low)
         else:
             if not filled:  # the sums that spiral_error() takes the place of are needed themselves
                 filled = True
@@ -205,8 +205,8 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             spin = link.omega * link.omega + (swung + second_a + second_b) / chord
         pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + link.rate * link.rate))
         bench_bounds(k, rate_a, link.rate, link.omega, spin, pull, sizes, motion)
-        motion[k, TURN_LOW] = link.omega_low
-        motion[k, TURN_RATE] = spin - link.omega * link.omega
+        motion[k, OMEGA_LOW] = link.omega_low
+        motion[k, OMEGA_RATE] = spin - link.omega * link.omega
         motion[k + 1, RATE_HIGH] = rate_a = link.rate
         motion[k + 1, RATE_LOW] = rate_low = link.rate_low
         motion[k + 1, RATE_RATE] = second_a = second_b
@@ -271,7 +271,7 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
 
 
 def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
-    """motion_bounds() on a route. The chord lemma serves throughout, because no handle turns back where k chord < 2.
+    """motion_bounds() on a route. The chord lemma serves throughout, because no handle reverses where k chord < 2.
 
     Where the curvature changes sign between two handles, the angles lie in [-k l / 2, k l / 2] for the larger |k|. The
     cosines of the angles are also followed from both ends of the interval, as near the centre of a spiral: |cos alpha|'
@@ -291,7 +291,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         stretch = link_stretch(pieces, k, benches, sizes, before, after)
         high = stretch.high
         sine = stretch.sine
-        if not (sine <= ROUTE_BEND_ROUNDED):
+        if not (sine <= ROUTE_SINE_ROUNDED):
             return False
         rate_a = motion[k, RATE_HIGH]
         second_a = motion[k, RATE_RATE]
@@ -306,7 +306,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
         spin = omega * omega + (front * swing * (rate_a + rate_b) + sine * (second_a + second_b)) / stretch.chord
         pull = 0.5 * (second_a + second_b + high * (rate_a * rate_a + rate_b * rate_b))
         bench_bounds(k, rate_a, rate_b, omega, spin, pull, sizes, motion)
-        motion[k, TURN_LOW] = motion[k, RATE_LOW] = 0.0
+        motion[k, OMEGA_LOW] = motion[k, RATE_LOW] = 0.0
         third_b = stretch.slope * (rate_a * rate_a * rate_a + rate_b * rate_b * rate_b)
         third_b += high * (rate_a * second_a + rate_b * second_b) + (spin - omega * omega) * (rate_a + rate_b)
         third_b = sine * (third_b + 2.0 * swing * (second_a + second_b))
@@ -327,7 +327,7 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
 
 def followed_error(k, error, sizes, before, after):
     """Rounding of the rate of handle k of a spiral at either end of an interval, from that of the one before [1]."""
-    blur = blur_of(k - 1, SPIRAL_TURN / sizes[k - 1, CHORD], before, after)
+    blur = blur_of(k - 1, SPIRAL_SWAY / sizes[k - 1, CHORD], before, after)
     front, rear = link_cosines(k - 1, before)
     front_end, rear_end = link_cosines(k - 1, after)
     rear = min(rear, rear_end) - blur

@@ -71,12 +71,12 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         delta, s, c = next_handle(theta, reach, delta)
         if delta == NO_ROOT:
             return FOLDED
-        turn = 2.0 * s * c
+        sine = 2.0 * s * c
         rise = 2.0 * s * s
         x = chain[k, COS]
         y = chain[k, SIN]
-        chain[k + 1, COS] = x - (x * rise + y * turn)
-        chain[k + 1, SIN] = y - (y * rise - x * turn)
+        chain[k + 1, COS] = x - (x * rise + y * sine)
+        chain[k + 1, SIN] = y - (y * rise - x * sine)
         x = growth * theta * x
         y = growth * theta * y
         rest = delta + chain[k, REST]

@@ -50,11 +50,11 @@ CENTRE_SPEED = 0
 CORNER_SPEED = 1
 CENTRE_PULL = 2
 CORNER_PULL = 3
-TURN = 4
-TURN_PULL = 5  # omega^2 + omega'
+OMEGA = 4
+OMEGA_PULL = 5  # omega^2 + omega'
 HANDLE_SPEED = 6  # of the faster of its two handles
-TURN_LOW = 7
-TURN_RATE = 8  # |omega'|
+OMEGA_LOW = 7
+OMEGA_RATE = 8  # |omega'|
 # Bounds on the handle in front of the bench.
 RATE_HIGH = 9
 RATE_LOW = 10
@@ -123,10 +123,10 @@ Y_HIGH = 3
 BOX_COLUMNS = 4
 
 # Largest curvature chord / 2 at which the chord lemma serves on a spiral; beyond it the angles are followed [1].
-BEND_LIMIT = 0.97
+SINE_LIMIT = 0.97
 # The same on a route, where the cosines of the angles are followed too [1]. At 1 a chord is the diameter of its bend,
 # and its rear handle can be infinitely faster than its front one; here it can be 22 times faster.
-ROUTE_BEND_LIMIT = 0.999
+ROUTE_SINE_LIMIT = 0.999
 
 # Larger than any step or distance, with a square that does not overflow [m]. As a radius or a place: nothing lies
 # beyond it. As a lower bound of a gap: there is no pair.
@@ -178,7 +178,7 @@ PART = 15  # number of the part of the route; within a part curvature does not j
 # Largest distance from a joint at which the path leaves its pieces to close a gap between them [m].
 BLEND = 1.0
 LOOSE = 16  # largest distance of the piece from the path, whose tangent is continuous at the joints [m]
-BENT = 17  # largest difference between its curvature and that of the path [1/m]
+CURVATURE_SLACK = 17  # largest difference between its curvature and that of the path [1/m]
 PIECE_COLUMNS = 18
 LINE = 0
 ARC = 1
@@ -199,7 +199,7 @@ MISS_COLUMNS = 4
 
 
 class Ended(IntEnum):
-    """End of a march, or of a strip of pitches: see marching.py and strips.py."""
+    """End of a march, or of a band of pitches: see marching.py and band_march.py."""
 
     REACHED = 0
     TOUCHED = 1
@@ -241,7 +241,7 @@ EDGES_PER_WORK = 64.0
 SHIFT_CENTRE = 0  # |M'|
 SHIFT_CORNER = 1  # |X'|
 SHIFT_PULL = 2  # |X''| [rad/m]
-SHIFT_TURN = 3  # |u'| [rad/m]
+SHIFT_OMEGA = 3  # |u'| [rad/m]
 SHIFT_COLUMNS = 4
 
 # Upper bound of curvature times radius on any spiral: 2 / 1.5^(3/2) = 1.08866 [1].

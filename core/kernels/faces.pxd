@@ -1,9 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.bends cimport band_bends, band_between, bend_along, least_between
+from core.kernels.gap_curvature cimport band_curvatures, band_between, curvature_along, least_between
 from core.kernels.hulls cimport STEP, Kinds, best_beyond, corner_beyond, facing, gap_beyond, hulls_in
 from core.kernels.hulls cimport nearest_corner, nearest_hulls, uphill, view_of
-from core.kernels.records cimport Axis, Bends, Corner, Faced, Hulls, View, Views
+from core.kernels.records cimport Axis, Curvatures, Corner, Faced, Hulls, View, Views
 from core.kernels.scene cimport Band, Interval, Scene
 
 @cython.locals(
@@ -11,21 +11,21 @@ from core.kernels.scene cimport Band, Interval, Scene
     k=cython.Py_ssize_t, start=View, end=View, hulls=Hulls, swapped=Hulls, axis=Axis
 )
 cdef double hulls_least(
-    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double bend, double bend_back
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double curvature, double curvature_back
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, start=View, end=View, axis=Axis)
 cdef double swapped_least(
-    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, Hulls hulls, double bend, double enough
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, Hulls hulls, double curvature, double enough
 ) noexcept nogil
 
 cdef double face_along(
-    Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double bend, double h
+    Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double curvature, double h
 ) noexcept nogil
 
 @cython.locals(axis=Axis)
 cdef double face_least(
-    Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double bend, double h, double enough
+    Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double curvature, double h, double enough
 ) noexcept nogil
 
 @cython.locals(
@@ -38,7 +38,7 @@ cdef double hulls_most(
 cdef Views views_of(Py_ssize_t i, Py_ssize_t j, Band band) noexcept nogil
 
 @cython.locals(
-    bends=Bends, bends_back=Bends, n=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
+    curvatures=Curvatures, curvatures_back=Curvatures, n=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
     k=cython.Py_ssize_t, views=Views, hulls=Hulls
 )
 cdef double band_hulls(
@@ -47,14 +47,14 @@ cdef double band_hulls(
 
 @cython.locals(views=Views)
 cdef double band_swapped(
-    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Hulls hulls, Bends bends, double enough
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Hulls hulls, Curvatures curvatures, double enough
 ) noexcept nogil
 
 @cython.locals(axis=Axis)
 cdef double band_face(
-    Scene scene, Band band, Views views, Hulls hulls, Py_ssize_t k, Bends bends, double enough
+    Scene scene, Band band, Views views, Hulls hulls, Py_ssize_t k, Curvatures curvatures, double enough
 ) noexcept nogil
 
 cdef double band_beyond(
-    Kinds kinds, Band band, Views views, Hulls hulls, Py_ssize_t k, Bends bends
+    Kinds kinds, Band band, Views views, Hulls hulls, Py_ssize_t k, Curvatures curvatures
 ) noexcept nogil

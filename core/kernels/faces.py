@@ -4,8 +4,8 @@ import cython
 from cython.cimports.libc.math import cos
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
-    from core.kernels.bends import band_bends, band_between, bend_along, least_between
     from core.kernels.constants import *
+    from core.kernels.gap_curvature import band_between, band_curvatures, curvature_along, least_between
     from core.kernels.hulls import (
         STEP,
         best_beyond,
@@ -25,10 +25,10 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # nearer.
 
 
-def hulls_least(scene, interval, i, j, enough, bend, bend_back):
+def hulls_least(scene, interval, i, j, enough, curvature, curvature_back):
     """pair_least() of benches with hulls, without the rectangles around them [m]; 0 or less: no bound.
 
-    bend, bend_back: K along axes fixed in i and in j [1/m]
+    curvature, curvature_back: K along axes fixed in i and in j [1/m]
     """
     h = interval.h
     edge = j > scene.room
@@ -40,50 +40,50 @@ def hulls_least(scene, interval, i, j, enough, bend, bend_back):
         own = n % HULLS
         other = AT_REST if edge else (n // HULLS + 1) % HULLS
         hulls = hulls_in(scene.kinds, j, i, other, own, scene.sizes)
-        if face_along(scene.kinds, start, end, hulls, k, bend_back, h) >= best:
+        if face_along(scene.kinds, start, end, hulls, k, curvature_back, h) >= best:
             continue
-        if face_along(scene.kinds, start, end, hulls, 0, bend_back, h) >= best:
+        if face_along(scene.kinds, start, end, hulls, 0, curvature_back, h) >= best:
             continue
-        if face_along(scene.kinds, start, end, hulls, DIRECTIONS // 2, bend_back, h) >= best:
+        if face_along(scene.kinds, start, end, hulls, DIRECTIONS // 2, curvature_back, h) >= best:
             continue
-        gap = face_least(scene.kinds, start, end, hulls, k, bend_back, h, enough)
+        gap = face_least(scene.kinds, start, end, hulls, k, curvature_back, h, enough)
         if gap <= enough:
             swapped = hulls_in(scene.kinds, i, j, own, other, scene.sizes)
-            gap = max(gap, swapped_least(scene, interval, i, j, swapped, bend, enough))
+            gap = max(gap, swapped_least(scene, interval, i, j, swapped, curvature, enough))
             if gap <= scene.margin:
                 axis = best_beyond(scene.kinds, end, hulls)
-                gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, bend_back, h))
+                gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, curvature_back, h))
         best = min(best, gap)
         if best <= scene.margin:
             break
     return best
 
 
-def swapped_least(scene, interval, i, j, hulls, bend, enough):
+def swapped_least(scene, interval, i, j, hulls, curvature, enough):
     """face_least() along axes fixed in i; where that shows nothing, along the best axis of all at the end [m]."""
     start = view_of(i, j, interval.before)
     end = view_of(i, j, interval.after)
     k = facing(end, i, j, scene.sizes)
-    gap = face_least(scene.kinds, start, end, hulls, k, bend, interval.h, enough)
+    gap = face_least(scene.kinds, start, end, hulls, k, curvature, interval.h, enough)
     if gap <= scene.margin:
         axis = best_beyond(scene.kinds, end, hulls)
-        gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, bend, interval.h))
+        gap = max(gap, face_along(scene.kinds, start, end, hulls, axis.k, curvature, interval.h))
     return gap
 
 
-def face_along(kinds, start, end, hulls, k, bend, h):
+def face_along(kinds, start, end, hulls, k, curvature, h):
     """Proven least gap over an interval beyond half plane k [m]; start, end: the views at its ends."""
-    return least_between(gap_beyond(kinds, start, hulls, k), gap_beyond(kinds, end, hulls, k), bend, h)
+    return least_between(gap_beyond(kinds, start, hulls, k), gap_beyond(kinds, end, hulls, k), curvature, h)
 
 
-def face_least(kinds, start, end, hulls, k, bend, h, enough):
+def face_least(kinds, start, end, hulls, k, curvature, h, enough):
     """Proven least gap over an interval beyond one of the two half planes uphill from k at its ends [m]."""
     axis = uphill(kinds, end, hulls, k, FREE)
-    best = least_between(gap_beyond(kinds, start, hulls, axis.k), axis.gap, bend, h)
+    best = least_between(gap_beyond(kinds, start, hulls, axis.k), axis.gap, curvature, h)
     if best > enough:
         return best
     axis = uphill(kinds, start, hulls, axis.k, FREE)
-    return max(best, least_between(axis.gap, gap_beyond(kinds, end, hulls, axis.k), bend, h))
+    return max(best, least_between(axis.gap, gap_beyond(kinds, end, hulls, axis.k), curvature, h))
 
 
 def hulls_most(scene, interval, a, b, distance):
@@ -99,7 +99,7 @@ def hulls_most(scene, interval, a, b, distance):
     at = nearest_corner(scene.kinds, view, hulls, faced.k)
     most = corner_beyond(scene.kinds, view, hulls, at)
     most = max(most, corner_beyond(scene.kinds, view_of(i, j, interval.before), hulls, at))
-    most += 0.125 * bend_along(scene, interval, i, j, distance) * interval.h * interval.h
+    most += 0.125 * curvature_along(scene, interval, i, j, distance) * interval.h * interval.h
     return most / cos(0.5 * STEP) if most > 0.0 else most
 
 
@@ -116,55 +116,55 @@ def views_of(i, j, band):
 def band_hulls(scene, band, i, j, enough, distance):
     """band_pair() of benches with hulls, without the rectangles around them [m]; no bound where the margin or less."""
     best = FREE
-    bends = band_bends(scene, band, i, j, distance)
-    bends_back = band_bends(scene, band, j, i, distance)
+    curvatures = band_curvatures(scene, band, i, j, distance)
+    curvatures_back = band_curvatures(scene, band, j, i, distance)
     views = views_of(j, i, band)
     k = facing(views.low_end, j, i, scene.sizes)
     for n in range(HULLS * HULLS):
         own = n % HULLS
         other = (n // HULLS + 1) % HULLS
         hulls = hulls_in(scene.kinds, j, i, other, own, scene.sizes)
-        if band_beyond(scene.kinds, band, views, hulls, k, bends_back) >= best:
+        if band_beyond(scene.kinds, band, views, hulls, k, curvatures_back) >= best:
             continue
-        if band_beyond(scene.kinds, band, views, hulls, 0, bends_back) >= best:
+        if band_beyond(scene.kinds, band, views, hulls, 0, curvatures_back) >= best:
             continue
-        if band_beyond(scene.kinds, band, views, hulls, DIRECTIONS // 2, bends_back) >= best:
+        if band_beyond(scene.kinds, band, views, hulls, DIRECTIONS // 2, curvatures_back) >= best:
             continue
-        gap = band_face(scene, band, views, hulls, k, bends_back, enough)
+        gap = band_face(scene, band, views, hulls, k, curvatures_back, enough)
         if gap <= enough:
             hulls = hulls_in(scene.kinds, i, j, own, other, scene.sizes)
-            gap = max(gap, band_swapped(scene, band, i, j, hulls, bends, enough))
+            gap = max(gap, band_swapped(scene, band, i, j, hulls, curvatures, enough))
         best = min(best, gap)
         if best <= scene.margin:
             break
     return best
 
 
-def band_swapped(scene, band, i, j, hulls, bends, enough):
+def band_swapped(scene, band, i, j, hulls, curvatures, enough):
     """band_face() along axes fixed in i [m]."""
     views = views_of(i, j, band)
-    return band_face(scene, band, views, hulls, facing(views.low_end, i, j, scene.sizes), bends, enough)
+    return band_face(scene, band, views, hulls, facing(views.low_end, i, j, scene.sizes), curvatures, enough)
 
 
-def band_face(scene, band, views, hulls, k, bends, enough):
+def band_face(scene, band, views, hulls, k, curvatures, enough):
     """Proven least gap over a band beyond one of the half planes uphill from k at two of its corners [m]; where these
     show nothing, beyond the best half plane of all at the first of these corners."""
     axis = uphill(scene.kinds, views.low_end, hulls, k, FREE)
-    best = band_beyond(scene.kinds, band, views, hulls, axis.k, bends)
+    best = band_beyond(scene.kinds, band, views, hulls, axis.k, curvatures)
     if best > enough:
         return best
     axis = uphill(scene.kinds, views.high_end, hulls, axis.k, FREE)
-    best = max(best, band_beyond(scene.kinds, band, views, hulls, axis.k, bends))
+    best = max(best, band_beyond(scene.kinds, band, views, hulls, axis.k, curvatures))
     if best <= scene.margin:
         axis = best_beyond(scene.kinds, views.low_end, hulls)
-        best = max(best, band_beyond(scene.kinds, band, views, hulls, axis.k, bends))
+        best = max(best, band_beyond(scene.kinds, band, views, hulls, axis.k, curvatures))
     return best
 
 
-def band_beyond(kinds, band, views, hulls, k, bends):
+def band_beyond(kinds, band, views, hulls, k, curvatures):
     """Proven least gap over a band beyond half plane k [m]."""
     start = gap_beyond(kinds, views.low_start, hulls, k)
     end = gap_beyond(kinds, views.low_end, hulls, k)
     high_start = gap_beyond(kinds, views.high_start, hulls, k)
     high_end = gap_beyond(kinds, views.high_end, hulls, k)
-    return band_between(band, start, end, high_start, high_end, bends)
+    return band_between(band, start, end, high_start, high_end, curvatures)

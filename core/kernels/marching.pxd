@@ -7,7 +7,7 @@ from core.kernels.scene cimport Found, Interval, Scene
 from core.kernels.clearance cimport bottom_between, contact_between, gap_at, row_clearance, row_gap
 from core.kernels.pairs cimport pair_most
 from core.kernels.nearest cimport interval_least
-from core.kernels.repeats cimport chain_between, may_turn, passed, slid_back
+from core.kernels.repeats cimport chain_between, may_reverse, passed, slid_back
 
 cdef double DIP_WIDTH
 cdef double LEAST_STEP
@@ -34,7 +34,7 @@ cdef class March(Found):
     cdef Py_ssize_t opened
     cdef bint opens
     cdef bint grazes
-    cdef bint turning
+    cdef bint reversing
     cdef double travel
     cdef double h
     cdef bint aims
@@ -45,7 +45,7 @@ cdef class March(Found):
     cdef double older_travel
     cdef double last_travel
     cdef Closest last
-    cdef double bend
+    cdef double gap_curvature
     cdef bint grazed
     cdef double graze_gap
     cdef double graze_travel

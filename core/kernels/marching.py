@@ -13,7 +13,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.nearest import interval_least
     from core.kernels.pairs import pair_most
     from core.kernels.records import Closest, Nearest
-    from core.kernels.repeats import chain_between, may_turn, passed, slid_back
+    from core.kernels.repeats import chain_between, may_reverse, passed, slid_back
     from core.kernels.rings import drift
     from core.kernels.scene import Found
 
@@ -28,11 +28,11 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 #
 # Invariant, whenever the loop begins: no two benches that share no handle come within the margin in [start, travel].
 # 1. A step is taken only if interval_least() proves more than the margin, after rounding, for every pair led by the
-# first `active` benches at every instant of [travel, travel + h] (nearest.py, bends.py). The proof does not depend on
-# the size of the step: between two ends a gap along an axis cannot fall further below its chord than K x (h - x) / 2,
-# where K is a bound over this same interval (bounds.py). So a graze cannot be stepped over: a dip within the interval
-# that reached the margin would need a larger second derivative. A step that this bound does not prove is shortened,
-# never taken.
+# first `active` benches at every instant of [travel, travel + h] (nearest.py, gap_curvature.py). The proof does not
+# depend on the size of the step: between two ends a gap along an axis cannot fall further below its chord than
+# K x (h - x) / 2, where K is a bound over this same interval (bounds.py). So a graze cannot be stepped over: a dip
+# within the interval that reached the margin would need a larger second derivative. A step that this bound does not
+# prove is shortened, never taken.
 # 2. Of the other pairs, those whose inner bench leads at clear_radius or further out are clear by the ring bound,
 # and those whose outer bench stands beyond radius_beyond(leaders_reach()) lie outside all that the leaders can touch
 # over the interval, which interval_least() checks with the handles' drift (rings.py). On a route all handles are laid
@@ -42,7 +42,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # and all behind it stand as bench i - 1 and all behind that stood when handle i - 1 was at this place, and these
 # benches are equal (family lemma, repeats.py). passed() says that every handle i has come to the place where handle i -
 # 1 began. So handle i - 1 was there after the start, and clear by the invariant for i - 1, and so on down to m. This
-# stays true, because no handle turns back before the one ahead of it does. A bench behind `opened` leads no pair that
+# stays true, because no handle reverses before the one ahead of it does. A bench behind `opened` leads no pair that
 # may touch, by 2, until its handle comes to a place where a predecessor has been.
 # 4. Consecutive steps share a chain to the last bit, so the intervals tile the way of the true head without a gap. The
 # travel is not exact to the last bit: the head of the chain at `travel` has truly travelled within `rounding` of it. So
@@ -89,7 +89,7 @@ class March(Found):
     """A march of a scene's head, by proven steps, until a pair comes within the margin: see the top of this file.
 
     interval: the chains of a step; probe: an interval to look at one pair; opening: rows for the chain at the start
-    bend: the largest K that proved a step [1/m]; grazed: whether the clearance had a local minimum on the way;
+    gap_curvature: the largest K that proved a step [1/m]; grazed: whether the clearance had a local minimum on the way;
         graze_...: the least of these
     """
 
@@ -100,11 +100,11 @@ class March(Found):
         self.opening = opening
         self.start = self.stop = self.tolerance = self.rounding = self.most_work = 0.0
         self.leaders = self.followers = self.active = self.placed = self.opened = 0
-        self.at_start = self.opens = self.turning = self.grazes = self.grazed = self.aims = False
+        self.at_start = self.opens = self.reversing = self.grazes = self.grazed = self.aims = False
         self.travel = self.h = self.target = self.allowance = 0.0
         self.floor = self.older_clearance = self.older_travel = self.last_travel = 0.0
         self.last = Closest(FREE, 0, 0)
-        self.bend = self.graze_gap = self.graze_travel = 0.0
+        self.gap_curvature = self.graze_gap = self.graze_travel = 0.0
         self.graze_first = self.graze_second = 0
 
     def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, most_work):
@@ -150,7 +150,7 @@ class March(Found):
         graze = None
         if self.grazed:
             graze = Dip(float(self.graze_gap), float(self.graze_travel), (self.graze_first, self.graze_second))
-        return Found.result(self, self.bend, graze)
+        return Found.result(self, self.gap_curvature, graze)
 
     def repeats_ahead(self, scene):
         """Whether the head is still before rings.end_place, beyond which nothing touches (rings.py)."""
@@ -170,10 +170,10 @@ class March(Found):
         self.travel = self.older_travel = self.last_travel = self.start
         self.h = scene.rings.shortest
         self.begin(self.start)
-        self.aims = self.turning = self.grazed = False
+        self.aims = self.reversing = self.grazed = False
         self.floor = self.graze_gap = FREE
         self.older_clearance = -FREE
-        self.bend = 0.0
+        self.gap_curvature = 0.0
         laid = chain_between(scene, scene.place - self.start, self.followers, self.h, False, self.interval.before)
         if laid.last == scene.room and scene.room < scene.benches:
             return self.end(Ended.CAPACITY)
@@ -212,7 +212,7 @@ class March(Found):
         outer = scene.curve.growth * interval.before[1, THETA] if scene.curve.is_spiral else 0.0
         allowance = ALLOWANCE * drift(fabs(interval.before[1, RATE]) + 1.0, self.h, scene.curve.growth, outer)
         place = scene.place - self.travel - self.h
-        laid = chain_between(scene, place, self.followers, allowance, self.turning, interval.after)
+        laid = chain_between(scene, place, self.followers, allowance, self.reversing, interval.after)
         if laid.last == scene.room and scene.room < scene.benches:
             return self.end(Ended.CAPACITY)
         if laid.last == FOLDED:
@@ -238,7 +238,7 @@ class March(Found):
         self.placed = interval.handles
         interval.swap()
         if self.active > 0:
-            self.bend = max(self.bend, nearest.bend)
+            self.gap_curvature = max(self.gap_curvature, nearest.gap_curvature)
         if self.aims and self.surely_within(scene, scene.place - self.target - self.tolerance):
             self.proven = self.travel
             self.meet(self.target + self.tolerance)
@@ -253,19 +253,19 @@ class March(Found):
         return Step.ADVANCED
 
     def must_follow(self, scene, interval):
-        """Whether more benches must be followed over this step, because a handle of the spiral may turn back.
+        """Whether more benches must be followed over this step, because a handle of the spiral may reverse.
 
-        The first bench behind the leaders may come within the clear radius (`turning`), or one may stand behind its own
-        start: then all pairs are followed again.
+        The first bench behind the leaders may come within the clear radius (`reversing`), or one may stand behind its
+        own start: then all pairs are followed again.
         """
         k = self.active
         h = interval.h
-        if k < self.followers and may_turn(k, h, scene.sizes, interval.before, interval.after, interval.motion):
+        if k < self.followers and may_reverse(k, h, scene.sizes, interval.before, interval.after, interval.motion):
             edge = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
             edge -= drift(interval.motion[k - 1, HANDLE_SPEED], h, scene.curve.growth, edge)
             if edge < scene.rings.clear_radius:
-                self.refuse(0.5 if self.turning else 1.0)
-                self.turning = True
+                self.refuse(0.5 if self.reversing else 1.0)
+                self.reversing = True
                 return True
         if self.opens and not self.at_start:
             if slid_back(scene, interval, self.leaders, self.opened, self.opening):

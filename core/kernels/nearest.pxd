@@ -4,7 +4,7 @@ from core.kernels.records cimport Nearest, Rounding
 from core.kernels.rings cimport RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
 from core.kernels.rounding cimport spiral_error
 from core.kernels.route cimport stands_first
-from core.kernels.pairs cimport STRIP_ROUNDING, any_rounding, proven_band_gap, proven_gap
+from core.kernels.pairs cimport BAND_ROUNDING, any_rounding, proven_band_gap, proven_gap
 from core.kernels.scene cimport Band, Interval, Scene
 
 @cython.locals(

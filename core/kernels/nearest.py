@@ -5,7 +5,7 @@ from cython.cimports.libc.math import sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.pairs import STRIP_ROUNDING, any_rounding, proven_band_gap, proven_gap
+    from core.kernels.pairs import BAND_ROUNDING, any_rounding, proven_band_gap, proven_gap
     from core.kernels.records import Nearest, Rounding
     from core.kernels.rings import RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
     from core.kernels.rounding import spiral_error
@@ -27,7 +27,7 @@ def interval_least(scene, interval, active):
     motion: cython.double[:, ::1] = interval.motion
     sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
-    bend = 0.0
+    curvature = 0.0
     room = FREE
     tried = 0
     a = 0
@@ -66,10 +66,10 @@ def interval_least(scene, interval, active):
             room = min(room, sqrt(width) if width > 0.0 else 0.0)
             if least < best:
                 best = least
-                bend = k
+                curvature = k
                 a = i
                 b = j
-    return Nearest(best, bend, a, b, room, rounding.point, tried)
+    return Nearest(best, curvature, a, b, room, rounding.point, tried)
 
 
 def interval_rounding(scene, interval):
@@ -166,7 +166,7 @@ def band_rounding(scene, band):
 def band_least(scene, band, leaders):
     """interval_least() over a band, of pairs led by the first `leaders` benches."""
     best = FREE
-    bend = 0.0
+    curvature = 0.0
     room = FREE
     tried = 0
     a = 0
@@ -175,7 +175,7 @@ def band_least(scene, band, leaders):
     growth_high = band.high.scene.curve.growth
     rounding = band_rounding(scene, band)
     error = rounding.point
-    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a strip
+    if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a band
         return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
         if scene.budget.stopped:
@@ -193,7 +193,7 @@ def band_least(scene, band, leaders):
             slack += (
                 (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE])
                 * (growth_high - growth)
-                * (1.0 + STRIP_ROUNDING)
+                * (1.0 + BAND_ROUNDING)
             )
             slack += 16.0 * error
             if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
@@ -204,9 +204,9 @@ def band_least(scene, band, leaders):
                 return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
             if least < best:
                 best = least
-                bend = k
+                curvature = k
                 a = i
                 b = j
             width = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
             room = min(room, sqrt(width) if width > 0.0 else 0.0)
-    return Nearest(best, bend, a, b, room, error, tried)
+    return Nearest(best, curvature, a, b, room, error, tried)

@@ -1,13 +1,13 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.bends cimport band_bends, band_between, bend_along, centres_apart, least_between
+from core.kernels.gap_curvature cimport band_curvatures, band_between, curvature_along, centres_apart, least_between
 from core.kernels.faces cimport band_hulls, hulls_least, hulls_most
-from core.kernels.records cimport Bends
+from core.kernels.records cimport Curvatures
 from core.kernels.rings cimport Rings
 from core.kernels.clearance cimport last_handle, meet
 from core.kernels.scene cimport Band, Interval, Scene
 
-cdef double STRIP_ROUNDING
+cdef double BAND_ROUNDING
 
 cdef double gap_along(
     Py_ssize_t i, Py_ssize_t j, double along, double left, double[:, ::1] sizes, double[:, ::1] chain
@@ -19,7 +19,7 @@ cdef (double, double, double) best_axis(
 
 @cython.locals(corner=cython.int)
 cdef double corner_most(
-    Py_ssize_t i, Py_ssize_t j, double bend, double h, double[:, ::1] sizes, double[:, ::1] before,
+    Py_ssize_t i, Py_ssize_t j, double curvature, double h, double[:, ::1] sizes, double[:, ::1] before,
     double[:, ::1] after
 ) noexcept nogil
 
@@ -38,7 +38,7 @@ cpdef double pair_rounding(
 cdef double any_rounding(double error, Py_ssize_t handles, double h, double margin, Rings rings) noexcept nogil
 
 cdef double axis_least(
-    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, bint after_decides, double bend
+    Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, bint after_decides, double curvature
 ) noexcept nogil
 
 cpdef (double, double) pair_least(
@@ -52,10 +52,10 @@ cdef (double, double) proven_gap(
 ) noexcept nogil
 
 cdef double band_along(
-    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double along, double left, Bends bends
+    Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double along, double left, Curvatures curvatures
 ) noexcept nogil
 
-@cython.locals(a=cython.Py_ssize_t, b=cython.Py_ssize_t, trial=cython.int, bends=Bends)
+@cython.locals(a=cython.Py_ssize_t, b=cython.Py_ssize_t, trial=cython.int, curvatures=Curvatures)
 cdef (double, double) band_pair(
     Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double enough, double distance
 ) noexcept nogil

@@ -4,10 +4,10 @@ import cython
 from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
-    from core.kernels.bends import band_bends, band_between, bend_along, centres_apart, least_between
     from core.kernels.clearance import last_handle, meet
     from core.kernels.constants import *
     from core.kernels.faces import band_hulls, hulls_least, hulls_most
+    from core.kernels.gap_curvature import band_between, band_curvatures, centres_apart, curvature_along, least_between
 
 # Rounding. The centre of bench i is the mean of two handles, each good to E_i = ERROR; its direction is good to W_i =
 # SWAY. So a gap along an axis fixed in bench i, and the separation of two benches, is good to
@@ -53,7 +53,7 @@ def best_axis(i, j, sizes, chain):
 # The first bound serves benches that overlap deeply or without a corner, the second those that just touch, even slowly.
 
 
-def corner_most(i, j, bend, h, sizes, before, after):
+def corner_most(i, j, curvature, h, sizes, before, after):
     """Upper bound of the distance of a corner of bench j from bench i over an interval; 0 or less: inside [m]."""
     best = FREE
     for corner in range(4):
@@ -61,8 +61,8 @@ def corner_most(i, j, bend, h, sizes, before, after):
         width = sizes[j, HALF_WIDTH] if corner % 2 == 0 else -sizes[j, HALF_WIDTH]
         p, q = corner_in(i, j, length, width, before)
         p_end, q_end = corner_in(i, j, length, width, after)
-        p = max(fabs(p), fabs(p_end)) + 0.125 * bend * h * h - sizes[i, HALF_LENGTH]
-        q = max(fabs(q), fabs(q_end)) + 0.125 * bend * h * h - sizes[i, HALF_WIDTH]
+        p = max(fabs(p), fabs(p_end)) + 0.125 * curvature * h * h - sizes[i, HALF_LENGTH]
+        q = max(fabs(q), fabs(q_end)) + 0.125 * curvature * h * h - sizes[i, HALF_WIDTH]
         p_end = max(p, 0.0)
         q_end = max(q, 0.0)
         best = min(best, max(p, q) if p <= 0.0 and q <= 0.0 else sqrt(p_end * p_end + q_end * q_end))
@@ -87,17 +87,17 @@ def pair_most(scene, interval, place, h, a, b):
     meet(scene, a, b, interval.before)
     most = interval.motion[a, CORNER_SPEED] + interval.motion[b, CORNER_SPEED]
     if scene.kinds.some:  # the largest gap along an axis that turns with its bench
-        most += (interval.motion[a, TURN] + interval.motion[b, TURN]) * distance
+        most += (interval.motion[a, OMEGA] + interval.motion[b, OMEGA]) * distance
     most = scene.met.separation + most * h
     meet(scene, a, b, interval.after)
     most = 0.5 * (most + scene.met.separation)
     if scene.kinds.some:
         most = min(most, hulls_most(scene, interval, a, b, distance))
         return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
-    bend = bend_along(scene, interval, a, b, distance)
-    most = min(most, corner_most(a, b, bend, h, scene.sizes, interval.before, interval.after))
-    bend = bend_along(scene, interval, b, a, distance)
-    most = min(most, corner_most(b, a, bend, h, scene.sizes, interval.before, interval.after))
+    curvature = curvature_along(scene, interval, a, b, distance)
+    most = min(most, corner_most(a, b, curvature, h, scene.sizes, interval.before, interval.after))
+    curvature = curvature_along(scene, interval, b, a, distance)
+    most = min(most, corner_most(b, a, curvature, h, scene.sizes, interval.before, interval.after))
     return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
 
 
@@ -122,13 +122,13 @@ def any_rounding(error, handles, h, margin, rings):
     )
 
 
-def axis_least(scene, interval, i, j, after_decides, bend):
+def axis_least(scene, interval, i, j, after_decides, curvature):
     """Proven least gap over the interval along the face normal of i that is best at one of its ends [m]."""
     if after_decides:
         gap, along, left = best_axis(i, j, scene.sizes, interval.after)
-        return least_between(gap_along(i, j, along, left, scene.sizes, interval.before), gap, bend, interval.h)
+        return least_between(gap_along(i, j, along, left, scene.sizes, interval.before), gap, curvature, interval.h)
     gap, along, left = best_axis(i, j, scene.sizes, interval.before)
-    return least_between(gap, gap_along(i, j, along, left, scene.sizes, interval.after), bend, interval.h)
+    return least_between(gap, gap_along(i, j, along, left, scene.sizes, interval.after), curvature, interval.h)
 
 
 def pair_least(scene, interval, i, j, enough, distance):
@@ -137,26 +137,26 @@ def pair_least(scene, interval, i, j, enough, distance):
     Tries axes until the bound of one exceeds `enough`, which is more than the margin.
     distance: upper bound of the distance of their centres [m]; returns: the bound, and K of the last axis [1/m]
     """
-    back = bend_along(scene, interval, j, i, distance)
+    back = curvature_along(scene, interval, j, i, distance)
     best = axis_least(scene, interval, j, i, True, back)
     if best > enough:
         return best, back
     best = max(best, axis_least(scene, interval, j, i, False, back))
     if best > enough:
         return best, back
-    bend = bend_along(scene, interval, i, j, distance)
-    best = max(best, axis_least(scene, interval, i, j, True, bend))
+    curvature = curvature_along(scene, interval, i, j, distance)
+    best = max(best, axis_least(scene, interval, i, j, True, curvature))
     if best > enough:
-        return best, bend
-    best = max(best, axis_least(scene, interval, i, j, False, bend))
+        return best, curvature
+    best = max(best, axis_least(scene, interval, i, j, False, curvature))
     if best <= enough and scene.kinds.some:
-        return max(best, hulls_least(scene, interval, i, j, enough, bend, back)), max(bend, back)
+        return max(best, hulls_least(scene, interval, i, j, enough, curvature, back)), max(curvature, back)
     if best > enough or scene.margin <= 0.0:
-        return best, bend
+        return best, curvature
     along, left = corner_axis(scene, i, j, interval.after)
     start = gap_along(i, j, along, left, scene.sizes, interval.before)
     end = gap_along(i, j, along, left, scene.sizes, interval.after)
-    return max(best, least_between(start, end, bend, interval.h)), bend
+    return max(best, least_between(start, end, curvature, interval.h)), curvature
 
 
 def corner_axis(scene, i, j, chain):
@@ -173,57 +173,57 @@ def proven_gap(scene, interval, i, j, distance, rounding):
     allowance = rounding
     if rounding <= 0.0:
         allowance = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
-    least, bend = pair_least(scene, interval, i, j, scene.margin + allowance, distance)
+    least, curvature = pair_least(scene, interval, i, j, scene.margin + allowance, distance)
     if rounding > 0.0:
         if not (scene.margin < least <= scene.margin + rounding):
-            return least - rounding, bend
+            return least - rounding, curvature
         interval.round()
         allowance = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
-    return least - allowance, bend
+    return least - allowance, curvature
 
 
-# Pairs over a strip of pitches, see strips.py. shift_bounds() adds up terms >= 0 with at most 60 roundings for each
-# bench; widening the strip by this part of its width makes up for them [1].
-STRIP_ROUNDING = 1e-9
+# Pairs over a band of pitches, see band_march.py. shift_bounds() adds up terms >= 0 with at most 60 roundings for each
+# bench; widening the band by this part of its width makes up for them [1].
+BAND_ROUNDING = 1e-9
 
 
-def band_along(scene, band, i, j, along, left, bends):
+def band_along(scene, band, i, j, along, left, curvatures):
     """Proven least gap along an axis of bench i over a band [m]."""
     start = gap_along(i, j, along, left, scene.sizes, band.low.before)
     end = gap_along(i, j, along, left, scene.sizes, band.low.after)
     high_start = gap_along(i, j, along, left, scene.sizes, band.high.before)
     high_end = gap_along(i, j, along, left, scene.sizes, band.high.after)
-    return band_between(band, start, end, high_start, high_end, bends)
+    return band_between(band, start, end, high_start, high_end, curvatures)
 
 
 def band_pair(scene, band, i, j, enough, distance):
     """Lower bound of the separation of benches i and j over a band, without rounding [m].
 
-    enough, distance: as for pair_least(); returns: the bound, and the bend along the path of the last axis tried [1/m]
+    enough, distance: as for pair_least(); returns: the bound, and K along the path of the last axis tried [1/m]
     """
     best = NO_BOUND
-    bends = band_bends(scene, band, j, i, distance)
+    curvatures = band_curvatures(scene, band, j, i, distance)
     for trial in range(4):
         a = j if trial < 2 else i
         b = i if trial < 2 else j
         if trial == 2:
-            bends = band_bends(scene, band, i, j, distance)
+            curvatures = band_curvatures(scene, band, i, j, distance)
         if trial % 2 == 0:
             _, along, left = best_axis(a, b, scene.sizes, band.low.after)
         else:
             _, along, left = best_axis(a, b, scene.sizes, band.high.after)
-        least = band_along(scene, band, a, b, along, left, bends)
+        least = band_along(scene, band, a, b, along, left, curvatures)
         if least > best:
             best = least
         if best > enough:
-            return best, bends.low
+            return best, curvatures.low
     if scene.kinds.some:
-        return max(best, band_hulls(scene, band, i, j, enough, distance)), bends.low
+        return max(best, band_hulls(scene, band, i, j, enough, distance)), curvatures.low
     if scene.margin <= 0.0:
-        return best, bends.low
+        return best, curvatures.low
     along, left = corner_axis(scene, i, j, band.low.after)
-    least = band_along(scene, band, i, j, along, left, bends)
-    return (least if least > best else best), bends.low
+    least = band_along(scene, band, i, j, along, left, curvatures)
+    return (least if least > best else best), curvatures.low
 
 
 def band_pair_rounding(scene, band, i, j, distance):
@@ -237,11 +237,11 @@ def band_pair_rounding(scene, band, i, j, distance):
 def proven_band_gap(scene, band, i, j, distance, rounding):
     """proven_gap() over a band."""
     allowance = rounding if rounding > 0.0 else band_pair_rounding(scene, band, i, j, distance)
-    least, bend = band_pair(scene, band, i, j, scene.margin + allowance, distance)
+    least, curvature = band_pair(scene, band, i, j, scene.margin + allowance, distance)
     if rounding > 0.0:
         if not (scene.margin < least <= scene.margin + rounding):
-            return least - rounding, bend
+            return least - rounding, curvature
         band.low.round()
         band.high.round()
         allowance = band_pair_rounding(scene, band, i, j, distance)
-    return least - allowance, bend
+    return least - allowance, curvature

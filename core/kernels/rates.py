@@ -4,13 +4,13 @@ import cython
 from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
-    from core.kernels.bounds import LOOSEN, SPIRAL_TURN, followed_error, link_cosines
+    from core.kernels.bounds import LOOSEN, SPIRAL_SWAY, followed_error, link_cosines
     from core.kernels.chain import extend, extend_chain, start_chain
     from core.kernels.constants import *
     from core.kernels.rings import drift
     from core.kernels.route import extend_route, first_place, start_route
     from core.kernels.spiral import spiral_curvature, spiral_theta
-    from core.kernels.stretches import blur_of, steepest_bend
+    from core.kernels.stretches import blur_of, steepest_curvature
 
 
 # Rates are Lipschitz: |d rate / d sigma| = |s''| is bounded over an interval (bounds.py), so between two ends a rate is
@@ -94,20 +94,20 @@ def spiral_jerks(growth, h, handles, sizes, before, after, motion):
         rate_b = motion[k + 1, RATE_HIGH]
         inner = min(before[k, THETA], after[k, THETA])
         inner = max(inner - (rate_a * h + max(before[k, SLIP], after[k, SLIP])) / growth, 0.0)
-        bend = spiral_curvature(inner) / growth
-        slope = steepest_bend(inner) / (growth * growth)
-        swing_a = bend * rate_a + motion[k, TURN]
-        swing_b = bend * rate_b + motion[k, TURN]
+        curvature = spiral_curvature(inner) / growth
+        slope = steepest_curvature(inner) / (growth * growth)
+        swing_a = curvature * rate_a + motion[k, OMEGA]
+        swing_b = curvature * rate_b + motion[k, OMEGA]
         cosine = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
         cosine = min(cosine, after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY])
-        cosine -= 0.5 * h * swing_b + blur_of(k, SPIRAL_TURN / sizes[k, CHORD], before, after)
+        cosine -= 0.5 * h * swing_b + blur_of(k, SPIRAL_SWAY / sizes[k, CHORD], before, after)
         if cosine <= 0.0 or jerk >= FREE:
             motion[k + 1, RATE_JERK] = jerk = FREE
             continue
         jerk += 2.0 * (swing_a * motion[k, RATE_RATE] + swing_b * motion[k + 1, RATE_RATE])
-        jerk += rate_a * (swing_a * swing_a + slope * rate_a * rate_a + bend * motion[k, RATE_RATE])
-        jerk += rate_b * (swing_b * swing_b + slope * rate_b * rate_b + bend * motion[k + 1, RATE_RATE])
-        jerk = LOOSEN * LOOSEN * (jerk + (rate_a + rate_b) * motion[k, TURN_RATE]) / cosine
+        jerk += rate_a * (swing_a * swing_a + slope * rate_a * rate_a + curvature * motion[k, RATE_RATE])
+        jerk += rate_b * (swing_b * swing_b + slope * rate_b * rate_b + curvature * motion[k + 1, RATE_RATE])
+        jerk = LOOSEN * LOOSEN * (jerk + (rate_a + rate_b) * motion[k, OMEGA_RATE]) / cosine
         motion[k + 1, RATE_JERK] = jerk
 
 
@@ -130,8 +130,8 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 # spiral by spiral_errors(). On a spiral no rate exceeds 1 unless a handle is followed. Numbers computed from these only
 # once are good to BOUND_ROUNDING of themselves, and for the bounds h is widened by the errors of both travels
 # (scene.py).
-# Rounding cannot make a handle count as calm that is not: on a spiral the lemma holds up to a bend of 1, and only bends
-# up to BEND_LIMIT count as calm; on a route stands_first() leaves BLEND to spare.
+# Rounding cannot make a handle count as calm that is not: on a spiral the lemma holds up to a sine of 1, and only sines
+# up to SINE_LIMIT count as calm; on a route stands_first() leaves BLEND to spare.
 #
 # The rounding d of a slope. By climbs(), divided by the chord, with e the rounding of a rate, curvature good to
 # `widened` (|d k / d s| <= 2 k / growth, bounds.py), directions good to `blur`, and D' good to
@@ -150,7 +150,7 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
     motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     for k in range(handles):
         chord = sizes[k, CHORD]
-        blur = blur_of(k, SPIRAL_TURN / chord, before, after)
+        blur = blur_of(k, SPIRAL_SWAY / chord, before, after)
         _, rear = link_cosines(k, before)
         _, rear_end = link_cosines(k, after)
         rear = min(rear, rear_end) - blur
@@ -162,12 +162,12 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
             motion[k + 1, RATE_ERROR] = motion[k + 1, CLIMB_ERROR] = error = climb = FREE
             continue
         slip = max(before[k + 1, SLIP], after[k + 1, SLIP])
-        bend = spiral_curvature(min(before[k, THETA], after[k, THETA])) / growth
-        widened = bend * (32.0 * ULP + 4.0 * slip / growth) + 2.0 * blur * bend
+        curvature = spiral_curvature(min(before[k, THETA], after[k, THETA])) / growth
+        widened = curvature * (32.0 * ULP + 4.0 * slip / growth) + 2.0 * blur * curvature
         climb += 2.0 * blur * max(fabs(before[k, CLIMB]), fabs(after[k, CLIMB]))
         climb += 2.0 * blur * max(fabs(before[k + 1, CLIMB]), fabs(after[k + 1, CLIMB]))
         climb += 4.0 * (rate_a + rate_b) * (error_a + error + blur * (rate_a + rate_b)) / chord
-        climb += widened * (rate_a * rate_a + rate_b * rate_b) + 4.0 * bend * (rate_a * error_a + rate_b * error)
+        climb += widened * (rate_a * rate_a + rate_b * rate_b) + 4.0 * curvature * (rate_a * error_a + rate_b * error)
         climb /= rear
         motion[k + 1, RATE_ERROR] = error
         motion[k + 1, CLIMB_ERROR] = climb

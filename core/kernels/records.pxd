@@ -59,7 +59,7 @@ cdef struct Laid:
 
 cdef struct Nearest:
     double least
-    double bend
+    double gap_curvature
     Py_ssize_t first
     Py_ssize_t second
     double room
@@ -70,7 +70,7 @@ cdef struct Rounding:
     double point
     double gap
 
-cdef struct Bends:
+cdef struct Curvatures:
     double low
     double high
     double across

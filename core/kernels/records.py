@@ -48,7 +48,7 @@ class Stretch(NamedTuple):
     """The stretch of a route that a bench sweeps over an interval."""
 
     chord: float  # of the bench [m]
-    low: float  # range of its curvature, positive in the sense in which it bends [1/m]
+    low: float  # range of its curvature, positive in the sense in which it curvatures [1/m]
     high: float
     slope: float  # bound on |d curvature / d s| [1/m^2]
     widened: float  # error of the curvature, which the range includes [1/m]
@@ -91,7 +91,7 @@ class Nearest(NamedTuple):
     """Proven bounds for all pairs over an interval."""
 
     least: float  # a lower bound of their separations [m], FREE without pairs, or NO_BOUND
-    bend: float  # K of the pair with that bound [1/m]
+    gap_curvature: float  # K of the pair with that bound [1/m]
     first: int  # that pair
     second: int
     room: float  # the widest interval for which the same pairs would have been proven [m]
@@ -106,7 +106,7 @@ class Rounding(NamedTuple):
     gap: float  # of any pair that is not far apart [m]; 0 where each pair needs a bound of its own
 
 
-class Bends(NamedTuple):
+class Curvatures(NamedTuple):
     """Bounds on the second derivatives of a gap over a band: along the path at its lowest and at its highest growth
     [1/m], and across the growths [rad^2/m]."""
 

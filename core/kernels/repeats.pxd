@@ -12,7 +12,7 @@ cdef double PASSED_BY
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef Laid chain_between(
-    Scene scene, double place, Py_ssize_t leaders, double allowance, bint turning, double[:, ::1] chain
+    Scene scene, double place, Py_ssize_t leaders, double allowance, bint reversing, double[:, ::1] chain
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, leading=cython.Py_ssize_t)
@@ -30,7 +30,7 @@ cdef bint turns_back(
 ) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t)
-cdef bint may_turn(
+cdef bint may_reverse(
     Py_ssize_t k, double h, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
 ) noexcept nogil
 

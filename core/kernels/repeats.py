@@ -19,17 +19,17 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 PASSED_BY = 1e-9
 
 
-def chain_between(scene, place, leaders, allowance, turning, chain):
+def chain_between(scene, place, leaders, allowance, reversing, chain):
     """Fill in the chain of a head at a place as far as its leading benches reach; returns its extent, and their number.
 
-    allowance: extra radius for motion during an interval [m], also added to the leading benches if they are `turning`
+    allowance: extra radius for motion during an interval [m], also added to the leading benches if they are `reversing`
     """
     if not scene.curve.is_spiral:
         return route_between(scene, place, leaders, allowance, chain)
     growth = scene.curve.growth
     theta = spiral_theta(place / growth)
     start_chain(theta, chain)
-    clear = scene.rings.clear_radius + (allowance if turning else 0.0)
+    clear = scene.rings.clear_radius + (allowance if reversing else 0.0)
     k = extend_chain(growth, 0, leaders, clear, scene.sizes, chain)
     if k <= 0:
         return Laid(k, k)
@@ -76,15 +76,15 @@ def route_between(scene, place, leaders, allowance, chain):
 # place_i(start); and x >= place_m(t), as no handle overtakes. So x is covered if
 #     place_i(t) <= place_i(start),
 # that is, if bench i is not further back than where it started. On a route this always holds: handles only go forward
-# (route.py). On a spiral a handle turns back where the link before it stands across the path, near the fold: while one
+# (route.py). On a spiral a handle reverses where the link before it stands across the path, near the fold: while one
 # may stand behind its start (slid_back()), all pairs are followed again.
 #
 # Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
 # on a spiral. Let `opened` be the first bench that started there. Benches behind it need neither of the two conditions:
 # x < clear lies before place_opened(start), and benches m to `opened` cover that by passed() alone. (If m >= opened,
 # bench m itself covers everything from clear on.) chain_between() leaves these benches out at the far end of every
-# step. Where handles only go forward, they were beyond `clear` during the whole step; a handle that may turn back is
-# kept among the leaders while it is within a drift of clear_radius (`turning`).
+# step. Where handles only go forward, they were beyond `clear` during the whole step; a handle that may reverse is
+# kept among the leaders while it is within a drift of clear_radius (`reversing`).
 #
 # With edges at rest in place of the second bench the same holds for g(place_i), the separation of a bench and an edge.
 
@@ -108,7 +108,7 @@ def passed(scene, first, last, placed, opening, chain):
 
 
 # A rate is at least the mean of its values at both ends less |s''| h / 2, and these values are good to
-# followed_error(). Where no handle is followed, none turns back (RATE_LOW > 0).
+# followed_error(). Where no handle is followed, none reverses (RATE_LOW > 0).
 
 
 def turns_back(k, h, error, before, after, motion):
@@ -116,7 +116,7 @@ def turns_back(k, h, error, before, after, motion):
     return motion[k, RATE_LOW] <= 0.0 and before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h + 2.0 * error
 
 
-def may_turn(k, h, sizes, before, after, motion):
+def may_reverse(k, h, sizes, before, after, motion):
     """turns_back(), with the error of the rates computed from link to link."""
     error = 0.0
     if motion[k, RATE_LOW] > 0.0:
@@ -129,7 +129,7 @@ def may_turn(k, h, sizes, before, after, motion):
 def slid_back(scene, interval, first, last, opening):
     """Whether a handle of a spiral from `first` to before `last` may have been behind its own start during an interval.
 
-    Behind the last handle placed, links bend no more than the chord lemma asks (bounds.py), so every handle there moves
+    Behind the last handle placed, curvature is within the chord lemma (bounds.py), so every handle there moves
     in the direction of its leader, and the answer for the last handle placed holds for all of them. Radii are off by
     less than SLIP, and by less than PASSED_BY of 1 + theta where no handle is followed.
     """
@@ -152,4 +152,4 @@ def slid_back(scene, interval, first, last, opening):
             return True
     low = min(interval.before[placed, THETA], interval.after[placed, THETA])
     low -= drift(interval.motion[placed - 1, HANDLE_SPEED], interval.h, growth, growth * low) / growth
-    return placed + 1 < last and 0.5 * spiral_curvature(low) * scene.rings.all_chord > BEND_LIMIT * growth
+    return placed + 1 < last and 0.5 * spiral_curvature(low) * scene.rings.all_chord > SINE_LIMIT * growth

@@ -16,9 +16,9 @@ class Dip(NamedTuple):
 class Marched(NamedTuple):
     """Result of a march.
 
-    proven: nothing comes within the margin up to here [m], a travel of the head in a march, a radius of it in a strip
+    proven: nothing comes within the margin up to here [m], a travel of the head in a march, a radius of it in a band
     touching: travel or radius at which benches are within the margin [m], None if nothing was found; benches: that pair
-    steps: number taken; bend: the largest bound on the second derivative of a gap that proved one of them [1/m]
+    steps: number taken; gap_curvature: the largest bound on the second derivative of a gap that proved one [1/m]
     graze: the least local minimum of the clearance seen on the way
     """
 
@@ -26,5 +26,5 @@ class Marched(NamedTuple):
     touching: float | None = None
     benches: tuple[int, int] = (0, 0)
     steps: int = 0
-    bend: float = 0.0
+    gap_curvature: float = 0.0
     graze: Dip | None = None

@@ -36,7 +36,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # <= max(1, |ratio|) (1 + 1.2 * 2 nu / cos alpha_b); SLIP[b] without this factor is at most 1.5 times smaller. For a
 # larger nu no bound is known: FREE.
 # 4. Turning. e[k] turns by delta with s, c to 3.75 u s, 1.75 u (4 u s, 4 u where the library serves). For m = 2 s the
-# matrix (rise, turn) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: each link adds an
+# matrix (rise, sine) is then good to 7.7 u m (12.2 u m), the four products and sums add 2.83 u m + u: each link adds an
 # error of at most u (1 + 12 delta) to e. A point growth THETA e has two more products and no REST, 3 u:
 #     E[k] = SLIP[k] + r[k] u (k + 4 + 12 (theta[k] - theta[0])).
 # Row k holds it for both handles of bench k: ERROR = E[k + 1] >= E[k].
@@ -93,7 +93,7 @@ def spiral_rounding(growth, last, sizes, chain):
     chain[0, FILLED] = max(first, last)
 
 
-# Away from the centre, where no angle between a tangent and a chord exceeds asin(BEND_LIMIT), cos alpha_b >= 0.243 and
+# Away from the centre, where no angle between a tangent and a chord exceeds asin(SINE_LIMIT), cos alpha_b >= 0.243 and
 # the ratios are at most 1 (bounds.py). So after n links with chords up to c, at r = r[n], with growth length <= r +
 # growth, the sums above are at most
 #     E = u (32 n c + (r + growth) (16 (theta[n] - theta[0]) + 1.1 n + 5)),  SWAY <= 2 E / shortest + 8 u.
@@ -194,12 +194,12 @@ def joint_misses(pieces, out):
     """
     for p in range(1, pieces.shape[0]):
         s = pieces[p, S_START]
-        x, y, tx, ty, bend = piece_end(pieces, p - 1, s)
-        x_on, y_on, tx_on, ty_on, bend_on = piece_end(pieces, p, s)
+        x, y, tx, ty, curvature = piece_end(pieces, p - 1, s)
+        x_on, y_on, tx_on, ty_on, curvature_on = piece_end(pieces, p, s)
         across = fabs(tx * (y_on - y) - ty * (x_on - x))
         along = fabs(tx * (x_on - x) + ty * (y_on - y))
         kink = sqrt((tx_on - tx) * (tx_on - tx) + (ty_on - ty) * (ty_on - ty)) + 20.0 * ULP
-        step = fabs(bend_on - bend) + 10.0 * ULP * (fabs(bend_on) + fabs(bend))
+        step = fabs(curvature_on - curvature) + 10.0 * ULP * (fabs(curvature_on) + fabs(curvature))
         for q in range(p - 1, p + 1):
             theta = theta_at(pieces, q, s) if pieces[q, PIECE_KIND] == SPIRAL else 0.0
             across += spot_error(pieces, q, s, theta, x, y)
@@ -208,9 +208,9 @@ def joint_misses(pieces, out):
                 kink += ULP * fabs(theta + pieces[q, COIL_ROTATION])
             if pieces[q, PIECE_KIND] > SPIRAL:
                 theta = cubic_size(pieces, q)
-                bend = theta / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
-                kink += 15.0 * ULP * bend
-                step += 72.0 * ULP * bend * bend / theta
+                curvature = theta / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
+                kink += 15.0 * ULP * curvature
+                step += 72.0 * ULP * curvature * curvature / theta
         out[p, MISS_ACROSS] = across
         out[p, MISS_ALONG] = along
         out[p, MISS_KINK] = kink

@@ -133,14 +133,14 @@ class Found:
         self.ended = ended
         return Step.ENDED
 
-    def result(self, bend=0.0, graze=None):
+    def result(self, curvature=0.0, graze=None):
         """What the steps have found so far, see Marched in results.py."""
         touching = float(self.touching) if self.meets else None
-        return Marched(float(self.proven), touching, (self.first, self.second), self.steps, float(bend), graze)
+        return Marched(float(self.proven), touching, (self.first, self.second), self.steps, float(curvature), graze)
 
 
 class Band:
-    """A rectangle of head radii and growths: one interval of radii at the lowest and at the highest growth.
+    """A band of growths over a step of head radii: its interval at the lowest and at the highest growth.
 
     low, high: this interval at either growth; shifts: (room + 1, SHIFT_COLUMNS) bounds on the shift of benches with the
         growth

@@ -59,11 +59,11 @@ def way_out(pieces, alike, sizes, chain):
     if -chain[alike, PLACE] < pieces[p, S_START] + BLEND + PLACE_SPARE or chain[alike, SLIP] > 0.5 * PLACE_SPARE:
         return FREE
     growth = pieces[p, COIL_GROWTH]
-    bend = 0.5 * spiral_curvature(max(chain[alike, PIECE_THETA] - PLACE_SPARE / growth, 0.0)) / growth
+    half_curvature = 0.5 * spiral_curvature(max(chain[alike, PIECE_THETA] - PLACE_SPARE / growth, 0.0)) / growth
     ratio = 1.0
     for k in range(alike + 1):
-        sine = bend * sizes[k, CHORD]
-        if sine > BEND_LIMIT:
+        sine = half_curvature * sizes[k, CHORD]
+        if sine > SINE_LIMIT:
             return FREE
         ratio *= (1.0 + BOUND_ROUNDING) / sqrt(1.0 - sine * sine)
     return ratio

@@ -217,10 +217,10 @@ class Block:
         """Advance to the next handle, by the delta that solve() found."""
         for lane in range(self.standing):
             self.rate[lane] *= theta_ratio(self.theta[lane], self.delta[lane], self.sine[lane], self.cosine[lane])
-            turn = 2.0 * self.sine[lane] * self.cosine[lane]
+            sine = 2.0 * self.sine[lane] * self.cosine[lane]
             rise = 2.0 * self.sine[lane] * self.sine[lane]
-            across = self.x[lane] - (self.x[lane] * rise + self.y[lane] * turn)
-            self.y[lane] = self.y[lane] - (self.y[lane] * rise - self.x[lane] * turn)
+            across = self.x[lane] - (self.x[lane] * rise + self.y[lane] * sine)
+            self.y[lane] = self.y[lane] - (self.y[lane] * rise - self.x[lane] * sine)
             self.x[lane] = across
             self.theta[lane] += self.delta[lane]
             self.d3[lane] = self.d2[lane]

@@ -4,7 +4,7 @@ from core.kernels.records cimport Stretch
 
 cdef double ROUTE_TURN
 
-cpdef double steepest_bend(double theta) noexcept nogil
+cpdef double steepest_curvature(double theta) noexcept nogil
 
 cdef double blur_of(Py_ssize_t k, double turned, double[:, ::1] before, double[:, ::1] after) noexcept nogil
 

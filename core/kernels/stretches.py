@@ -12,7 +12,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 ROUTE_TURN = 2.2
 
 
-def steepest_bend(theta):
+def steepest_curvature(theta):
     """Upper bound of |d curvature / d s| on a spiral from theta outwards, times the square of its growth.
 
     The function is theta (4 + theta^2) / (1 + theta^2)^3; its maximum is 1.09022, near 0.476, and it falls from there.
@@ -68,13 +68,13 @@ def stretch_slope(pieces, k, rear, front, before, after):
     """Bound on |d curvature / d s| from the rear of bench k, on piece `rear`, to its front over an interval [1/m^2].
 
     Jumps of the curvature are left out. On a spiral the slope falls with theta, so that the value at the innermost
-    handle serves (see steepest_bend()).
+    handle serves (see steepest_curvature()).
     """
     slope = 0.0
     if rear == front and pieces[rear, PIECE_KIND] == SPIRAL:
         theta = min(before[k + 1, PIECE_THETA], after[k, PIECE_THETA])
         if theta >= 0.5:
-            return steepest_bend(theta) / (pieces[rear, COIL_GROWTH] * pieces[rear, COIL_GROWTH])
+            return steepest_curvature(theta) / (pieces[rear, COIL_GROWTH] * pieces[rear, COIL_GROWTH])
     for p in range(rear, front + 1):
         slope = max(slope, pieces[p, K_SLOPE])
     return slope
@@ -94,7 +94,7 @@ def link_stretch(pieces, k, benches, sizes, before, after):
     q = reached_piece(pieces, k, 1.0, after)
     low, high = stretch_curvature(pieces, p, before[k + 1, CURVATURE], q, after[k, CURVATURE])
     slope = stretch_slope(pieces, k, p, q, before, after)
-    widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, BENT]
+    widened = 32.0 * ULP * (benches + 8.0) / chord + pieces[0, CURVATURE_SLACK]
     widened += slope * max(before[k + 1, SLIP], after[k + 1, SLIP])
     high += widened
     low -= widened

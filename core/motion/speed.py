@@ -150,7 +150,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
 
 def _calm(search: Search) -> float:
     """Argument of kernels.Peak that excludes handles which are no faster than those before them."""
-    return search.path.calm(2.0 * kernels.BEND_LIMIT / search.rings.all_chord)
+    return search.path.calm(2.0 * kernels.SINE_LIMIT / search.rings.all_chord)
 
 
 @asked_of("dance", Dance)

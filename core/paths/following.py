@@ -20,13 +20,13 @@ ROOM_WIDTH = 1e-9
 def follows(dragon: Dragon, path: Route) -> bool:
     """True if every bend of the route is wide enough for every chord."""
     longest = float(dragon.chords[: dragon.uniform_from + 1].max())
-    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_BEND_LIMIT)
+    return bool(0.5 * path.sharpest[0] * longest <= kernels.ROUTE_SINE_LIMIT)
 
 
 def tightest_bend(dragon: Dragon) -> tuple[float, int]:
     """The least radius of a bend that every bench can follow [m], and the bench that needs that radius."""
     bench = int(dragon.chords[: dragon.uniform_from + 1].argmax())
-    return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_BEND_LIMIT, bench
+    return 0.5 * float(dragon.chords[bench]) / kernels.ROUTE_SINE_LIMIT, bench
 
 
 def refuse_tight_bends(dragon: Dragon, path: Route) -> None:

@@ -23,7 +23,7 @@ RADIUS = 5.0
 # Smallest angle between two straight legs that counts as a corner [rad]: joints may kink by ten times as much
 # (JOINT_KINK).
 CORNER_MIN = 1e-10
-# Smallest half angle between two straight legs [rad]: a dragon cannot turn back on the spot.
+# Smallest half angle between two straight legs [rad]: a dragon cannot reverse on the spot.
 BACK_MIN = 1e-3
 # Largest share of a straight leg that a corner may take [1]: the direction of the rest must survive rounding.
 CUT_MOST = 0.49
@@ -174,7 +174,7 @@ def _heading(a: Point, b: Point) -> float:
 def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point, Arc, Point] | None:
     """The arc at the corner in point k, b, with its first and last point; None if the path is straight there.
 
-    raises: InvalidValue if the path turns back there
+    raises: InvalidValue if the path reverses there
     """
     into, out = math.dist(a, b), math.dist(b, c)
     u, v = ((b[0] - a[0]) / into, (b[1] - a[1]) / into), ((c[0] - b[0]) / out, (c[1] - b[1]) / out)
@@ -183,7 +183,7 @@ def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point
         return None
     if math.pi - abs(turn) < 2.0 * BACK_MIN:
         name = f"path.points.{k}"
-        raise InvalidValue(name, f"{name} must not be where two straight legs turn back: make one of them a curve")
+        raise InvalidValue(name, f"{name} must not be where two straight legs reverse: make one of them a curve")
     half = math.tan(0.5 * abs(turn))
     cut = min(max(radius * half, LENGTH_MIN), CUT_MOST * min(into, out))
     arc_radius, side = cut / half, math.copysign(1.0, turn)

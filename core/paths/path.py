@@ -114,7 +114,7 @@ class Path(Protocol):
         """
 
     def gentle_theta(self, curvature: float) -> float:
-        """PLACE from which backwards no handle turns back, where the |curvature| is at most this [1/m]."""
+        """PLACE from which backwards no handle reverses, where the |curvature| is at most this [1/m]."""
 
     def gentle_end(self, curvature: float) -> float:
         """Largest s at which the |curvature| is at most this [1/m]; infinity on a route, whose bends Dance checks."""

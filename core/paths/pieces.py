@@ -112,7 +112,7 @@ class Coil(Shown):
         _refuse_short(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
         curvatures = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
-        slope = kernels.steepest_bend(min(start, end)) / growth**2
+        slope = kernels.steepest_curvature(min(start, end)) / growth**2
         return _row("spiral", s, s + abs(end_arc - arc), curvatures, x, y, growth, rotation, sign, arc, slope=slope)
 
 

@@ -102,7 +102,7 @@ class Route(Shown):
         loose = 2.0 * np.max(across + (kink + step * over) * over, initial=0.0)
         bent = 2.0 * np.max((10.0 * across / over + 6.0 * kink) / over + 3.0 * step, initial=0.0)
         slope = 2.0 * np.max(((60.0 * across / over + 36.0 * kink) / over + 9.0 * step) / over, initial=0.0)
-        table[:, kernels.LOOSE], table[:, kernels.BENT] = loose, bent + 2.0 * sharpest**2 * loose
+        table[:, kernels.LOOSE], table[:, kernels.CURVATURE_SLACK] = loose, bent + 2.0 * sharpest**2 * loose
         table[:, kernels.K_SLOPE] += slope
         return float(slides.max() + along.sum())
 
@@ -208,7 +208,7 @@ class Route(Shown):
         return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
 
     def gentle_theta(self, curvature: float) -> float:
-        """Minus infinity, because no handle turns back on a route that a dance can follow."""
+        """Minus infinity, because no handle reverses on a route that a dance can follow."""
         return -math.inf
 
     def gentle_end(self, curvature: float) -> float:
@@ -217,7 +217,7 @@ class Route(Shown):
 
     def sharpest_before(self, s: float) -> float:
         """Upper bound of the |curvature| of the whole route [1/m]."""
-        return float(self.sharpest[0] + np.abs(self.table[:, kernels.BENT]).max())
+        return float(self.sharpest[0] + np.abs(self.table[:, kernels.CURVATURE_SLACK]).max())
 
     def tighter(self, radius: float) -> list[tuple[float, float, float]]:
         """Stretches that may bend more tightly than a radius [m], see Path: rows of the table, joined if they meet."""

@@ -219,10 +219,10 @@ def _tree_order(centres: Floats, leaves: int) -> Pairs:
 
     Slices are made by rank, not by coordinate, so that one distant bench does not push all others into one slice.
     """
-    strip = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
-    strip_of = np.empty(len(centres), dtype=np.int64)
-    strip_of[np.argsort(centres[:, 0], kind="stable")] = np.arange(len(centres)) // strip
-    return np.lexsort((centres[:, 1], strip_of))
+    per_slice = kernels.BOXES_PER_LEAF << (leaves.bit_length() // 2)
+    slice_of = np.empty(len(centres), dtype=np.int64)
+    slice_of[np.argsort(centres[:, 0], kind="stable")] = np.arange(len(centres)) // per_slice
+    return np.lexsort((centres[:, 1], slice_of))
 
 
 def pairs_within(poses: Floats, sizes: Floats, margin: float, chained: bool, budget: Budget) -> Iterator[Pairs]:

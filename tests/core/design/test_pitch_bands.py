@@ -14,7 +14,7 @@ from core import Dragon, Spiral, kernels
 from core.contact.search import Search
 from core.design.pitch_bands import Bands
 from core.kernels import Ended
-from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_PULL, SHIFT_TURN, UX, UY
+from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_OMEGA, SHIFT_PULL, UX, UY
 from core.values import Floats
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
@@ -75,7 +75,7 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
     outer = inner * (1.0 + 1e-6)
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     search.use(Spiral(2 * math.pi * low, bands.start_turns), -1e3)  # no pair is within such a margin
-    band = bands.band_to(high)
+    band = bands.march_to(high)
     assert band.run(outer, inner, leaders, 0.0, 0.0, 9) is kernels.Ended.REACHED
     assert band.result().steps == 1  # whose bounds are there still
     moved = int(np.count_nonzero(bands.shifts[:, SHIFT_CENTRE]))
@@ -99,7 +99,7 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
         assert (centre <= bounds[:, SHIFT_CENTRE] * slack + rounding).all()
         assert (corner <= bounds[:, SHIFT_CORNER] * slack + rounding).all()
         assert (pull <= bounds[:, SHIFT_PULL] * slack + 4 * rounding / step).all()
-        assert (turn <= bounds[:, SHIFT_TURN] * slack + rounding / search.dragon.chords.min()).all()
+        assert (turn <= bounds[:, SHIFT_OMEGA] * slack + rounding / search.dragon.chords.min()).all()
 
 
 @pytest.mark.parametrize("seed", range(60))

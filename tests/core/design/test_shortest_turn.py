@@ -105,7 +105,7 @@ def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name
         slow_clearance(dragon, found, infeasible - ENTRY_ERROR, 0.0, STEP, STEP)
     assert slow_clearance(dragon, found, feasible, *whole(dragon, found), STEP) > 0.0
     # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
-    smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_BEND_LIMIT
+    smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_SINE_LIMIT
     total = smaller * (1.0 + asked.get("ratio", 2.0)) / min(1.0, asked.get("ratio", 2.0))
     assert feasible == pytest.approx(math.sqrt(total**2 - (asked["pitch"] / (2.0 * math.pi)) ** 2), abs=2 * ENTRY_ERROR)
 

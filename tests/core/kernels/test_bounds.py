@@ -15,14 +15,14 @@ from core.kernels.constants import (
     CROSSED,
     HANDLE_SPEED,
     MOTION_COLUMNS,
+    OMEGA,
+    OMEGA_PULL,
     RADIUS,
     RATE,
     RATE_HIGH,
     RATE_JERK,
     RATE_RATE,
     SIZE_COLUMNS,
-    TURN,
-    TURN_PULL,
     TX,
     UX,
 )
@@ -109,9 +109,9 @@ def test_no_sampled_derivative_on_a_route_exceeds_its_bound(seed: int) -> None:
     along = chains[:, :n, UX : UX + 2]
     apart = velocity[:, :-1] - velocity[:, 1:]
     omega = (along[..., 0] * apart[..., 1] - along[..., 1] * apart[..., 0]) / dragon.chords
-    assert (np.abs(omega).max(axis=0) <= motion[:-1, TURN] + 2.0 * ROUNDING / dragon.chords).all()
+    assert (np.abs(omega).max(axis=0) <= motion[:-1, OMEGA] + 2.0 * ROUNDING / dragon.chords).all()
     spin = np.abs(differences(omega, step)).max(axis=0)
-    assert (spin <= motion[:-1, TURN_PULL] + slack / dragon.chords).all()
+    assert (spin <= motion[:-1, OMEGA_PULL] + slack / dragon.chords).all()
 
     centre = 0.5 * (velocity[:, 1:] + velocity[:, :-1])
     assert (np.linalg.norm(centre, axis=-1).max(axis=0) <= motion[:-1, CENTRE_SPEED] + ROUNDING).all()

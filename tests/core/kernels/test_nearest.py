@@ -76,6 +76,6 @@ def test_a_band_of_pitches_is_proven_for_margins_below_its_least_sample_only(low
         least = min(least, *(search.clearance(search.travel_at(r / search.growth))[0] for r in radii))
     for more, reached in ((-2e-3, True), (ABOVE, False)):
         search.use(Spiral(low), least + more)
-        band = Bands(search, 4.5, 16.0, least + more).band_to(high / (2.0 * math.pi))
+        band = Bands(search, 4.5, 16.0, least + more).march_to(high / (2.0 * math.pi))
         ended = band.run(6.0, 4.5, 2, 1e-12, 1e-9, 1e7)
         assert (ended is Ended.REACHED) is reached

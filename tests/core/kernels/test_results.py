@@ -1,4 +1,4 @@
-"""Results of a march and of a strip: numbers of Python that say what a second look finds."""
+"""Results of a march and of a band: numbers of Python that say what a second look finds."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import pytest
 from core import Dragon, Spiral, kernels
 from core.contact.search import Search
 from core.kernels.results import Dip, Marched
+from tests.core.kernels.test_band_march import CIRCLE, WORK, band_march_of
 from tests.core.kernels.test_marching import ended, march_of
-from tests.core.kernels.test_strips import CIRCLE, WORK, strip_of
 
 GAP = 1e-9  # [m]: the bottom of a dip is found to this by steps of the march
 
@@ -24,7 +24,7 @@ def test_a_march_hands_over_numbers_of_python() -> None:
     assert found.graze is not None
     assert [type(value) for value in found.graze] == [float, float, tuple]
     assert found.steps > 0
-    assert found.bend > 0.0
+    assert found.gap_curvature > 0.0
 
 
 def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
@@ -41,10 +41,10 @@ def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
     assert min(gaps) == gaps[1]
 
 
-def test_a_strip_hands_over_a_radius_and_no_graze() -> None:
-    _, strip = strip_of(0.42)
-    strip.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)
-    found = strip.result()
+def test_a_band_hands_over_a_radius_and_no_graze() -> None:
+    _, band = band_march_of(0.42)
+    band.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)
+    found = band.result()
     assert isinstance(found, Marched)
     assert [type(value) for value in found[:2]] == [float, float]
     assert found.touching is not None

@@ -5,7 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.records import Bends
+    from core.kernels.records import Curvatures
 
 # Gap of bench i along an axis e fixed in bench j: g = min over corners X of i of e . (X - M_j) - support of j, and
 #   |(e . p)''| <= |X''| + |M_j''| + 2 omega_j |X' - M_j'| + (omega_j^2 + omega_j') |p|,  p = X - M_j:  call it K.
@@ -21,10 +21,10 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # below: two benches do not touch on [L, R] if this bound exceeds the margin for one axis. No step size is guessed.
 
 
-def least_between(start, end, bend, h):
-    """Lower bound on an interval of width h of a function with these end values and |second derivative| <= bend."""
+def least_between(start, end, curvature, h):
+    """Lower bound on an interval of width h of a function g with these end values and |g''| <= curvature."""
     rise = end - start
-    sag = bend * h * h
+    sag = curvature * h * h
     if 2.0 * fabs(rise) >= sag:
         return start if start < end else end
     return 0.5 * (start + end) - 0.125 * sag - 0.5 * rise * rise / sag
@@ -35,30 +35,30 @@ def apart(a_low, a_high, b_low, b_high):
     return a_high - b_low if a_high - b_low > b_high - a_low else b_high - a_low
 
 
-def against_rotation(growth, k, turn_low, turn_high, motion):
-    """Bounds on |xi| and |P'' + Omega^2 P| of handle k against a rotation Omega in [turn_low, turn_high]."""
+def against_rotation(growth, k, omega_low, omega_high, motion):
+    """Bounds on |xi| and |P'' + Omega^2 P| of handle k against a rotation Omega in [omega_low, omega_high]."""
     high = motion[k, RATE_HIGH]
     low = motion[k, RATE_LOW]
     r_low = growth * motion[k, THETA_LOW]
     r_high = growth * motion[k, THETA_HIGH]
-    slip = apart(low, high, turn_low * r_low, turn_high * r_high) + turn_high * growth
+    slip = apart(low, high, omega_low * r_low, omega_high * r_high) + omega_high * growth
     pull = apart(
         low * low * motion[k, CURVATURE_LOW] / growth,
         high * high * motion[k, CURVATURE_HIGH] / growth,
-        turn_low * turn_low * r_low,
-        turn_high * turn_high * r_high,
+        omega_low * omega_low * r_low,
+        omega_high * omega_high * r_high,
     )
-    return slip, pull + motion[k, RATE_RATE] + turn_high * turn_high * growth
+    return slip, pull + motion[k, RATE_RATE] + omega_high * omega_high * growth
 
 
-def axis_bend(growth, i, j, distance, sizes, motion):
+def axis_curvature(growth, i, j, distance, sizes, motion):
     """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
-    low = motion[i, TURN_LOW]
-    high = motion[i, TURN]
-    plain = plain_bend(i, j, distance, sizes, motion)
+    low = motion[i, OMEGA_LOW]
+    high = motion[i, OMEGA]
+    plain = plain_curvature(i, j, distance, sizes, motion)
     slips = 0.0
     pulls = 0.0
-    if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, TURN_LOW] <= 0.0:
+    if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, OMEGA_LOW] <= 0.0:
         return plain
     for side in range(2):
         slip, pull = against_rotation(growth, i + side, low, high, motion)
@@ -67,22 +67,22 @@ def axis_bend(growth, i, j, distance, sizes, motion):
         slip, pull = against_rotation(growth, j + side, low, high, motion)
         slips += 0.5 * slip
         pulls += 0.5 * pull
-    slips += apart(low, high, motion[j, TURN_LOW], motion[j, TURN]) * sizes[j, RADIUS]
-    pulls += motion[j, TURN_RATE] * sizes[j, RADIUS]
+    slips += apart(low, high, motion[j, OMEGA_LOW], motion[j, OMEGA]) * sizes[j, RADIUS]
+    pulls += motion[j, OMEGA_RATE] * sizes[j, RADIUS]
     pulls += sizes[j, RADIUS] * apart(
-        low * low, high * high, motion[j, TURN_LOW] * motion[j, TURN_LOW], motion[j, TURN] * motion[j, TURN]
+        low * low, high * high, motion[j, OMEGA_LOW] * motion[j, OMEGA_LOW], motion[j, OMEGA] * motion[j, OMEGA]
     )
-    pulls += 2.0 * high * slips + motion[i, TURN_RATE] * (distance + sizes[j, RADIUS])
+    pulls += 2.0 * high * slips + motion[i, OMEGA_RATE] * (distance + sizes[j, RADIUS])
     return pulls if pulls < plain else plain
 
 
-def plain_bend(i, j, distance, sizes, motion):
-    """axis_bend() in the resting frame [1/m]."""
+def plain_curvature(i, j, distance, sizes, motion):
+    """axis_curvature() in the resting frame [1/m]."""
     return (
         motion[j, CORNER_PULL]
         + motion[i, CENTRE_PULL]
-        + 2.0 * motion[i, TURN] * (motion[j, CORNER_SPEED] + motion[i, CENTRE_SPEED])
-        + motion[i, TURN_PULL] * (distance + sizes[j, RADIUS])
+        + 2.0 * motion[i, OMEGA] * (motion[j, CORNER_SPEED] + motion[i, CENTRE_SPEED])
+        + motion[i, OMEGA_PULL] * (distance + sizes[j, RADIUS])
     )
 
 
@@ -94,12 +94,12 @@ def centres_apart(interval, a, b):
     return sqrt(dx * dx + dy * dy) + moved
 
 
-def bend_along(scene, interval, i, j, distance):
-    """axis_bend() over an interval [1/m]."""
-    return axis_bend(scene.curve.growth, i, j, distance, scene.sizes, interval.motion)
+def curvature_along(scene, interval, i, j, distance):
+    """axis_curvature() over an interval [1/m]."""
+    return axis_curvature(scene.curve.growth, i, j, distance, scene.sizes, interval.motion)
 
 
-def pair_bends(scene, interval, place, h, a, b):
+def pair_curvatures(scene, interval, place, h, a, b):
     """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
 
     returns: for axes fixed in bench a, and for axes fixed in bench b; FREE where no bound is known
@@ -107,26 +107,26 @@ def pair_bends(scene, interval, place, h, a, b):
     if not interval.lay_out(place, h, b + 1):
         return FREE, FREE
     distance = centres_apart(interval, a, b)
-    return bend_along(scene, interval, a, b, distance), bend_along(scene, interval, b, a, distance)
+    return curvature_along(scene, interval, a, b, distance), curvature_along(scene, interval, b, a, distance)
 
 
-def band_bends(scene, band, i, j, distance):
+def band_curvatures(scene, band, i, j, distance):
     """Bounds on the second derivatives of a gap along an axis of bench i over a band."""
-    turn = band.shifts[i, SHIFT_TURN]
-    return Bends(
-        axis_bend(scene.curve.growth, i, j, distance, scene.sizes, band.low.motion),
-        axis_bend(band.high.scene.curve.growth, i, j, distance, scene.sizes, band.high.motion),
+    omega = band.shifts[i, SHIFT_OMEGA]
+    return Curvatures(
+        axis_curvature(scene.curve.growth, i, j, distance, scene.sizes, band.low.motion),
+        axis_curvature(band.high.scene.curve.growth, i, j, distance, scene.sizes, band.high.motion),
         band.shifts[i, SHIFT_PULL]
         + band.shifts[j, SHIFT_PULL]
-        + 2.0 * turn * (band.shifts[i, SHIFT_CORNER] + band.shifts[j, SHIFT_CORNER])
-        + turn * turn * (distance + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS]),
+        + 2.0 * omega * (band.shifts[i, SHIFT_CORNER] + band.shifts[j, SHIFT_CORNER])
+        + omega * omega * (distance + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS]),
     )
 
 
-def band_between(band, start, end, high_start, high_end, bends):
+def band_between(band, start, end, high_start, high_end, curvatures):
     """Lower bound over a band of a gap with these values at the corners of the band [m]."""
-    low = least_between(start, end, bends.low, band.low.h)
-    low -= band.slack * (fabs(end - start) / band.low.h + bends.low * band.low.h)
-    high = least_between(high_start, high_end, bends.high, band.high.h)
-    high -= band.slack * (fabs(high_end - high_start) / band.high.h + bends.high * band.high.h)
-    return least_between(low, high, bends.across, band.width)
+    low = least_between(start, end, curvatures.low, band.low.h)
+    low -= band.slack * (fabs(end - start) / band.low.h + curvatures.low * band.low.h)
+    high = least_between(high_start, high_end, curvatures.high, band.high.h)
+    high -= band.slack * (fabs(high_end - high_start) / band.high.h + curvatures.high * band.high.h)
+    return least_between(low, high, curvatures.across, band.width)

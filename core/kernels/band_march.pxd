@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.chain cimport extend_chain, start_chain
 from core.kernels.spiral cimport spiral_arc, spiral_theta
 from core.kernels.rings cimport leaders_reach, radius_beyond
-from core.kernels.pairs cimport STRIP_ROUNDING
+from core.kernels.pairs cimport BAND_ROUNDING
 from core.kernels.nearest cimport band_least
 from core.kernels.clearance cimport row_gap
 from core.kernels.records cimport Nearest
@@ -21,7 +21,7 @@ cdef bint shift_bounds(
 ) noexcept nogil
 
 @cython.final
-cdef class Strip(Found):
+cdef class BandMarch(Found):
     cdef Band band
     cdef Py_ssize_t leaders
     cdef Py_ssize_t placed

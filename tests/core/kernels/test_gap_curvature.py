@@ -14,9 +14,9 @@ from core.kernels.constants import (
     HALF_LENGTH,
     MX,
     MY,
+    OMEGA,
+    OMEGA_PULL,
     RADIUS,
-    TURN,
-    TURN_PULL,
     UX,
     UY,
 )
@@ -47,7 +47,7 @@ def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
     at = sampled(seed)
     for a, b in checked_pairs(len(at.half)):
         for i, j in ((a, b), (b, a)):
-            bound = kernels.axis_bend(at.scene.curve.growth, i, j, at.distance(a, b), at.sizes, at.motion)
+            bound = kernels.axis_curvature(at.scene.curve.growth, i, j, at.distance(a, b), at.sizes, at.motion)
             found = bend(at.centres, at.along, at.half, (i, j), APART)
             assert found <= bound * at.apart**2 + 4.0 * at.rounding
 
@@ -64,7 +64,7 @@ def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int
     for a, b in checked_pairs(dragon.benches):
         for i, j in ((a, b), (b, a)):
             distance = np.linalg.norm(centres[0, j] - centres[0, i]) + h * motion[[i, j], CENTRE_SPEED].sum()
-            bound = kernels.axis_bend(1.0, i, j, float(distance), sizes, motion)
+            bound = kernels.axis_curvature(1.0, i, j, float(distance), sizes, motion)
             found = bend(centres, along, sizes[:, HALF_LENGTH:RADIUS], (i, j), route.APART)
             assert found <= bound * apart**2 + rounding
 
@@ -73,10 +73,10 @@ def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_
     """Bench 0 turns, and the corner behind it moves across its axis and is pulled along it."""
     turn, centre, corner, pulls, distance, radius, step = 0.7, 1.1, 1.6, (0.4, 0.9), 3.0, 0.5, 1e-3
     motion, sizes = np.zeros((3, kernels.MOTION_COLUMNS)), np.zeros((3, kernels.SIZE_COLUMNS))
-    motion[0, [TURN, TURN_PULL, CENTRE_SPEED, CENTRE_PULL]] = turn, turn**2, centre, pulls[0]
+    motion[0, [OMEGA, OMEGA_PULL, CENTRE_SPEED, CENTRE_PULL]] = turn, turn**2, centre, pulls[0]
     motion[2, [CORNER_SPEED, CORNER_PULL]], sizes[2, RADIUS] = (corner, pulls[1]), radius
     times = np.array([-step, 0.0, step])
     along, across = 0.5 * sum(pulls) * times**2 - distance - radius, (centre + corner) * times
     gap = along * np.cos(turn * times) + across * np.sin(turn * times)
     reached = (gap[2] - 2.0 * gap[1] + gap[0]) / step**2
-    assert reached == pytest.approx(kernels.axis_bend(1.0, 0, 2, distance, sizes, motion), rel=1e-5)
+    assert reached == pytest.approx(kernels.axis_curvature(1.0, 0, 2, distance, sizes, motion), rel=1e-5)

@@ -1,4 +1,4 @@
-"""March of all pitches between two at once: a strip of pitches, proven clear."""
+"""March of all pitches between two at once: a band of pitches, proven clear."""
 
 import cython
 from cython.cimports.libc.math import cos, sin, sqrt
@@ -10,12 +10,12 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.clearance import row_gap
     from core.kernels.constants import *
     from core.kernels.nearest import band_least
-    from core.kernels.pairs import STRIP_ROUNDING
+    from core.kernels.pairs import BAND_ROUNDING
     from core.kernels.rings import leaders_reach, radius_beyond
     from core.kernels.scene import Band, Found
     from core.kernels.spiral import spiral_arc, spiral_theta
 
-# Shortest step in which handles may move backwards before a strip is given up, relative to the head's radius [1].
+# Shortest step in which handles may move backwards before a band is given up, relative to the head's radius [1].
 BACKWARDS_WITHIN = 1e-3
 # Work of a step relative to one of a march [1]: it lays out four chains, at 0.6 us for each handle in all.
 CHAIN_WORK = 5.0
@@ -34,7 +34,7 @@ CHAIN_WORK = 5.0
 #     f_rho / 2 = (rho_a + rho_b) (1 - cos delta),    f_b / 2 = b delta^2 + rho_a delta (1 - cos delta),
 #     F - b f_rho / 2 = b^2 delta cos delta - b rho_a (1 - cos delta) + rho_a rho_b sin delta
 #                     = c sqrt(b^2 + rho_a^2) cos alpha_a  =: A.
-# While delta < pi and no handle turns back (F > 0, A >= 0) 1 - b f_rho / f_delta = A / F is in [0, 1], and, as
+# While delta < pi and no handle reverses (F > 0, A >= 0) 1 - b f_rho / f_delta = A / F is in [0, 1], and, as
 # F >= b^2 delta + rho_a rho_b sin delta, 0 <= z <= Z = delta m / (1 + m) with m = rho_a rho_b / b^2. So with
 # g_b = g_a + Z 0 <= a_b <= g_b <= psi_b and delta' <= 0: radii grow with b, angles fall. Further
 #     |delta'| <= ((2 g_a + delta) t + (b / rho_a) delta^2 / sin delta) / rho_a,  as F >= rho_a rho_b sin delta,
@@ -70,19 +70,19 @@ CHAIN_WORK = 5.0
 # rate kappa <= |u_m'| then. For corners X of i and Y of j, p = Y - X,
 #     |(e . p)''| <= |X''| + |Y''| + 2 kappa (|X'| + |Y'|) + kappa^2 |p|  =: K,
 # so the gap is at least what least_between() makes of its least values on b = b_L and on b = b_R, K and b_R - b_L;
-# these come from both ends of the step in r_0 by bends.py. Four gaps prove a whole rectangle of (r_0, b).
+# these come from both ends of the step in r_0 by gap_curvature.py. Four gaps prove a whole rectangle of (r_0, b).
 
 
 # Rounding. Gaps are as good as pairs.py says. For the bounds above, widths are widened by the error of a travel and by
 # WIDTH_ROUNDING of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal to within
 # a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered by the
-# change of the gaps over 4 theta u r beyond both ends, which their mean slope and the bend over the step bound.
+# change of the gaps over 4 theta u r beyond both ends, which their mean slope and the curvature over the step bound.
 WIDTH_ROUNDING = 1e-9  # [1]
-# shift_bounds() is good to STRIP_ROUNDING (pairs.py) of its results. It adds up products of terms >= 0, with fewer than
+# shift_bounds() is good to BAND_ROUNDING (pairs.py) of its results. It adds up products of terms >= 0, with fewer than
 # 60 roundings for each bench. These terms are angles between handles, with errors of 2 SLIP / r, at most 1e-12 of
 # themselves (rounding.py) where anything is claimed, and sines and tangents of half these angles, whose errors are at
 # most 1e3 times larger because delta stays ACROSS below pi. The only difference is `front`, A above, of which only the
-# sign matters: it must exceed STRIP_ROUNDING of its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, because
+# sign matters: it must exceed BAND_ROUNDING of its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, because
 # 2 / 1.5^(3/2) is that much less than SPIRAL_CURVATURE_MOST.
 ACROSS = 1e-3  # [rad]
 
@@ -90,7 +90,7 @@ ACROSS = 1e-3  # [rad]
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
     """Fill in bounds on the shift of the first benches with the growth; inner: chain at (r_L, b_L), outer: (r_R, b_R).
 
-    returns: False if a handle may turn back on the rectangle, because there are no bounds then
+    returns: False if a handle may reverse on the rectangle, because there are no bounds then
     """
     grown = 0.0
     slides = 0.0
@@ -116,7 +116,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
         slope = low * low * least + 2.0 * low * rho * slope * slope + sine
         front = low * low * least if rise < 1.0 else high * high * delta
         front = front * (1.0 - rise) - high * rho_far * rise + sine
-        if front <= STRIP_ROUNDING * (high * rho_far * rise + sine) or slope <= 0.0:
+        if front <= BAND_ROUNDING * (high * rho_far * rise + sine) or slope <= 0.0:
             return False
         extra = rho_far * rho_b / (low * low)
         extra = delta * extra / (1.0 + extra)
@@ -131,7 +131,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
             slide = rise / slope
         rise = delta * rho if delta * rho < chord else chord
         swing = (extra if extra > swing else swing) + grown * high * delta * rise / (rho * chord) + rho_b * slide * lean
-        shifts[k, SHIFT_TURN] = slides + swing / chord
+        shifts[k, SHIFT_OMEGA] = slides + swing / chord
         c = 0.5 * SPIRAL_CURVATURE_MOST * chord / rho
         c = sqrt(1.0 - c * c) if c < 1.0 else 0.0
         slope /= chord * sqrt(high * high + (rho_far + high * delta) * (rho_far + high * delta))
@@ -145,7 +145,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
         grown += extra
         speed_b = sqrt(grown * grown + rho_b * rho_b * slides * slides)
         shifts[k, SHIFT_CENTRE] = 0.5 * (speed + speed_b)
-        shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_TURN] * sizes[k, RADIUS]
+        shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_OMEGA] * sizes[k, RADIUS]
         s = slides * (2.0 + rho_b * slides)
         c = 2.0 * grown * slides
         shifts[k, SHIFT_PULL] = (
@@ -162,7 +162,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 # Output. How it ended, and the record Marched.
 
 
-class Strip(Found):
+class BandMarch(Found):
     """All growths between two at once, proven clear while the head goes inwards.
 
     A pair that meets does so at the lowest growth.
@@ -180,8 +180,8 @@ class Strip(Found):
 
         outer, inner: head radii [m]; rounding: largest error of a travel of the head [m]; least_step: head travel below
         which it gives up [m]; most_work: work after which it gives up
-        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one strip; UNBOUNDED, BENCH_FOLDED:
-        perhaps not provable in any strip, because a handle may move backwards or a bench folds; CAPACITY
+        returns: REACHED; TOUCHED at the lowest growth; STUCK: not provable in one band; UNBOUNDED, BENCH_FOLDED:
+        perhaps not provable in any band, because a handle may move backwards or a bench folds; CAPACITY
         """
         low = self.band.low.scene.curve.growth
         self.begin(outer)
@@ -231,7 +231,7 @@ class Strip(Found):
         self.work += CHAIN_WORK * (STEP_WORK + band.low.handles)
         band.low.h = self.h * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
         band.high.h = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
-        band.width = (high - low) * (1.0 + STRIP_ROUNDING)
+        band.width = (high - low) * (1.0 + BAND_ROUNDING)
         band.slack = 4.0 * ULP * low * band.low.before[0, THETA] * band.low.before[0, THETA]
         self.bounded = band.low.bound(False) and band.high.bound(False) and shift_bounds(
             low, high, band.low.handles, band.low.scene.sizes, band.low.after, band.high.before, band.shifts
