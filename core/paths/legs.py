@@ -183,7 +183,7 @@ def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point
         return None
     if math.pi - abs(turn) < 2.0 * BACK_MIN:
         name = f"path.points.{k}"
-        raise InvalidValue(name, f"{name} must not be where two straight legs reverse: make one of them a curve")
+        raise InvalidValue(name, f"{name} must not be where two straight legs turn back: make one of them a curve")
     half = math.tan(0.5 * abs(turn))
     cut = min(max(radius * half, LENGTH_MIN), CUT_MOST * min(into, out))
     arc_radius, side = cut / half, math.copysign(1.0, turn)
