@@ -1,7 +1,7 @@
 # The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist lock clean
+.PHONY: help setup serve test deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -31,6 +31,7 @@ help:
 	@echo 'make examples new answers for the examples in /docs'
 	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
+	@echo 'make install-time  how long pip takes to install the wheel of core and its command, downloads not counted'
 	@echo 'make lock     new exact versions in requirements.lock'
 	@echo 'make clean    remove everything that make created'
 
@@ -117,6 +118,16 @@ dist: setup
 	@$(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
+
+# Processor time counts: on a busy machine the clock runs on.
+install-time: setup
+	@rm -rf build/install
+	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir build/install .
+	@$(PIP) download --dest build/install build/install/*.whl
+	@$(PYTHON) -m venv build/install/venv
+	@TIMEFORMAT='%U s user, %S s system, %R s on the clock'; \
+	time build/install/venv/bin/python -m pip --quiet install --no-index --find-links build/install bench-dragon
+	@! build/install/venv/bin/python -c 'import fastapi' 2>/dev/null
 
 # Versions are resolved in a separate, new environment; the file has names and versions only.
 lock:
