@@ -1,0 +1,90 @@
+"""The questions: each stands in a file of its own, and its answer has the numbers of core."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import pytest
+
+import core
+from app.questions import registry
+from core import Dance, Dragon, Route, Spiral, Turn, Waypoints
+
+DRAGON, CLOSE = Dragon(20), Dance(Dragon(40), Spiral(0.5, 8.0))
+POINTS = [[0.0, 0.0], [20.0, 0.0], [21.0, 2.0], [0.0, 3.0]]
+
+
+def listed(value: Any) -> Any:
+    """Numbers as JSON has them."""
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    return [listed(part) for part in value] if isinstance(value, list | tuple) else value
+
+
+def told(found: object, *names: str) -> dict[str, Any]:
+    return {name: listed(getattr(found, name)) for name in names}
+
+
+def clearance() -> dict[str, Any]:
+    return told(core.clearance_profile(CLOSE, [10.0, 20.5]), "time", "clearance", "benches")
+
+
+def course() -> dict[str, Any]:
+    found = core.course(Route([Waypoints(POINTS)]), DRAGON)
+    return {"x": found.points[:, 0].tolist(), "y": found.points[:, 1].tolist()} | told(found, "s", "length")
+
+
+def maximum_head_speed() -> dict[str, Any]:
+    found = core.maximum_head_speed(Dance(DRAGON, Turn(1.7)), 1.5)
+    return told(found, "head_speed", "head_speed_bracket", "speed_ratio", "handles", "time")
+
+
+def shortest_turn() -> dict[str, Any]:
+    found = core.shortest_turn(DRAGON, 1.7)
+    return told(found, "entry_bracket", "benches", "time", "evaluations") | {"length": found.turn.length}
+
+
+ASKED: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
+    "clearance": (
+        {"dragon": {"benches": 40}, "path": {"pitch": 0.5, "start_turns": 8}, "times": [10, 20.5]},
+        clearance,
+    ),
+    "course": ({"dragon": {"benches": 20}, "path": {"kind": "waypoints", "points": POINTS}}, course),
+    "maximum_head_speed": ({"dragon": {"benches": 20}, "speed_limit": 1.5}, maximum_head_speed),
+    "shortest_turn": ({"dragon": {"benches": 20}, "pitch": 1.7}, shortest_turn),
+}
+
+
+@pytest.mark.parametrize("question", ASKED)
+def test_an_answer_has_the_numbers_of_core(client: httpx.Client, question: str) -> None:
+    body, asked = ASKED[question]
+    known = asked()
+    got = client.post(f"/{question.replace('_', '-')}", json=body).raise_for_status().json()
+    assert {name: got[name] for name in known} == known
+
+
+def test_a_pitch_scan_has_the_first_contacts_of_core(client: httpx.Client) -> None:
+    body = {"dragon": {"benches": 30}, "samples": 3, "locate": False}
+    got = client.post("/pitch-scan", json=body).raise_for_status().json()
+    assert got["minimum_pitch"] == core.minimum_pitch(Dragon(30)).pitch
+    heads = [core.first_contact(Dance(Dragon(30), Spiral(pitch, 16.0))).head for pitch in got["pitch"]]
+    assert got["radius"] == pytest.approx([head.radius for head in heads if head], rel=0, abs=1e-9)  # [m]
+    assert len(heads) == 3
+
+
+def test_overlaps_are_those_of_core(client: httpx.Client) -> None:
+    places = [(0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (0.5, 0.2, 1.0), (9.2, 0.1, 0.5)]
+    benches = [dict(zip(("x", "y", "heading"), place, strict=True), length=2.2, width=0.3) for place in places]
+    got = client.post("/overlaps", json={"benches": benches}).raise_for_status().json()["overlaps"]
+    found = core.overlaps(places, [2.2] * 4, [0.3] * 4)
+    assert [one["benches"] for one in got] == found.pairs.tolist() == [[0, 2], [1, 3]]
+    assert [one["separation"] for one in got] == found.contact.separation.tolist()
+
+
+def test_every_file_of_this_folder_has_its_question() -> None:
+    files = {path.stem for path in Path(registry.__file__).parent.glob("*.py")} - {"__init__", "registry"}
+    assert {question.answer.__module__.rpartition(".")[2] for question in registry.QUESTIONS.values()} == files
