@@ -123,7 +123,7 @@ def said_bound(number: float, decimals: int, side: int) -> str:
 
 
 def spoken(field: str) -> str:
-    """A dotted field in the notation of people.
+    """A dotted field as messages write it.
 
     >>> spoken("path.pieces.0.points.2")
     'path.pieces[0].points[2]'
@@ -216,11 +216,11 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
 
 
 def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Decorator of a question: it is asked of a first argument of this kind, and ends with TooMuchWork with its budget.
+    """Decorator of a question: the first argument must be of this kind, and the end of the budget raises TooMuchWork.
 
-    found: clause on the missing answer, which {then} completes; without one the question tells of its budget itself
-    The type is checked before Python checks the number of arguments: a call of the old kind with a dragon and a spiral
-    would else get Python's message on that number, which does not say that the first one must be a dance.
+    found: clause on the missing answer, which {then} completes; without it the question itself raises TooMuchWork
+    The type is checked before Python checks the number of arguments. Otherwise a call as in 0.1.0, with a dragon and a
+    spiral, would get Python's message on that number, which does not say that the first one must be a dance.
     """
 
     def checking(question: Callable[P, R]) -> Callable[P, R]:

@@ -80,7 +80,7 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
         return []
     a, b = map(contact.dance.dragon.called, contact.benches)
     meet = _meeting(margin, "come", "", contact.stray)
-    message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin)}."
+    message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin, 'overlap')}."
     return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
 
 
@@ -93,11 +93,11 @@ def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
     return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
 
 
-def _gap(gap: float | None, margin: float) -> str:
-    """Words for the remaining gap, if there is a margin."""
+def _gap(gap: float | None, margin: float, overlap: str) -> str:
+    """Words for the remaining gap, if there is a margin. overlap: the verb for a negative one"""
     if gap is None or margin == 0.0:
         return ""
-    return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and overlap by {-gap:.6f} m"
+    return f", with a gap of {gap:.6f} m" if gap > 0.0 else f", and {overlap} by {-gap:.6f} m"
 
 
 def venue_failures(
@@ -125,7 +125,7 @@ def _area_failures(dragon: Dragon, area: AreaClearance, margin: float, stray: fl
     if area.time is None or area.bench is None:
         return []
     words = _meeting(margin, "comes", repr(area.name), stray)
-    message = f"Bench {dragon.called(area.bench)} {words} at {area.time:.6f} s{_gap(area.gap, margin)}."
+    message = f"Bench {dragon.called(area.bench)} {words} at {area.time:.6f} s{_gap(area.gap, margin, 'overlaps it')}."
     return [Failure(FailureKind.VENUE, area.time, (area.bench,), area.name, message, area.time_bracket)]
 
 

@@ -72,7 +72,7 @@ def nodes(passages: Sequence[Passage]) -> tuple[list[float], list[float]]:
 
 
 def _ended(k: int, passage: Passage, time: float, place: float) -> tuple[float, float]:
-    """Time and place at which a passage ends that begins at these. raises: InvalidValue"""
+    """Time and place of the end of a passage, from those of its beginning. raises: InvalidValue"""
     if passage.until_time is not None:
         if passage.until_time <= time:
             rule = f"must be after the passage begins, at {said(time)} s"

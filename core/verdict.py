@@ -92,7 +92,7 @@ def check(
 
     margin: required between benches and to the venue [m]; stray: largest distance of every hole from its place [m], a
         contact that it makes possible is a failure; speed_limit: of every handle [m/s]
-    start, stop: [s]; default: from 0 (on a route: as soon as the whole dragon is on it) to the end of the run
+    start, stop: [s]; defaults: dance.begin and the end of the run
     A dance fails if it folds before its stop, or before the end of its path without a stop. A dance that ends earlier,
     because benches touch, is not followed to its fold.
     raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold; TooMuchWork

@@ -136,7 +136,7 @@ class _PitchSearch:
                 state, found = self.ways.march(SIZE_MAX)
                 if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
                     raise _too_near(self.search, found.benches[0], self.margin)
-                rule = f"must be larger for this dragon, which gets to such a circle at no pitch up to {SIZE_MAX:g} m"
+                rule = f"must be larger for this dragon, which reaches such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
         _, growth = bisected(

@@ -142,7 +142,7 @@ def envelope(
 ) -> Envelope:
     """The ground that benches sweep, as polygons that are proven to hold every pose of every bench.
 
-    start, stop: [s]; by default from 0 (on a route: from the time when the whole dragon is on it) to the end of the run
+    start, stop: [s]; defaults: dance.begin and the end of the run
     excess: largest distance of any point of the polygons from ground that a bench covers [m]; a larger excess costs
         less time. A run to its fold may exceed it; see Envelope.excess
     A contact does not end the dance: to end it there, give its time as the stop.

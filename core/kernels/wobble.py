@@ -90,7 +90,8 @@ class Wobbler:
             self.chain[k, PY] = places[t, k, 1] + (ahead * tangents[t, k, 1] + side * tangents[t, k, 0])
 
     def hang(self, t, play, places, rooms):
-        """Hang every bench on the one before, with people where they want to stand if they can; whether one is loud."""
+        """Lay out the chain at instant t: each bench behind the one before, its people as near as its chord allows to
+        where they want to stand. Returns whether any bench is loud, see above."""
         chain: cython.double[:, ::1] = self.chain
         some = False
         px = chain[0, PX]
@@ -126,7 +127,7 @@ class Wobbler:
         return some
 
     def touching(self):
-        """Whether two benches touch, one of them loud, as the chain is laid out; they are `first` and `second`."""
+        """Whether a loud bench touches another one in the laid-out chain; the two are then `first` and `second`."""
         blocks = block_boxes(self.benches, self.sizes, self.chain, self.boxes)
         for a in range(blocks):
             self.loud[self.benches + 1 + a] = False
@@ -140,7 +141,7 @@ class Wobbler:
         return False
 
     def blocks_touch(self, a, b):
-        """Whether a bench of block a touches one of block b, one of the two loud.
+        """Whether a bench of block a touches one of block b, if at least one of these two benches is loud.
 
         Most pairs are apart along the face of the first: this is tried here, because calls of other modules cost more.
         """

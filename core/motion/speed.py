@@ -97,7 +97,7 @@ def highest_speed(
 ) -> HighestSpeed:
     """The highest speed of any handle over continuous time, with the handles that reach it.
 
-    start, stop: [s]; defaults: 0 (on a route its beginning, with the whole dragon on it) and the end of the run
+    start, stop: [s]; defaults: dance.begin and the end of the run
     After sampling, every interval of time is proven to exceed the highest rate by at most RATE_TOLERANCE, and every
     peak on the way is refined on the exact derivative. At a joint the speed is continuous and its derivative jumps, so
     a peak may be a kink. See core/kernels/speed.py.
@@ -166,8 +166,8 @@ def maximum_head_speed(
 
     speed_limit: [m/s]; start, stop: [s at a head speed of 1 m/s], as in highest_speed()
     All speeds are proportional to the head speed, so this is the limit divided by the highest rate. A dance with
-    passages becomes faster or slower as a whole: their speeds keep their ratio to the head speed, and the times that
-    end them the ratio to its inverse.
+    passages becomes faster or slower as a whole: the speeds of its passages grow in proportion to the head speed, and
+    the times that end them fall in inverse proportion.
     raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)

@@ -67,7 +67,7 @@ class Route(Shown):
                 budget.look()
                 rows.append(piece.rows(name, s, budget))
             except Halted as halted:
-                rule = "must come before fewer pieces, or have fewer points: the route was not laid out {then}"
+                rule = "must come after fewer pieces, or have fewer points: the route was not laid out {then}"
                 raise too_much(budget, name, rule, k, "") from halted
             rows[-1][:, kernels.PART] = k
             count, s = count + len(rows[-1]), float(rows[-1][-1, S_END])

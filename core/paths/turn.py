@@ -55,7 +55,7 @@ class Turn(Route):
         theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
         coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
         if turns * pitch <= radius or coil < LENGTH_MIN:
-            rule = f"must be more than {radius / pitch:.6g} turns, which is the turning circle"
+            rule = f"must be more than {radius / pitch:.6g} turns, the radius of the turning circle"
             raise InvalidValue.of("start_turns", rule, turns, "turns")
         cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
         entry = inner * np.array([cos, sin])

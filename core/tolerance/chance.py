@@ -126,7 +126,7 @@ def contact_probability(
     """Probability that two benches touch when people wobble, from dances drawn at random.
 
     samples: their number, or a range of sample numbers, so that others can be drawn elsewhere; seed: from 0 to SEED_MAX
-    start, stop: [s]; by default from the time when the whole dragon is on the path, or 0, to the end of the run
+    start, stop: [s]; defaults: dance.begin and the end of the run
     budget: of all work, 1 for each handle of each instant of each sample; by default without limit
     progress: called with the share of the work that is done
     raises: InvalidValue; OutsideRun; TooMuchWork

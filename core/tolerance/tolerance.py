@@ -95,12 +95,11 @@ def tolerance(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> Tolerance:
-    """The largest stray of all holes that no motion within it can break, and one that is shown to break it.
+    """The largest stray found with which nothing can touch, whatever the motion, and one with which two benches can.
 
     A stray is the distance of a hole from its place at the same instant, by people and by the play of its pin. Every
     motion that keeps every chord is allowed; speeds do not matter. Neighbours, which share a hole, are never a pair.
-    venue: its edges count too; start, stop: [s]; by default from 0 (on a route: from the time when the whole dragon is
-        on it) to the end of the run
+    venue: its edges count too; start, stop: [s]; defaults: dance.begin and the end of the run
     returns: see Tolerance. The stray is 0 if benches touch, or are in the venue's edges, without any stray; it is also
         0, without a second end, if the search gave up before it proved a stray
     raises: InvalidValue; OutsideRun; TooMuchWork

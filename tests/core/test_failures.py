@@ -161,6 +161,13 @@ def test_with_a_margin_benches_that_overlap_from_the_start_say_how_deep() -> Non
     assert contact.message == "Benches 8 and 28 come nearer than 0.2 m at 0.000000 s, and overlap by 0.114627 m."
 
 
+def test_with_a_margin_a_bench_on_a_wall_from_the_start_says_how_deep() -> None:
+    route = Route([Line((-60, 0), (60, 0))], start=60.0)
+    report = check(Dance(Dragon(benches=5), route), venue=venue(box("square", -70, -9, 70, 0.1)), margin=0.2, start=0.0)
+    (near,) = [failure.message for failure in report.failures if failure.kind is FailureKind.VENUE]
+    assert near.endswith(" comes nearer than 0.2 m to 'square' at 0.000000 s, and overlaps it by 0.050000 m.")
+
+
 def test_a_wall_at_the_margin_to_rounding_is_undecided_and_that_is_no_failure() -> None:
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
     square = venue(box("square", -70, -9, 70, 0.35 + 1e-14))

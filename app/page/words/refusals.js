@@ -24,7 +24,7 @@ export const RULES = [
   [/^be a whole number(?:, such as (.+))?$/, "应为整数"],
   [/^be at least (.+?) turns, or the turning circle smaller$/, "至少应为 {1} 圈，或缩小调头空间"],
   [/^be at least (.+?) turns to start outside the circle at a pitch of (.+)$/, "至少应为 {1} 圈，才能在螺距为 {2} 时从圆外开始"],
-  [/^be more than (.+?) turns, which is the turning circle$/, "应大于 {1} 圈，即起点在调头空间之外"],
+  [/^be more than (.+?) turns, the radius of the turning circle$/, "应大于 {1} 圈，即起点在调头空间之外"],
   [/^be more than (.+?) turns, where bench (\d+) of this dragon folds$/, "应大于 {1} 圈（{2b}在该处折叠）"],
   [/^be less than half of (“.+”) \((.+)\)$/, "应小于{1}的一半（{2}）"],
   [/^be less than a quarter of (“.+”) \((.+)\)$/, "应小于{1}的四分之一（{2}）"],
@@ -56,7 +56,7 @@ export const RULES = [
   [/^be larger$/, "应更大"],
   [/^be larger than (.+ m)$/, "应大于 {1}"],
   [/^be larger, or the pitch$/, "应更大，或加大螺距"],
-  [/^be larger for this dragon, which gets to such a circle at no pitch up to (.+)$/, "应更大：螺距直到 {1}，这支队伍都到不了这样的圆"],
+  [/^be larger for this dragon, which reaches such a circle at no pitch up to (.+)$/, "应更大：螺距直到 {1}，这支队伍都到不了这样的圆"],
   [/^allow pitches of (.+) and more$/, "应更大，使螺距可为 {1} 及以上"],
   [/^have at most (\d+) different sizes of benches with a stray of (.+)$/, "离位为 {2} 时，最多有 {1} 种不同尺寸"],
 ];
