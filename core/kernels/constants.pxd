@@ -23,7 +23,7 @@ cdef extern from *:
     const double SPIRAL_CURVATURE_MOST "1.0887"
 
 cdef enum:
-    COS = 0, SIN = 1, PX = 0, PY = 1, TX = 2, TY = 3, THETA = 4, PLACE = 4, RATE = 5, REST = 10
+    COS = 0, SIN = 1, PX = 0, PY = 1, TX = 2, TY = 3, THETA = 4, PLACE = 4, RATE = 5, REST = 18
     MX = 6, MY = 7, UX = 8, UY = 9
     CURVATURE = 10, PIECE = 11, PIECE_THETA = 12, CLIMB = 13, SLIP = 14, ERROR = 15, SWAY = 16, FILLED = 17
     CENTRE_SPEED = 0, CORNER_SPEED = 1, CENTRE_PULL = 2, CORNER_PULL = 3, OMEGA = 4, OMEGA_PULL = 5, HANDLE_SPEED = 6
