@@ -45,6 +45,12 @@ def start_chain(theta, chain):
     chain[0, FILLED] = chain[0, SLIP] = 0.0
 
 
+# Input:  a chain on a spiral up to handle `first` (start_chain() lays out the head), the growth, and the chords.
+# State:  k, the last handle placed; `alike`, the number of equal chords up to it, whose deltas predict the next one.
+# Output: the rows of the handles up to a radius or the last one, and of the benches between them; that handle's
+#         number.
+
+
 def extend_chain(growth, first, last, radius, sizes, chain):
     """Place handles after `first` up to one at `radius` [m] or the `last`; returns its number, FOLDED at a fold."""
     delta = 0.0

@@ -82,6 +82,11 @@ def least_with(scene, i, first, end, best, chain):
     return best
 
 
+# Input:  a chain up to handle `handles`, and the number of benches that lead pairs (`active`).
+# State:  the nearest pair so far; upright boxes around blocks of BLOCK benches, of which far ones are skipped.
+# Output: the record Closest.
+
+
 def row_clearance(scene, active, handles, best, chain, boxes):
     """Least separation among the pairs led by the first `active` benches, and that pair.
 

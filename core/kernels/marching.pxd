@@ -7,7 +7,7 @@ from core.kernels.scene cimport Found, Interval, Scene
 from core.kernels.clearance cimport bottom_between, contact_between, gap_at, row_clearance, row_gap
 from core.kernels.pairs cimport pair_most
 from core.kernels.nearest cimport interval_least
-from core.kernels.repeats cimport chain_between, may_reverse, passed, slid_back
+from core.kernels.repeats cimport chain_between, leader_may_reverse, passed, slid_back
 
 cdef double DIP_WIDTH
 cdef double LEAST_STEP

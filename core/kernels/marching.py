@@ -13,7 +13,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.nearest import interval_least
     from core.kernels.pairs import pair_most
     from core.kernels.records import Closest, Nearest
-    from core.kernels.repeats import chain_between, may_reverse, passed, slid_back
+    from core.kernels.repeats import chain_between, leader_may_reverse, passed, slid_back
     from core.kernels.rings import drift
     from core.kernels.scene import Found
 
@@ -260,7 +260,7 @@ class March(Found):
         """
         k = self.active
         h = interval.h
-        if k < self.followers and may_reverse(k, h, scene.sizes, interval.before, interval.after, interval.motion):
+        if k < self.followers and leader_may_reverse(interval, k):
             edge = scene.curve.growth * min(interval.before[k, THETA], interval.after[k, THETA])
             edge -= drift(interval.motion[k - 1, HANDLE_SPEED], h, scene.curve.growth, edge)
             if edge < scene.rings.clear_radius:

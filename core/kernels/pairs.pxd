@@ -18,10 +18,7 @@ cdef (double, double, double) best_axis(
 ) noexcept nogil
 
 @cython.locals(corner=cython.int)
-cdef double corner_most(
-    Py_ssize_t i, Py_ssize_t j, double curvature, double h, double[:, ::1] sizes, double[:, ::1] before,
-    double[:, ::1] after
-) noexcept nogil
+cdef double corner_most(Interval interval, Py_ssize_t i, Py_ssize_t j, double curvature) noexcept nogil
 
 cdef (double, double) corner_in(
     Py_ssize_t i, Py_ssize_t j, double length, double width, double[:, ::1] chain

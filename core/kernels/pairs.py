@@ -53,8 +53,12 @@ def best_axis(i, j, sizes, chain):
 # The first bound serves benches that overlap deeply or without a corner, the second those that just touch, even slowly.
 
 
-def corner_most(i, j, curvature, h, sizes, before, after):
+def corner_most(interval, i, j, curvature):
     """Upper bound of the distance of a corner of bench j from bench i over an interval; 0 or less: inside [m]."""
+    before: cython.double[:, ::1] = interval.before
+    after: cython.double[:, ::1] = interval.after
+    sizes: cython.double[:, ::1] = interval.scene.sizes
+    h = interval.h
     best = FREE
     for corner in range(4):
         length = sizes[j, HALF_LENGTH] if corner < 2 else -sizes[j, HALF_LENGTH]
@@ -95,9 +99,9 @@ def pair_most(scene, interval, place, h, a, b):
         most = min(most, hulls_most(scene, interval, a, b, distance))
         return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
     curvature = curvature_along(scene, interval, a, b, distance)
-    most = min(most, corner_most(a, b, curvature, h, scene.sizes, interval.before, interval.after))
+    most = min(most, corner_most(interval, a, b, curvature))
     curvature = curvature_along(scene, interval, b, a, distance)
-    most = min(most, corner_most(b, a, curvature, h, scene.sizes, interval.before, interval.after))
+    most = min(most, corner_most(interval, b, a, curvature))
     return most + pair_rounding(a, b, distance, scene.sizes, interval.before, interval.after)
 
 

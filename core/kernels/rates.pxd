@@ -21,10 +21,7 @@ cdef Py_ssize_t fastest(Py_ssize_t benches, double[:, ::1] chain) noexcept nogil
 cpdef void climbs(Curve curve, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t)
-cdef void spiral_jerks(
-    double growth, double h, Py_ssize_t handles, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after,
-    double[:, ::1] motion
-) noexcept nogil
+cdef void spiral_jerks(double growth, Interval interval) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t)
 cpdef void spiral_errors(

@@ -86,10 +86,14 @@ def climbs(curve, last, sizes, chain):
 # 60 roundings for each link, and LOOSEN twice makes up for these.
 
 
-def spiral_jerks(growth, h, handles, sizes, before, after, motion):
+def spiral_jerks(growth, interval):
     """Fill in bounds on |s'''| of the handles of a spiral over an interval [1/m^2]; FREE where a link may fold."""
+    before: cython.double[:, ::1] = interval.before
+    after: cython.double[:, ::1] = interval.after
+    motion: cython.double[:, ::1] = interval.motion
+    h = interval.h
     jerk = 0.0
-    for k in range(handles):
+    for k in range(interval.handles):
         rate_a = motion[k, RATE_HIGH]
         rate_b = motion[k + 1, RATE_HIGH]
         inner = min(before[k, THETA], after[k, THETA])
@@ -100,7 +104,7 @@ def spiral_jerks(growth, h, handles, sizes, before, after, motion):
         swing_b = curvature * rate_b + motion[k, OMEGA]
         cosine = before[k + 1, TX] * before[k, UX] + before[k + 1, TY] * before[k, UY]
         cosine = min(cosine, after[k + 1, TX] * after[k, UX] + after[k + 1, TY] * after[k, UY])
-        cosine -= 0.5 * h * swing_b + blur_of(k, SPIRAL_SWAY / sizes[k, CHORD], before, after)
+        cosine -= 0.5 * h * swing_b + blur_of(k, SPIRAL_SWAY / interval.scene.sizes[k, CHORD], before, after)
         if cosine <= 0.0 or jerk >= FREE:
             motion[k + 1, RATE_JERK] = jerk = FREE
             continue
@@ -173,6 +177,11 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
         motion[k + 1, CLIMB_ERROR] = climb
 
 
+# Input:  an interval whose chains are laid out, and from where handles are calm.
+# State:  `upper`, the largest bound on a rate so far, at first 1, the rate of the head.
+# Output: `upper`, widened by its rounding, or FREE.
+
+
 def rate_bound(scene, interval, calm):
     """Upper bound of every |rate| over an interval whose chains are laid out; FREE if the interval is too wide."""
     handles = interval.handles
@@ -192,9 +201,7 @@ def rate_bound(scene, interval, calm):
         if interval.motion[handles, RATE_LOW] > 0.0:
             return upper
         spiral_errors(scene.curve.growth, handles, scene.sizes, interval.before, interval.after, interval.motion)
-        spiral_jerks(
-            scene.curve.growth, interval.h, handles, scene.sizes, interval.before, interval.after, interval.motion
-        )
+        spiral_jerks(scene.curve.growth, interval)
     for k in range(1, handles + 1):
         upper = max(upper, handle_bound(scene, interval, k, upper))
     return upper * (1.0 + BOUND_ROUNDING) if upper > 1.0 else upper

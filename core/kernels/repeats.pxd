@@ -25,14 +25,10 @@ cdef bint passed(
     Scene scene, Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed, double[:, ::1] opening, double[:, ::1] chain
 ) noexcept nogil
 
-cdef bint turns_back(
-    Py_ssize_t k, double h, double error, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
-) noexcept nogil
+cdef bint may_reverse(Interval interval, Py_ssize_t k, double error) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t)
-cdef bint may_reverse(
-    Py_ssize_t k, double h, double[:, ::1] sizes, double[:, ::1] before, double[:, ::1] after, double[:, ::1] motion
-) noexcept nogil
+cdef bint leader_may_reverse(Interval interval, Py_ssize_t k) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, placed=cython.Py_ssize_t, followed=cython.bint)
 cdef bint slid_back(

@@ -19,6 +19,11 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 PASSED_BY = 1e-9
 
 
+# Input:  a scene, the place of the head, and the benches that may lead pairs.
+# State:  the chain, laid out handle by handle.
+# Output: the chain up to the last bench in reach of those that lead pairs now, and the record Laid.
+
+
 def chain_between(scene, place, leaders, allowance, reversing, chain):
     """Fill in the chain of a head at a place as far as its leading benches reach; returns its extent, and their number.
 
@@ -89,6 +94,11 @@ def route_between(scene, place, leaders, allowance, chain):
 # With edges at rest in place of the second bench the same holds for g(place_i), the separation of a bench and an edge.
 
 
+# Input:  the chain at the start (`opening`) and the chain now, with the benches from `first` on.
+# State:  the handle compared with the start of the one before it.
+# Output: whether these benches repeat what others met: passed(), and for a spiral not slid_back().
+
+
 def passed(scene, first, last, placed, opening, chain):
     """Whether every handle from `first` to `last` has passed where its predecessor began, by more than rounding.
 
@@ -111,19 +121,20 @@ def passed(scene, first, last, placed, opening, chain):
 # followed_error(). Where no handle is followed, none reverses (RATE_LOW > 0).
 
 
-def turns_back(k, h, error, before, after, motion):
+def may_reverse(interval, k, error):
     """Whether handle k of a spiral may go backwards during an interval. error: of its rates at both ends [1]"""
-    return motion[k, RATE_LOW] <= 0.0 and before[k, RATE] + after[k, RATE] <= motion[k, RATE_RATE] * h + 2.0 * error
+    most = interval.motion[k, RATE_RATE] * interval.h + 2.0 * error
+    return interval.motion[k, RATE_LOW] <= 0.0 and interval.before[k, RATE] + interval.after[k, RATE] <= most
 
 
-def may_reverse(k, h, sizes, before, after, motion):
-    """turns_back(), with the error of the rates computed from link to link."""
+def leader_may_reverse(interval, k):
+    """may_reverse(), with the error of the rates computed from link to link."""
     error = 0.0
-    if motion[k, RATE_LOW] > 0.0:
+    if interval.motion[k, RATE_LOW] > 0.0:
         return False
     for i in range(1, k + 1):
-        error = followed_error(i, error, sizes, before, after)
-    return turns_back(k, h, error, before, after, motion)
+        error = followed_error(i, error, interval.scene.sizes, interval.before, interval.after)
+    return may_reverse(interval, k, error)
 
 
 def slid_back(scene, interval, first, last, opening):
@@ -146,7 +157,7 @@ def slid_back(scene, interval, first, last, opening):
         low += PASSED_BY * (growth + low) + opening[k, SLIP]
         if followed:
             low += max(interval.before[k, SLIP], interval.after[k, SLIP])
-        if k > 0 and turns_back(k, interval.h, error, interval.before, interval.after, interval.motion):
+        if k > 0 and may_reverse(interval, k, error):
             low += drift(interval.motion[k - 1, HANDLE_SPEED], interval.h, growth, low)
         if low > growth * opening[k, THETA]:
             return True

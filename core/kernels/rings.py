@@ -166,6 +166,12 @@ DISCERNED = 1e-3
 # so it is at least the smaller of its values at both ends; all other terms fall with growth.
 
 
+# Input:  the extremes of the benches (Rings), a range of growths, and the radius of the inner bench's front handle.
+# State:  `gap`, the bound for benches a turn or more apart, the lesser of its values at both growths; `same_turn`, the
+#         bound for benches with another one between them.
+# Output: the lesser of the two, or NO_BOUND.
+
+
 def ring_least(growth_low, growth, radius, rings, total=1e150):
     """Lower bound of the separation of two non-neighbours, the inner one's front handle at `radius` or further out [m].
 

@@ -166,14 +166,18 @@ def start_route(pieces, s, chain):
 # the chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along
 # the path: no point further back that comes near is taken for it.
 
+#
+# Input:  a chain on a route up to handle `first` (start_route() lays out the head), the pieces, and the chords.
+# State:  the links before this one on the same spiral: `alike`, their number (those of the same chord, plus one); d1 to
+#         d5, the angles that they span, the last one first; `begin`, the arc length at their end.
+# Output: the rows of the handles up to the last one or the place `until`, and of the benches between them.
+
 
 def extend_route(pieces, first, last, until, sizes, chain):
     """Place handles after `first` up to the `last`, each at the first point behind its leader at the bench's chord.
 
     returns: last, or a handle before it that stands at the place `until` or further back
     """
-    # the links before this one on the same spiral: their number (those of the same chord, plus one), the angles that
-    # they turned by, the last one first, and the arc length at their end
     alike = 0
     d1 = d2 = d3 = d4 = d5 = begin = 0.0
     for k in range(first, last):

@@ -34,6 +34,11 @@ REAR_X = 2
 REAR_Y = 3
 
 
+# Input:  new numbers for every person and instant, the nominal places and tangents, the play, and the rooms.
+# State:  z and z' of every person (`state`); the chain as it hangs at this instant; which benches are `loud`.
+# Output: the first instant at which two benches touch, that pair, and the furthest stray of a hole on the way.
+
+
 class Wobbler:
     """A dragon in which people wobble.
 
