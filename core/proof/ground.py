@@ -87,8 +87,8 @@ def _spare(chord: arb, stray: arb, furthest: arb) -> arb:
     """Distance by which they may reach further between two samples (15.) [m]. furthest: of them from the middle [m]"""
     kappa = stray / chord
     steep = kappa / (1 - kappa**2).sqrt()
-    bend = stray * (1 + 2 * kappa + kappa**2 + steep) + furthest * (4 * kappa**2 + 2 * steep)
-    return bend * (arb.pi() / (2 * SAMPLES)) ** 2 / 8
+    second = stray * (1 + 2 * kappa + kappa**2 + steep) + furthest * (4 * kappa**2 + 2 * steep)
+    return second * (arb.pi() / (2 * SAMPLES)) ** 2 / 8
 
 
 class Side:

@@ -13,15 +13,15 @@ straight line. With L = c_0 + c_1 + c_2 the sag of
 Strays within delta change no distance of two handles and no sag by more than 2 delta. So three benches whose nominal
 shape has the distances D and the sags S can come into a shape (a, b) with d and s only if
     delta >= N(a, b) = max(D - d, s - S) / 2 over all of them.
-They do not touch while delta is below the least N of all shapes in which they touch. Distances show a fold; small bends
-change them only by their squares, but change sags in proportion.
+They do not touch while delta is below the least N of all shapes in which they touch. Distances show a fold; small
+angles change them only by their squares, but change sags in proportion.
 
 The nominal places. Let no curvature of the path exceed k, with k c / 2 <= 1 for every chord c. The next handle is where
 the path first comes to the distance c; by Schur's comparison with a circle, this is after a length L of at most
 (2 / k) asin(k c / 2). The tangent turns by at most k L <= pi over this length, and the angle between the chord, which
 is its mean, and the tangent at either end is at most half of that: let x = k s - k L / 2, and let the path turn by x'
 with x' <= x and x' >= -k s - k L / 2 >= -pi - x; then sin x' <= sin x, and the integral of sin x over L is 0. So two
-consecutive chords bend by at most
+consecutive chords differ in direction by at most
     A = asin(k c_0 / 2) + asin(k c_1 / 2),   B = asin(k c_1 / 2) + asin(k c_2 / 2),   both <= pi,
     D_02^2 >= c_0^2 + c_1^2 + 2 c_0 c_1 cos A,   D_13 likewise,   D_03 >= c_0 cos A + c_1 + c_2 cos B,
     S <= u |e(A) - 1| + v |e(B) - 1|.
@@ -78,10 +78,10 @@ def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float
     alike = min(dragon.benches, dragon.uniform_from + 3)
     sizes = np.stack([dragon.chords, dragon.lengths, dragon.widths], axis=1)[:alike]
     triples = np.unique(np.stack([sizes[:-2], sizes[1:-1], sizes[2:]], axis=1), axis=0)
-    bends = 0.5 * _sharpest(dance, until) * triples[..., 0]
-    if len(triples) > TRIPLES_MOST or not (bends <= 1.0).all():
+    sines = 0.5 * _sharpest(dance, until) * triples[..., 0]
+    if len(triples) > TRIPLES_MOST or not (sines <= 1.0).all():
         return 0.0
-    return max(0.0, _least_stray(triples, np.arcsin(bends), most + ROUNDING, budget) - ROUNDING)
+    return max(0.0, _least_stray(triples, np.arcsin(sines), most + ROUNDING, budget) - ROUNDING)
 
 
 def _sharpest(dance: Dance, until: float) -> float:
@@ -95,11 +95,11 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     triples: (K, 3, 3) chord, length and width of three benches [m]; leans: (K, 3) asin(k c / 2)
     """
     chords = triples[..., 0]
-    bends = leans[:, ::2] + leans[:, 1:2]
-    places = _distances(chords, bends)
-    places[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(bends)).sum(axis=1)
+    joint_angles = leans[:, ::2] + leans[:, 1:2]
+    places = _distances(chords, joint_angles)
+    places[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(joint_angles)).sum(axis=1)
     pulls = sag_pulls(chords)
-    most_sag = (pulls * np.abs(np.exp(1j * bends) - 1.0)[:, None]).sum(axis=2)
+    most_sag = (pulls * np.abs(np.exp(1j * joint_angles) - 1.0)[:, None]).sum(axis=2)
     shorter, ends = np.minimum(chords[:, :2], chords[:, 1:]), chords[:, ::2].sum(axis=1, keepdims=True)
     slack = np.concatenate([shorter, ends, pulls.sum(axis=2)], axis=1)
     corner = np.hypot(0.5 * (triples[..., 1] + chords), 0.5 * triples[..., 2])
@@ -124,9 +124,9 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     return min(most, float(at_least.min(initial=most)))
 
 
-def _distances(chords: Floats, bends: Floats) -> Floats:
+def _distances(chords: Floats, joint_angles: Floats) -> Floats:
     """Distances (N, 3) d_02, d_13, d_03 of three chords (N, 3) with headings a and b (N, 2) [m]."""
-    first, last = chords[:, [0, 2]].T * np.exp(1j * bends.T)
+    first, last = chords[:, [0, 2]].T * np.exp(1j * joint_angles.T)
     distances: Floats = np.abs(np.stack([first, last, first + last], axis=1) + chords[:, 1:2])
     return distances
 
@@ -144,9 +144,9 @@ def sag_pulls(chords: Floats) -> Floats:
     return np.moveaxis(np.array(pulls), -1, 0)
 
 
-def sags_of(pulls: Floats, bends: Floats) -> Floats:
+def sags_of(pulls: Floats, joint_angles: Floats) -> Floats:
     """The four sags (N, 4) of shapes (N, 2) [m]."""
-    turned = np.exp(1j * bends)[:, None] - 1.0
+    turned = np.exp(1j * joint_angles)[:, None] - 1.0
     sags: Floats = np.abs(pulls[..., 0] * turned[..., 0] - pulls[..., 1] * turned[..., 1])
     return sags
 

@@ -4,10 +4,10 @@ One bench turned by phi with its middle anywhere in its lens (core/tolerance/rea
 the turned rectangle: a convex region with support lens(theta) + rectangle(theta) in each direction theta. Two benches
 turned by phi_a and phi_b can therefore overlap exactly if the largest gap
     g(phi_a, phi_b) = max over theta of  n . (M_b - M_a) - support_a(n) - support_b(-n)
-is at most 0, and both are in the lens's corner for that n when they begin to overlap. The least g over both turns falls
-as the stray grows; the stray at which it reaches 0 shows a contact. Grids that narrow around their best point find it.
-If they miss a better one, the bracket is wider, but still true, because the overlap is then verified in the pose
-itself.
+is at most 0, and both are in the lens's corner for that n when they begin to overlap. The least g over both rotations
+falls as the stray grows; the stray at which it reaches 0 shows a contact. Grids that narrow around their best point
+find it. If they miss a better one, the bracket is wider, but still true, because the overlap is then verified in the
+pose itself.
 
 The rest of the chain can always follow. In front of the pair and behind it each handle takes the place on its circle
 that is nearest to its nominal one: the nominal place, moved along with the handle before it, is on this circle, so the
@@ -29,9 +29,9 @@ from core.shown import Shown, worded
 from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats
 
-# Points of a grid over each turn and over the direction [1]; range of directions around the nominal normal [rad]; width
-# of the next grid relative to this one [1]; and number of grids [1], which give the turns to 1e-7 of their range.
-TURNS, BEARINGS = 11, 11
+# Points of a grid over each rotation and over the direction [1]; range of directions around the nominal normal [rad];
+# width of the next grid relative to this one [1]; and number of grids [1], good to 1e-7 of the range of the rotations.
+ROTATIONS, BEARINGS = 11, 11
 BEARING_RANGE = 0.7
 NARROWER, ROUNDS = 0.35, 16
 # Error of restored chords [m], and the largest number of steps to restore them [1].
@@ -76,32 +76,32 @@ class Body:
     half_length: float
     half_width: float
 
-    def turns(self, stray: float) -> float:
-        """Largest turn that a stray allows [rad]."""
+    def most_rotation(self, stray: float) -> float:
+        """Largest rotation that a stray allows [rad]."""
         return 2.0 * math.asin(min(1.0, stray / self.chord)) if self.chord else 0.0
 
-    def faces(self, turn: Floats, bearing: float) -> Floats:
+    def faces(self, rotation: Floats, bearing: float) -> Floats:
         """Direction of the turned body's normal that is nearest to a bearing [rad]."""
         square = 0.5 * math.pi
-        normal: Floats = self.heading + turn + square * np.round((bearing - self.heading - turn) / square)
+        normal: Floats = self.heading + rotation + square * np.round((bearing - self.heading - rotation) / square)
         return normal
 
-    def support(self, bearing: Floats, turn: Floats, stray: float) -> Floats:
-        """Support of all places at a turn [rad] in a direction of the world [rad], from the nominal centre [m]."""
-        facing = bearing - self.heading - turn
+    def support(self, bearing: Floats, rotation: Floats, stray: float) -> Floats:
+        """Support of all places at a rotation [rad] in a direction of the world [rad], from the nominal centre [m]."""
+        facing = bearing - self.heading - rotation
         reached: Floats = self.half_length * np.abs(np.cos(facing)) + self.half_width * np.abs(np.sin(facing))
         if not self.chord:
             return reached
-        q = np.minimum(np.abs(self.chord * np.sin(0.5 * turn)), stray)
-        leaning = bearing - self.heading - 0.5 * turn
+        q = np.minimum(np.abs(self.chord * np.sin(0.5 * rotation)), stray)
+        leaning = bearing - self.heading - 0.5 * rotation
         sine, cosine = np.abs(np.sin(leaning)), np.abs(np.cos(leaning))
         tip = cosine * np.sqrt(np.maximum(stray * stray - q * q, 0.0))
         return reached + np.where(q <= stray * sine, stray - q * sine, tip)
 
-    def strays(self, bearing: float, turn: float, stray: float) -> Floats:
+    def strays(self, bearing: float, rotation: float, stray: float) -> Floats:
         """Strays (2, 2) of the front and the rear hole that move a bench as far as possible in a direction [m]."""
-        q = min(max(self.chord * math.sin(0.5 * turn), -stray), stray)
-        axis = self.heading + 0.5 * turn
+        q = min(max(self.chord * math.sin(0.5 * rotation), -stray), stray)
+        axis = self.heading + 0.5 * rotation
         along, across = np.array([math.cos(axis), math.sin(axis)]), np.array([-math.sin(axis), math.cos(axis)])
         way = np.array([math.cos(bearing), math.sin(bearing)])
         sideways, forward = float(across @ way), float(along @ way)
@@ -112,30 +112,30 @@ class Body:
         return np.stack([middle + q * across, middle - q * across])
 
 
-def nearest_turns(a: Body, b: Body, bearing: float, stray: float) -> tuple[float, float, float, float]:
-    """Least gap of two bodies over all their turns [m], the two turns, and the direction that keeps them apart [rad].
+def nearest_rotated(a: Body, b: Body, bearing: float, stray: float) -> tuple[float, float, float, float]:
+    """Least gap of two bodies over all rotations [m], the two rotations, and the direction that keeps them apart [rad].
 
     bearing: of the normal from a to b in their nominal places [rad]
     """
     centres = [0.0, 0.0, bearing]
-    spans = [a.turns(stray), b.turns(stray), BEARING_RANGE]
+    spans = [a.most_rotation(stray), b.most_rotation(stray), BEARING_RANGE]
     limits, gap = spans[:2], 0.0
     for _ in range(ROUNDS):
         grid = [
             np.linspace(centre - span, centre + span, count if span else 1)
-            for centre, span, count in zip(centres, spans, (TURNS, TURNS, BEARINGS), strict=True)
+            for centre, span, count in zip(centres, spans, (ROTATIONS, ROTATIONS, BEARINGS), strict=True)
         ]
-        turn_a = np.clip(grid[0], -limits[0], limits[0])[:, None, None]
-        turn_b = np.clip(grid[1], -limits[1], limits[1])[None, :, None]
-        ways = np.broadcast_to(grid[2], (turn_a.size, turn_b.size, grid[2].size))
-        faces = [a.faces(turn_a, bearing), b.faces(turn_b, bearing)]
+        rotation_a = np.clip(grid[0], -limits[0], limits[0])[:, None, None]
+        rotation_b = np.clip(grid[1], -limits[1], limits[1])[None, :, None]
+        ways = np.broadcast_to(grid[2], (rotation_a.size, rotation_b.size, grid[2].size))
+        faces = [a.faces(rotation_a, bearing), b.faces(rotation_b, bearing)]
         way = np.concatenate([ways, *(np.broadcast_to(face, (*ways.shape[:2], 1)) for face in faces)], axis=2)
         apart = (b.x - a.x) * np.cos(way) + (b.y - a.y) * np.sin(way)
-        gaps = apart - a.support(way, turn_a, stray) - b.support(way + math.pi, turn_b, stray)
+        gaps = apart - a.support(way, rotation_a, stray) - b.support(way + math.pi, rotation_b, stray)
         most = gaps.max(axis=2)
         i, j = np.unravel_index(int(most.argmin()), most.shape)
         gap = float(most[i, j])
-        centres = [float(turn_a[i, 0, 0]), float(turn_b[0, j, 0]), float(way[i, j, gaps[i, j].argmax()])]
+        centres = [float(rotation_a[i, 0, 0]), float(rotation_b[0, j, 0]), float(way[i, j, gaps[i, j].argmax()])]
         spans = [NARROWER * span for span in spans]
     return gap, centres[0], centres[1], centres[2]
 
@@ -172,13 +172,13 @@ def exhibit(
     high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
     # A stray larger by x lets the middle of each bench go x further in any direction, so the gap closes by as much.
     moving = 1 if second is None else 2
-    stray = safe + max(0.0, nearest_turns(a, other, bearing, safe)[0] + DEPTH) / moving
+    stray = safe + max(0.0, nearest_rotated(a, other, bearing, safe)[0] + DEPTH) / moving
     least, most = (step * safe + DEPTH for step in TRIED_STEPS)
     while stray <= high:
-        _, turn_a, turn_b, way = nearest_turns(a, other, bearing, stray)
-        wanted = {first: a.strays(way, turn_a, stray)}
+        _, rotation_a, rotation_b, way = nearest_rotated(a, other, bearing, stray)
+        wanted = {first: a.strays(way, rotation_a, stray)}
         if second is not None:
-            wanted[second] = other.strays(way + math.pi, turn_b, stray)
+            wanted[second] = other.strays(way + math.pi, rotation_b, stray)
         moved = extended(dragon.chords, handles, wanted)
         shown = None if moved is None else _shown(dragon, handles, moved, (*pair, edge), time)
         if shown is not None and shown.depth > 0.0:

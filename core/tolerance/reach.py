@@ -189,8 +189,8 @@ def supports(chord: float, overhang: float, half_width: float, stray: float) -> 
     steep = kappa / math.sqrt(1.0 - kappa * kappa)
     for part, far in enumerate((0.5 * chord + overhang, 0.5 * chord)):
         furthest = math.hypot(far, half_width)
-        bend = stray * (1.0 + 2.0 * kappa + kappa * kappa + steep) + furthest * (4.0 * kappa * kappa + 2.0 * steep)
-        best[part] += 0.125 * bend * (0.5 * math.pi / SAMPLES) ** 2 + SUPPORT_ROUNDING * (furthest + stray)
+        second = stray * (1.0 + 2.0 * kappa + kappa * kappa + steep) + furthest * (4.0 * kappa * kappa + 2.0 * steep)
+        best[part] += 0.125 * second * (0.5 * math.pi / SAMPLES) ** 2 + SUPPORT_ROUNDING * (furthest + stray)
     return best[:, _MIRRORED]
 
 

@@ -24,7 +24,8 @@ class Wobble(Shown):
 
     lateral, forward: displacement that a person wants, across the path and along it [m]: normal numbers with these
         standard deviations, so that one step in twenty is further than twice the deviation. Chords are rigid: of the
-        forward displacements only that of the first person remains, and the bends of the chain add some of the lateral
+        forward displacements only that of the first person remains, and the joint angles of the chain add some of the
+        lateral
     correlation_time: [s] after it 1 / e of a person's displacement is left, and the rest is new
     step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time; None stands for this maximum.
         The path of a person is as rough as a random walk, so closer instants show more contacts

@@ -78,15 +78,15 @@ def test_no_pose_within_the_bound_touches(radius: float, dragon: Dragon, least: 
 
 def test_sags_are_those_of_the_handles() -> None:
     rng = np.random.default_rng(5)
-    chords, bends = rng.uniform(0.5, 3.0, (200, 3)), rng.uniform(-math.pi, math.pi, (200, 2))
-    turned = np.exp(1j * bends)
+    chords, joint_angles = rng.uniform(0.5, 3.0, (200, 3)), rng.uniform(-math.pi, math.pi, (200, 2))
+    turned = np.exp(1j * joint_angles)
     front = chords[:, 1] + chords[:, 0] * turned[:, 0]
     handles = np.stack([front, chords[:, 1], 0.0 * front, -chords[:, 2] * turned[:, 1]], axis=1)
     along = np.concatenate([np.zeros((200, 1)), np.cumsum(chords, axis=1)], axis=1)
     for column, (i, j, k) in enumerate([(0, 1, 2), (1, 2, 3), (0, 1, 3), (0, 2, 3)]):
         part = (along[:, j] - along[:, i]) / (along[:, k] - along[:, i])
         sag = np.abs(handles[:, j] - (1.0 - part) * handles[:, i] - part * handles[:, k])
-        assert sags_of(sag_pulls(chords), bends)[:, column] == pytest.approx(sag, abs=1e-12)
+        assert sags_of(sag_pulls(chords), joint_angles)[:, column] == pytest.approx(sag, abs=1e-12)
 
 
 def overlapping(a: Floats, b: Floats) -> Floats:
@@ -143,11 +143,11 @@ def test_two_chords_in_a_row_bend_by_no_more_than_two_half_arcs(radius: float) -
     assert follows(dragon, dance.path)
     handles = trajectory(dance, np.linspace(dance.begin, dance.end.time, 4_000)).position
     along = np.diff(handles, axis=1) @ [1.0, 1j]
-    bends = np.abs(np.angle(along[:, 1:] / along[:, :-1]))
+    joint_angles = np.abs(np.angle(along[:, 1:] / along[:, :-1]))
     leans = np.arcsin(dragon.chords / (2.0 * radius))
     most = leans[1:] + leans[:-1]
-    assert (bends.max(axis=0) <= most + 1e-9).all()
-    assert (bends.max(axis=0) > 0.85 * most).all()
+    assert (joint_angles.max(axis=0) <= most + 1e-9).all()
+    assert (joint_angles.max(axis=0) > 0.85 * most).all()
 
 
 def test_a_spiral_is_as_bent_as_where_its_head_ends() -> None:

@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from core import Dance, Dragon, Line, Route, Spiral, bench_outlines, separation, tolerance, trajectory
-from core.tolerance.exhibit import Body, body, extended, nearest_turns
+from core.tolerance.exhibit import Body, body, extended, nearest_rotated
 from tests.core.tolerance.adversaries import to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
 
@@ -77,14 +77,14 @@ def test_the_pose_is_of_those_three_in_a_row_that_fold_with_the_least_strays() -
     assert 0.06 < safe < shown < 1.03 * safe
 
 
-def test_without_a_stray_the_nearest_turns_have_the_gap_of_the_benches_as_they_are() -> None:
+def test_without_a_stray_the_nearest_rotated_benches_have_the_gap_of_the_benches_as_they_are() -> None:
     rng = np.random.default_rng(8)
     apart = 0
     for x, y, one, other in rng.uniform([0.0, 0.0, -3.0, -3.0], [4.0, 4.0, 3.0, 3.0], (50, 4)).tolist():
         a, b = Body(0.0, 0.0, one, 1.65, 1.1, 0.15), Body(x, y, other, 1.65, 1.1, 0.15)
         known = separation([0.0, 0.0, one], [2.2, 0.3], [x, y, other], [2.2, 0.3])
         bearing = math.atan2(known.normal[1], known.normal[0])
-        assert nearest_turns(a, b, bearing, 0.0)[:3] == (pytest.approx(known.separation, abs=GAP_ERROR), 0.0, 0.0)
+        assert nearest_rotated(a, b, bearing, 0.0)[:3] == (pytest.approx(known.separation, abs=GAP_ERROR), 0.0, 0.0)
         apart += known.separation > 0.0
     assert 25 < apart < 50
 
