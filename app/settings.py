@@ -55,6 +55,19 @@ def unknown_variables() -> list[str]:
     return said
 
 
+# What a variable must be, by pydantic's type of fault.
+RULES = {
+    "int_parsing": "must be a whole number",
+    "int_from_float": "must be a whole number",
+    "float_parsing": "must be a number",
+    "finite_number": "must be a finite number",
+    "bool_parsing": "must be true or false",
+    "greater_than": "must be more than {gt:g}",
+    "greater_than_equal": "must be at least {ge:g}",
+    "less_than_equal": "must be at most {le:g}",
+}
+
+
 class Settings(BaseModel):
     """Limits of one process for a single request and for requests at the same time.
 
@@ -74,8 +87,8 @@ class Settings(BaseModel):
         except ValidationError as error:
             first = error.errors()[0]
             name = variables[str(first["loc"][0])]
-            rule = first["msg"].replace("Input should", "must")
-            raise InvalidValue(name, f"{name} {rule}, got {first['input']!r:.60}") from error
+            rule = RULES.get(first["type"], first["msg"]).format(**first.get("ctx", {}))
+            raise InvalidValue(name, f"{rule}, got {first['input']!r:.60}") from error
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
     grade_bytes_max: int = Field(20_000_000, ge=1, description="Longest file in POST /grade [bytes]")

@@ -66,6 +66,7 @@ def course(path: Spiral | Route, dragon: Dragon) -> Course:
     A bend is too tight for a chord c where |curvature| c / 2 exceeds a limit, past which the next handle is not unique
     (core/dance.py). On a spiral there is none: its dance ends in a fold.
 
+    >>> from core import Legs
     >>> course(Legs([(0, 0), (20, 0), (20, 20)], [0, 1], radius=1.0), Dragon()).bends
     (<TightBend: radius 1 m from s = 19 to 20.5707963 m>,)
     """

@@ -238,12 +238,12 @@ class Dance(Shown):
         try:
             array = np.asarray(given)
         except ValueError as error:
-            raise InvalidValue("times", "times must be a list of numbers in seconds, or one number") from error
+            raise InvalidValue("times", "must be a list of numbers in seconds, or one number") from error
         # NumPy would also accept "1", True and None as numbers.
         if array.dtype.kind not in "iuf":
-            raise InvalidValue("times", f"times must be a list of numbers in seconds, or one number, got {given!r:.60}")
+            raise InvalidValue("times", f"must be a list of numbers in seconds, or one number, got {given!r:.60}")
         if array.ndim > 1:
-            raise InvalidValue("times", "times must be a flat list of numbers in seconds, or one number")
+            raise InvalidValue("times", "must be a flat list of numbers in seconds, or one number")
         time = np.array(array, dtype=np.float64, order="C")
         wrong = np.flatnonzero(~np.isfinite(time))
         if wrong.size:
@@ -331,7 +331,7 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
     if theta >= spiral.start_theta:
         raise InvalidValue(
             "path.start_turns",
-            f"path.start_turns must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
+            f"must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
             f"dragon folds, got {said(spiral.start_turns)} turns",
         )
     time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))

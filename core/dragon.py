@@ -22,18 +22,16 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     try:
         column = np.array(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"{name} must be numbers in metres, one for each bench") from error
+        raise InvalidValue(name, "must be numbers in metres, one for each bench") from error
     if column.ndim != 1 or column.size == 0:
-        raise InvalidValue(name, f"{name} must be a list with one number for each bench")
+        raise InvalidValue(name, "must be a list with one number for each bench")
     if benches is not None and column.size != benches:
-        raise InvalidValue(name, f"{name} must have {benches} numbers, one for each bench, got {column.size}")
+        raise InvalidValue(name, f"must have {benches} numbers, one for each bench, got {column.size}")
     low = 0.0 if name == "dragon.overhangs" else SIZE_MIN
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        raise InvalidValue(
-            f"{name}.{k}", f"{name}[{k}] must be from {low:g} to {SIZE_MAX:g} m, got {said(column[k])} m"
-        )
+        raise InvalidValue(f"{name}.{k}", f"must be from {low:g} to {SIZE_MAX:g} m, got {said(column[k])} m")
     return column
 
 
@@ -68,11 +66,9 @@ class Dragon(Shown):
         overhang: float = 0.275,
     ) -> None:
         if not isinstance(benches, Integral) or isinstance(benches, bool):
-            raise InvalidValue("dragon.benches", f"dragon.benches must be a whole number, got {benches!r}")
+            raise InvalidValue("dragon.benches", f"must be a whole number, got {benches!r}")
         if not 1 <= benches <= BENCHES_MAX:
-            raise InvalidValue(
-                "dragon.benches", f"dragon.benches must be from 1 to {BENCHES_MAX} benches, got {benches}"
-            )
+            raise InvalidValue("dragon.benches", f"must be from 1 to {BENCHES_MAX} benches, got {benches}")
         head_length = checked_size("dragon.head_length", head_length)
         body_length = checked_size("dragon.body_length", body_length)
         width = checked_size("dragon.width", width)
@@ -81,7 +77,7 @@ class Dragon(Shown):
             if length - 2.0 * overhang < SIZE_MIN:
                 raise InvalidValue(
                     "dragon.overhang",
-                    f"{{field}} must be less than half of {{length}} "
+                    f"must be less than half of {{length}} "
                     f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m",
                     length=f"dragon.{name}",
                 )
@@ -106,7 +102,7 @@ class Dragon(Shown):
             k = int(wrong[0])
             raise InvalidValue(
                 f"dragon.overhangs.{k}",
-                f"dragon.overhangs[{k}] must be less than half of dragon.lengths[{k}] "
+                f"must be less than half of dragon.lengths[{k}] "
                 f"({said(length_column[k])} m / 2 = {said(length_column[k] / 2)} m), got {said(overhang_column[k])} m",
             )
         dragon = cls.__new__(cls)
@@ -138,12 +134,12 @@ class Dragon(Shown):
         '0 (Zhou)'
         """
         if isinstance(names, str) or not isinstance(names, Sequence):
-            raise InvalidValue("dragon.names", f"dragon.names must be a list of texts, got {names!r:.60}")
+            raise InvalidValue("dragon.names", f"must be a list of texts, got {names!r:.60}")
         if names and len(names) != self.benches:
             rule = f"must have {self.benches} entries, one for each bench, got {len(names)}"
-            raise InvalidValue("dragon.names", f"dragon.names {rule}")
+            raise InvalidValue("dragon.names", rule)
         for k, name in enumerate(names):
-            checked_name(f"dragon.names[{k}]", name, f"dragon.names.{k}")
+            checked_name(f"dragon.names.{k}", name)
         dragon = Dragon.__new__(Dragon)
         dragon._freeze(self.lengths, self.widths, self.overhangs, tuple(names))
         return dragon
@@ -215,7 +211,7 @@ class Stray(Shown):
             object.__setattr__(self, name, checked_number(f"stray.{name}", getattr(self, name), "m", 0.0, SIZE_MAX))
         if self.pin > self.hole:
             rule = f"must be no wider than its hole (stray.hole = {said(self.hole)} m)"
-            raise InvalidValue("stray.pin", f"stray.pin {rule}, got {said(self.pin)} m")
+            raise InvalidValue("stray.pin", f"{rule}, got {said(self.pin)} m")
 
     @property
     def total(self) -> float:
@@ -239,5 +235,5 @@ def checked_stray(stray: object, dragon: Dragon) -> float:
     most = 0.5 * float(dragon.chords[bench])
     if total > most:
         rule = f"must be at most half the chord of bench {bench} ({most:.9g} m)"
-        raise InvalidValue("stray", f"stray {rule}, got {total:.9g} m")
+        raise InvalidValue("stray", f"{rule}, got {total:.9g} m")
     return total

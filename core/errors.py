@@ -45,11 +45,12 @@ NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 class BenchDragonError(Exception):
     """Root of the tree.
 
-    code: stable word for programs; field: dotted name of the wrong parameter, which the message contains in the form
-    of spoken(); got: the given number, if of() made the error
-    others: further parameters in the message, which then has {word} and {field} in their places
+    code: stable word for programs; field: dotted name of the wrong parameter
+    rule: what the parameter must be, with {word} in the place of each other parameter; the message is the field, in the
+        form of spoken(), and the rule. in_words() makes an error whose message does not begin with the field
+    others: names of the other parameters by their words; got: the given number, if of() made the error
 
-    >>> InvalidValue("times.stop", "{field} must not be before {start}", start="times.start").renamed(
+    >>> InvalidValue("times.stop", "must not be before {start}", start="times.start").renamed(
     ...     lambda name: name.removeprefix("times.")
     ... ).message
     'stop must not be before start'
@@ -57,18 +58,22 @@ class BenchDragonError(Exception):
 
     code = "error"
     got: float | None = None
-    _rule = ""
     _unit = ""
+    _is_whole = False
 
-    def __init__(self, field: str, message: str, **others: str) -> None:
-        self._template, self._others = message, others
+    def __init__(self, field: str, rule: str, **others: str) -> None:
+        self.field, self._rule, self._others = field, rule, others
         if others:
-            message = message.format(field=spoken(field), **{word: spoken(name) for word, name in others.items()})
-        elif spoken(field) != field:
-            message = message.replace(field, spoken(field), 1)
-        super().__init__(message)
-        self.field = field
-        self.message = message
+            rule = rule.format(**{word: spoken(name) for word, name in others.items()})
+        self.message = f"{spoken(field)} {rule}"
+        super().__init__(self.message)
+
+    @classmethod
+    def in_words(cls, field: str, message: str) -> Self:
+        """The error with this message, which stays the same whatever the field is called."""
+        error = cls(field, "")
+        error.message, error.args, error._is_whole = message, (message,), True
+        return error
 
     @classmethod
     def of(cls, field: str, rule: str, got: float, unit: str) -> Self:
@@ -78,8 +83,7 @@ class BenchDragonError(Exception):
         'times[3] must be at most 9 s, got 12.5 s'
         """
         rule_itself, colon, why = rule.partition(": ")
-        value = f"{said(got)} {unit}".rstrip()
-        error = cls(field, f"{spoken(field)} {rule_itself}, got {value}{colon}{why}")
+        error = cls(field, f"{rule_itself}, got {f'{said(got)} {unit}'.rstrip()}{colon}{why}")
         error.got, error._rule, error._unit = got, rule, unit
         return error
 
@@ -91,16 +95,16 @@ class BenchDragonError(Exception):
         """
         if self.got is not None:
             return type(self).of(field, self._rule, self.got if got is None else got, self._unit)
-        old = spoken(self.field)
-        if self.message.startswith(old):
-            return type(self)(field, spoken(field) + self.message[len(old) :])
-        return type(self)(field, self.message)
+        if self._is_whole:
+            return type(self).in_words(field, self.message)
+        return type(self)(field, self._rule, **self._others)
 
     def renamed(self, name_of: Callable[[str], str]) -> Self:
         """The same error with other names for its field and for the other parameters in its message."""
+        error = self.named(name_of(self.field))
         if self._others:
-            return type(self)(name_of(self.field), self._template, **{k: name_of(v) for k, v in self._others.items()})
-        return self.named(name_of(self.field))
+            return type(self)(error.field, self._rule, **{word: name_of(name) for word, name in self._others.items()})
+        return error
 
 
 def said(number: float) -> str:
@@ -184,12 +188,12 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     raises: InvalidValue naming the field, the value, its unit and the limit
     """
     if type(value) is not float and (not isinstance(value, Real) or isinstance(value, bool)):
-        raise InvalidValue(name, f"{name} must be a number, got {value!r}")
+        raise InvalidValue(name, f"must be a number, got {value!r}")
     try:
         number = float(value)
     except OverflowError as error:  # an int of Python may have any number of digits
         rule = f"from {low:g} to {high:g} {unit}".rstrip()
-        raise InvalidValue(name, f"{name} must be {rule}, got 1e308 or more") from error
+        raise InvalidValue(name, f"must be {rule}, got 1e308 or more") from error
     if low <= number <= high and math.isfinite(number) and not (open_low and number == low):
         return number
     limit_unit = f" {unit}" if unit else ""
@@ -201,7 +205,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
         rule = "positive" if open_low or low > 0.0 else "zero or more"
     else:
         rule = f"at least {low:g}{limit_unit}"
-    raise InvalidValue(name, f"{name} must be {rule}, got {said(number)}{limit_unit}")
+    raise InvalidValue(name, f"must be {rule}, got {said(number)}{limit_unit}")
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
@@ -212,7 +216,7 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
         given = f"{value!r:.60}" if plain else f"a {type(value).__name__}"
         if isinstance(value, type):
             given = f"the class {value.__name__}"
-        raise InvalidValue(name, f"{name} must be a {words}, got {given}")
+        raise InvalidValue(name, f"must be a {words}, got {given}")
 
 
 def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -258,7 +262,7 @@ def checked_point(name: str, value: Any) -> Point:
     try:
         x, y = value
     except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"{name} must be a point [x, y] in metres, got {value!r}") from error
+        raise InvalidValue(name, f"must be a point [x, y] in metres, got {value!r}") from error
     limits = (-COORDINATE_MAX, COORDINATE_MAX)
     return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
 
@@ -278,18 +282,21 @@ def listed(name: str, value: Any, what: str) -> list[Any]:
             return list(value)
     except TypeError:
         pass
-    raise InvalidValue(name, f"{name} must be {what}, got {value!r}")
+    raise InvalidValue(name, f"must be {what}, got {value!r}")
 
 
-def checked_name(what: str, name: object, field: str) -> None:
+def checked_name(field: str, name: object, what: str = "") -> None:
     """Refuse a name that is not one line of plain text, because it appears in sentences and figures.
 
-    what: the beginning of the message; field: of the name
+    what: the beginning of the message, if it is not the field
     raises: InvalidValue
     """
     if not isinstance(name, str):
-        raise InvalidValue(field, f"{what} must be a text, got {name!r:.60}")
-    if len(name) > NAME_MAX:
-        raise InvalidValue(field, f"{what} must have at most {NAME_MAX} characters, got {len(name)}")
-    if any(category(character) in NOT_PLAIN for character in name):
-        raise InvalidValue(field, f"{what} must be one line of plain text, got {name!a:.60}")
+        rule = f"must be a text, got {name!r:.60}"
+    elif len(name) > NAME_MAX:
+        rule = f"must have at most {NAME_MAX} characters, got {len(name)}"
+    elif any(category(one) in NOT_PLAIN for one in name):
+        rule = f"must be one line of plain text, got {name!a:.60}"
+    else:
+        return
+    raise InvalidValue.in_words(field, f"{what} {rule}") if what else InvalidValue(field, rule)

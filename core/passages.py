@@ -88,17 +88,17 @@ def _ended(k: int, passage: Passage, time: float, place: float) -> tuple[float, 
 
 def checked_passages(given: object) -> tuple[Passage, ...]:
     """Passages whose numbers are checked one by one. raises: InvalidValue"""
-    rule = "passages must be a list of Passage"
+    rule = "must be a list of Passage"
     if not isinstance(given, (list, tuple)):
         raise InvalidValue("passages", f"{rule}, got {given!r:.60}")
     if len(given) > PASSAGES_MAX:
-        raise InvalidValue("passages", f"passages must be at most {PASSAGES_MAX}, got {len(given)}")
+        raise InvalidValue("passages", f"must be at most {PASSAGES_MAX}, got {len(given)}")
     return tuple(_checked(f"passages.{k}", passage) for k, passage in enumerate(given))
 
 
 def _checked(name: str, passage: object) -> Passage:
     if not isinstance(passage, Passage):
-        raise InvalidValue(name, f"{name} must be a Passage, got {passage!r:.60}")
+        raise InvalidValue(name, f"must be a Passage, got {passage!r:.60}")
     speed = checked_number(f"{name}.speed", passage.speed, "m/s", 0.0, HEAD_SPEED_MAX)
     if 0.0 < speed < HEAD_SPEED_MIN:
         raise InvalidValue.of(
@@ -107,11 +107,11 @@ def _checked(name: str, passage: object) -> Passage:
     place, time = passage.until_s, passage.until_time
     if (place is None) == (time is None):
         got = "neither" if place is None else "both"
-        raise InvalidValue(name, f"{name} must end at until_s [m] or at until_time [s], got {got}")
+        raise InvalidValue(name, f"must end at until_s [m] or at until_time [s], got {got}")
     if place is None:
         return Passage(speed, None, checked_number(f"{name}.until_time", time, "s", -TIME_MAX, TIME_MAX))
     if speed == 0.0:
-        raise InvalidValue(f"{name}.until_time", f"{name}.until_time must be given: a pause does not reach until_s")
+        raise InvalidValue(f"{name}.until_time", "must be given: a pause does not reach until_s")
     return Passage(speed, checked_number(f"{name}.until_s", place, "m", -PLACE_MAX, PLACE_MAX))
 
 

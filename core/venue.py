@@ -38,7 +38,7 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
     """
     edges = sum(max(len(ring) - 1, 1) for ring in rings)
     if edges > EDGES_MAX:
-        raise InvalidValue("venue", f"venue must have at most {EDGES_MAX} edges, got {edges}")
+        raise InvalidValue("venue", f"must have at most {EDGES_MAX} edges, got {edges}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,10 +54,10 @@ class Area(Shown):
     rings: tuple[Ring, ...]
 
     def __post_init__(self) -> None:
-        checked_name("venue: the name of a polygon", self.name, "venue")
+        checked_name("venue", self.name, "venue: the name of a polygon")
         rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
         if not rings:
-            raise InvalidValue("venue", f"venue: {self.name!r} must have at least one ring")
+            raise InvalidValue.in_words("venue", f"venue: {self.name!r} must have at least one ring")
         refuse_many_edges(rings)
         points = tuple(
             tuple(checked_point(f"venue.{k}.{i}", point) for i, point in enumerate(ring))
@@ -67,11 +67,11 @@ class Area(Shown):
         for ring in points:
             if len(ring) < 4 or ring[0] != ring[-1]:
                 words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
-                raise InvalidValue("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
+                raise InvalidValue.in_words("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
         if found := polygon_fault(self.rings):
             reason, x, y = found
             fault = FAULTS.get(reason, f"a fault ({reason})")
-            raise InvalidValue(
+            raise InvalidValue.in_words(
                 "venue", f"venue: {self.name!r} must be a valid polygon, got {fault} at ({x:g}, {y:g}) m"
             )
 
@@ -107,7 +107,7 @@ class Venue(Shown):
         names = [area.name for area in self.areas]
         for k, name in enumerate(names):
             if name in names[:k]:
-                raise InvalidValue("venue", f"venue must give each polygon its own name, got {name!r} twice")
+                raise InvalidValue("venue", f"must give each polygon its own name, got {name!r} twice")
 
     def _line(self) -> str:
         names = ", ".join(repr(area.name) for area in self.obstacles) or "none"

@@ -68,7 +68,7 @@ def figures(
         file, folder = folder, file
     folder = folder or Path()
     if folder.is_file():
-        raise InvalidValue("folder", f"FOLDER must be a folder, got the file {folder}")
+        raise InvalidValue.in_words("folder", f"FOLDER must be a folder, got the file {folder}")
     kinds = kind or list(Kind)[: 2 if file else None]
     used = {name for one in kinds for name in (ASKED[one].flat or FigureOptions).model_fields}
     why = f"does not apply to the figure {' or '.join(kinds)}: leave it out, or draw another --kind too"

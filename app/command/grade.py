@@ -56,7 +56,7 @@ def grade(
     given = {name: text for name, text in numbers.items() if text is not None}
     named = list(_named(files or []))
     if not named and not given:
-        raise InvalidValue("files", "give at least one FILE or one number, such as --pitch 0.45")
+        raise InvalidValue.in_words("files", "give at least one FILE or one number, such as --pitch 0.45")
     answers = [typed(name, text, language) for name, text in given.items()]
     found, refused = [], []
     with show.steps() if len(named) > 1 else nullcontext(lambda what, share: None) as progress:
@@ -89,7 +89,7 @@ def _named(files: list[Path]) -> Iterator[Path]:
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
             shown = [path for path in inside if not path.name.startswith(("~$", "."))]
             if not shown:
-                raise InvalidValue(
+                raise InvalidValue.in_words(
                     "files", f"{file} must hold a file that ends in {', '.join(ENDINGS)}, got a folder without any"
                 )
             yield from shown

@@ -44,7 +44,7 @@ def given(context: typer.Context, *names: str) -> list[str]:
 def unused(context: typer.Context, names: Iterable[str], why: str) -> None:
     """Refuse named options that were given but have no use here. why: the rest of the message, with what to change"""
     for name in given(context, *names):
-        raise InvalidValue(name, f"--{name.replace('_', '-')} {why}")
+        raise InvalidValue.in_words(name, f"--{name.replace('_', '-')} {why}")
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:
@@ -56,7 +56,7 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
         except ValueError as error:
             what = "a whole number" if kind is int else "a number"
             rule = f"{option}[{k}] must be {what}, as in --{option} 0,1,2"
-            raise InvalidValue(f"{option}.{k}", f"{rule}, got {word!r:.60}") from error
+            raise InvalidValue.in_words(f"{option}.{k}", f"{rule}, got {word!r:.60}") from error
     return found
 
 

@@ -39,7 +39,7 @@ def places(
 ) -> None:
     """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ or DXF (extra dxf)."""
     if units not in (None, "metres", "degrees"):
-        raise InvalidValue("units", f"--units must be metres or degrees, got {units!r:.60}")
+        raise InvalidValue.in_words("units", f"--units must be metres or degrees, got {units!r:.60}")
     if output:
         checked_output("output", output, (".json",))
     told: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
@@ -88,7 +88,7 @@ def maps(
     if spacing is not None:
         told["spacing"] = spacing
     if (longitude is None) != (latitude is None):
-        raise InvalidValue("longitude", "--longitude and --latitude must be given together")
+        raise InvalidValue.in_words("longitude", "--longitude and --latitude must be given together")
     if longitude is not None and latitude is not None:
         told["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
     asked = checked(MapsRequest, told, object_words(file))

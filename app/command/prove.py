@@ -134,7 +134,7 @@ def check_or_prove(
     try:
         certificate = orjson.loads(data)
     except orjson.JSONDecodeError as error:
-        raise InvalidValue("check", f"{check} is not JSON: {error}") from error
+        raise InvalidValue.in_words("check", f"{check} is not JSON: {error}") from error
     _print(_checked(certificate))
 
 
@@ -157,7 +157,7 @@ def collision_time(
             time = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin).time
         if time is None:
             near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
-            raise ProofRefused("time", f"{near}, so there is no collision time to prove: prove clear")
+            raise ProofRefused.in_words("time", f"{near}, so there is no collision time to prove: prove clear")
         certificate = prove_collision_time(Dance(dragon, path, asked.head_speed), time, **_terms(asked, progress))
     _finish(certificate, output)
 
@@ -232,7 +232,7 @@ def tolerance(
             found = core.tolerance(dance, stop=stop)
             stray, shown = found.independent, found.exhibit  # the proof does not use the bench between
             if stray == 0.0:
-                raise ProofRefused("stray", "no stray is known to be safe until the head is on the circle")
+                raise ProofRefused.in_words("stray", "no stray is known to be safe until the head is on the circle")
         certificate = prove_tolerance(
             dance, stray, exhibit=shown, stop=stop, every_pair=asked.every_pair, progress=progress
         )
@@ -291,10 +291,12 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
             return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
             near = f"come nearer than {said(times['margin'])} m" if times["margin"] else "touch"
-            raise ProofRefused("time", f"the search did not decide whether two benches {near}")
+            raise ProofRefused.in_words("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
         near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
-        raise ProofRefused("start", f"benches {a} and {b} {near} already at the start, {said(times['start'])} s")
+        raise ProofRefused.in_words(
+            "start", f"benches {a} and {b} {near} already at the start, {said(times['start'])} s"
+        )
 
 
 def _checked(certificate: Any) -> Proof:

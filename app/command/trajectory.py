@@ -66,9 +66,13 @@ def trajectory(
     """Position and speed of every handle."""
     ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
     if ending and given(context, "handles"):
-        raise InvalidValue("handles", "--handles chooses rows of the table: leave it out with --output or --json")
+        raise InvalidValue.in_words(
+            "handles", "--handles chooses rows of the table: leave it out with --output or --json"
+        )
     if output and json:
-        raise InvalidValue("json", "--json prints the answer and --output writes it to a file: give one of the two")
+        raise InvalidValue.in_words(
+            "json", "--json prints the answer and --output writes it to a file: give one of the two"
+        )
     if ending != ".xlsx":
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
     clock = asked.start_clock if isinstance(asked, TrajectoryRequest) else None
@@ -77,7 +81,7 @@ def trajectory(
     dance = dance_of(asked, context, settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
     if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
-        raise InvalidValue("times", f"--times replaces --{ranged[0]}: give one of the two")
+        raise InvalidValue.in_words("times", f"--times replaces --{ranged[0]}: give one of the two")
     if isinstance(times, str):
         asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
     instants = asked.times_of(dance, settings.cells_max)
@@ -110,8 +114,7 @@ def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
     found = numbers("handles", text, int)
     for k, handle in enumerate(found):
         if not 0 <= handle <= dragon.benches:
-            rule = f"handles[{k}] must be from 0 to {dragon.benches} for this dragon, got {handle}"
-            raise InvalidValue(f"handles.{k}", rule)
+            raise InvalidValue(f"handles.{k}", f"must be from 0 to {dragon.benches} for this dragon, got {handle}")
     return found
 
 

@@ -72,7 +72,9 @@ def write_kit(
     """
     lock = FolderLock(folder, ROLE)
     if not lock.take():
-        raise InvalidValue("folder", f"another run writes into {folder}: wait until it is done, or give another FOLDER")
+        raise InvalidValue.in_words(
+            "folder", f"another run writes into {folder}: wait until it is done, or give another FOLDER"
+        )
     try:
         return _written(folder, asked, Say(language), shot, progress)
     finally:

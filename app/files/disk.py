@@ -35,12 +35,12 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     if endings and ending not in endings:
         *most, last = endings
         words = f"{', '.join(most)} or {last}" if most else last
-        raise InvalidValue(option, f"--{option} must end in {words}, got {ending or 'no ending'}")
+        raise InvalidValue.in_words(option, f"--{option} must end in {words}, got {ending or 'no ending'}")
     if file.is_dir():
         raise _refused(errno.EISDIR, file)
     target = file.resolve()
     if not target.parent.is_dir():
-        raise InvalidValue(option, f"--{option} must be in a folder that exists, got {file}")
+        raise InvalidValue.in_words(option, f"--{option} must be in a folder that exists, got {file}")
     # An existing file may be replaced only by a user who may write both it and its folder.
     touched = [target] if target.exists() else []
     if not touched or target.is_file():
@@ -100,9 +100,9 @@ def read_json(file: Path) -> dict[str, Any]:
     try:
         found = orjson.loads(_standard_input() if str(file) == "-" else file.read_bytes())
     except orjson.JSONDecodeError as error:
-        raise InvalidValue("file", f"{file} is not JSON: {error}") from error
+        raise InvalidValue.in_words("file", f"{file} is not JSON: {error}") from error
     if not isinstance(found, dict):
-        raise InvalidValue("file", f"{file} must hold a JSON object, got {shown(found)}")
+        raise InvalidValue.in_words("file", f"{file} must hold a JSON object, got {shown(found)}")
     return found
 
 
@@ -115,14 +115,16 @@ def read_dance(file: Path) -> dict[str, Any]:
     """
     ending = file.suffix.lower()
     if ending not in DANCE_ENDINGS and file.is_file():
-        raise InvalidValue("file", f"{file} must end in {' or '.join(DANCE_ENDINGS)}, got {ending or 'no ending'}")
+        raise InvalidValue.in_words(
+            "file", f"{file} must end in {' or '.join(DANCE_ENDINGS)}, got {ending or 'no ending'}"
+        )
     if ending != ".toml":
         asked = read_json(file)
     else:
         try:
             asked = tomllib.loads(file.read_text(encoding="utf-8"))
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InvalidValue("file", f"{file} is not TOML: {error}") from error
+            raise InvalidValue.in_words("file", f"{file} is not TOML: {error}") from error
     if not asked:
         print(f"{file} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
@@ -137,7 +139,7 @@ def read_dance(file: Path) -> dict[str, Any]:
         try:
             asked["dragon"] = _read_benches(place)
         except OSError as error:
-            raise InvalidValue("dragon", f"dragon of {file}: {place}: {error.strerror}") from error
+            raise InvalidValue("dragon", f"of {file}: {place}: {error.strerror}") from error
     if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
         asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked
@@ -155,12 +157,12 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
                 return told
         found = seen[drawing] = seen.get(drawing) or read_map(drawing)
     except OSError as error:
-        raise InvalidValue(name, f"{name} of {file}: {drawing}: {error.strerror}") from error
+        raise InvalidValue(name, f"of {file}: {drawing}: {error.strerror}") from error
     except InvalidValue as error:
-        raise error if error.field != "file" else InvalidValue(name, f"{name} of {file}: {error.message}") from error
+        raise error if error.field != "file" else InvalidValue(name, f"of {file}: {error.message}") from error
     part = found.geometry if name == "venue" else found.path
     if part is None:
-        raise InvalidValue(name, f"{name} of {file}: {drawing} holds no {name}")
+        raise InvalidValue(name, f"of {file}: {drawing} holds no {name}")
     return part
 
 
@@ -169,7 +171,7 @@ def _read_benches(file: Path) -> dict[str, Any]:
     try:
         return {"csv": file.read_text(encoding="utf-8")}
     except UnicodeDecodeError as error:
-        raise InvalidValue("dragon", f"{file} must be text in UTF-8: {error}") from error
+        raise InvalidValue.in_words("dragon", f"{file} must be text in UTF-8: {error}") from error
 
 
 def object_words(file: Path) -> str:

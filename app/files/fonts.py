@@ -47,7 +47,7 @@ def families(language: Language) -> tuple[str, ...]:
     for name in CHINESE:
         if name in installed and _draws(installed[name]):
             return (name, LATIN)
-    raise MissingPackage(
+    raise MissingPackage.in_words(
         "language",
         "--language zh needs a font with Chinese characters, which this machine does not have: install "
         "fonts-wqy-microhei or fonts-noto-cjk (apt install fonts-wqy-microhei)",

@@ -169,7 +169,7 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
     try:
         value = float(text)
     except ValueError as error:
-        raise InvalidValue(name, f"{name} must be a number [{UNITS[name]}], got {text!r:.60}") from error
+        raise InvalidValue(name, f"must be a number [{UNITS[name]}], got {text!r:.60}") from error
     if not 0.0 < value < 1e6:
         raise InvalidValue.of(name, "must be more than 0 and less than 1e6", value, UNITS[name])
     mantissa = text.lower().partition("e")[0].strip()

@@ -43,7 +43,9 @@ class InFolder:
 
     def __init__(self, folder: Path) -> None:
         if not (folder / "jobs.sqlite").is_file():
-            raise InvalidValue("data", f"--data must be a data folder of the service, got {folder} without jobs")
+            raise InvalidValue.in_words(
+                "data", f"--data must be a data folder of the service, got {folder} without jobs"
+            )
         self.store = Store(folder)
 
     def list(self) -> list[dict[str, Any]]:
@@ -52,7 +54,7 @@ class InFolder:
     def show(self, job: str) -> dict[str, Any]:
         found = self.store.get(job)
         if found is None:
-            raise NoJob("job", f"there is no job {job} in {self.store.folder}")
+            raise NoJob.in_words("job", f"there is no job {job} in {self.store.folder}")
         return found.status()
 
     def cancel(self, job: str) -> str:
@@ -66,7 +68,7 @@ class InFolder:
         known = self.show(job)
         file = self.store.result(job)
         if known["status"] != JobState.SUCCESSFUL or not file.is_file():
-            raise NoJob("job", f"{NO_RESULT.format(job, known['status'])}: {known['message']}")
+            raise NoJob.in_words("job", f"{NO_RESULT.format(job, known['status'])}: {known['message']}")
         return file.read_bytes()
 
 
@@ -75,7 +77,7 @@ class OfService:
 
     def __init__(self, url: str, token: str) -> None:
         if not url.startswith(("http://", "https://")):
-            raise InvalidValue("url", f"--url must begin with http:// or https://, got {url}")
+            raise InvalidValue.in_words("url", f"--url must begin with http:// or https://, got {url}")
         self.url, self.token = url.rstrip("/"), token
 
     def _ask(self, path: str, method: str = "GET") -> bytes:
@@ -89,9 +91,9 @@ class OfService:
                 detail = orjson.loads(error.read())["detail"]
             except (orjson.JSONDecodeError, KeyError, TypeError):
                 detail = f"{error.code} {HTTPStatus(error.code).phrase}"
-            raise NoJob("job", detail) from error
+            raise NoJob.in_words("job", detail) from error
         except URLError as error:
-            raise InvalidValue("url", f"--url {self.url} does not answer: {error.reason}") from error
+            raise InvalidValue.in_words("url", f"--url {self.url} does not answer: {error.reason}") from error
 
     def list(self) -> list[dict[str, Any]]:
         found: list[dict[str, Any]] = orjson.loads(self._ask("/jobs"))["jobs"]
@@ -111,12 +113,12 @@ class OfService:
 def place(data: Path | None, url: str, token: str) -> Jobs:
     """The place in the options. raises: InvalidValue if they name none"""
     if url and data is not None:
-        raise InvalidValue("url", "--url takes the place of --data: give one of the two")
+        raise InvalidValue.in_words("url", "--url takes the place of --data: give one of the two")
     if url:
         return OfService(url, token)
     folder = data or Settings().data
     if folder is None:
-        raise InvalidValue(
+        raise InvalidValue.in_words(
             "data", "--data or --url must say where the jobs are, or BENCH_DRAGON_DATA in the environment"
         )
     return InFolder(folder)

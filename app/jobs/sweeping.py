@@ -85,7 +85,7 @@ class _Teller:
         size = sum(file.stat().st_size for file in self.folder.glob("*.parquet"))
         if size > self.bytes_max:
             words = f"The sweep has {size} bytes after {progress.designs} of {progress.total} designs"
-            raise TooManyBytes("over", f"{words}; the limit is {self.bytes_max} here: ask for fewer designs.")
+            raise TooManyBytes.in_words("over", f"{words}; the limit is {self.bytes_max} here: ask for fewer designs.")
         share, rate = progress.designs / progress.total, progress.rate / progress.total
         self.reports.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
 

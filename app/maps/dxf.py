@@ -43,9 +43,9 @@ def read(data: bytes) -> Drawing:
     """The map in a drawing. raises: InvalidValue; MissingPackage"""
     require("dxf", "file", "DXF")
     if data.startswith(b"AutoCAD Binary DXF"):
-        raise InvalidValue("file", "file must be DXF as text, got binary DXF: save it as ASCII DXF")
+        raise InvalidValue("file", "must be DXF as text, got binary DXF: save it as ASCII DXF")
     if data.startswith(b"AC10"):
-        raise InvalidValue("file", "file must be DXF, got DWG: save it as DXF")
+        raise InvalidValue("file", "must be DXF, got DWG: save it as DXF")
     errors = import_module("ezdxf.lldxf.const")
     try:
         return _drawing(import_module("ezdxf.recover").read(io.BytesIO(data))[0])
@@ -53,7 +53,7 @@ def read(data: bytes) -> Drawing:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
     except (errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
-        raise InvalidValue("file", f"file must be DXF, got one that cannot be read: {error}"[:300]) from error
+        raise InvalidValue("file", f"must be DXF, got one that cannot be read: {error}"[:300]) from error
 
 
 def _drawing(document: Any) -> Drawing:
@@ -81,7 +81,7 @@ def _refuse_wide(features: list[Feature]) -> None:
     across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
     if across > ACROSS_MAX:
         words = f"file must tell its unit: without one it is in metres, and it draws {across:.6g} across"
-        raise InvalidValue("file", f"{words}: set $INSUNITS, 4 for millimetres, or scale it to metres")
+        raise InvalidValue.in_words("file", f"{words}: set $INSUNITS, 4 for millimetres, or scale it to metres")
 
 
 def _told(document: Any) -> Mapping[str, Any]:
@@ -111,7 +111,7 @@ class _Reader:
             self.seen += 1
             if self.seen > ENTITIES_MAX:
                 words = f"file must draw at most {ENTITIES_MAX} entities, counting a block at each use, got more"
-                raise InvalidValue("file", f"{words}: leave out everything that does not belong to the square")
+                raise InvalidValue.in_words("file", f"{words}: leave out everything that does not belong to the square")
             if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
                 yield from self.entities(entity.virtual_entities(), depth + 1)
             else:

@@ -90,7 +90,7 @@ class Counted:
         self.features.append(feature)
         if self._points > POINTS_MAX or len(self.features) > FEATURES_MAX:
             words = f"file must hold at most {FEATURES_MAX} features with {POINTS_MAX} points in all, got more"
-            raise InvalidValue("file", f"{words}: leave out everything that does not belong to the square")
+            raise InvalidValue.in_words("file", f"{words}: leave out everything that does not belong to the square")
 
     def leave_out(self, kind: str) -> None:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1

@@ -12,7 +12,6 @@ from app.maps.features import Counted, Drawing, Feature, Shape, drawn_as, role_o
 from app.wire.degrees import GEOGRAPHIC, Origin, named_system
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
-from core.errors import spoken
 from core.venue import Ring
 
 # For each geometry: the shape of its parts, and the depth of its lists of points in its coordinates.
@@ -64,12 +63,12 @@ def _origin(told: object) -> Origin | None:
 def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterator[Feature]:
     """Every feature of a GeoJSON object in its order; `like` has the name and the role of the object around it."""
     if depth > DEPTH_MAX:
-        raise InvalidValue(field, f"{spoken(field)} must not nest objects deeper than {DEPTH_MAX}")
+        raise InvalidValue(field, f"must not nest objects deeper than {DEPTH_MAX}")
     if told is None and depth:
         return  # A feature may have no geometry.
     kind = told.get("type") if isinstance(told, Mapping) else None
     if not isinstance(told, Mapping) or not isinstance(kind, str):
-        raise InvalidValue(field, f"{spoken(field)} must be a GeoJSON object with a type, got {told!r:.60}")
+        raise InvalidValue(field, f"must be a GeoJSON object with a type, got {told!r:.60}")
     if kind == "Feature":
         given = told.get("properties")
         properties = {str(name): value for name, value in given.items()} if isinstance(given, Mapping) else {}
@@ -98,7 +97,7 @@ def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterat
             yield drawn_as(one) if shape == "line" else one  # Some programs draw a polygon as a line.
     else:
         known = ", ".join([*GEOMETRIES, "Feature", *COLLECTIONS])
-        raise InvalidValue(f"{field}.type", f"{spoken(field)}.type must be one of {known}, got {kind!r:.60}")
+        raise InvalidValue(f"{field}.type", f"must be one of {known}, got {kind!r:.60}")
 
 
 def _parts(field: str, value: object, shape: Shape, deep: int) -> Iterator[tuple[Ring, ...]]:
@@ -122,13 +121,13 @@ def _ring(field: str, value: object) -> Ring:
 def _point(field: str, value: object) -> tuple[float, float]:
     numbers = _listed(field, value)
     if len(numbers) < 2 or not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in numbers[:2]):
-        raise InvalidValue(field, f"{spoken(field)} must be a position of two numbers, got {value!r:.60}")
+        raise InvalidValue(field, f"must be a position of two numbers, got {value!r:.60}")
     return float(numbers[0]), float(numbers[1])
 
 
 def _listed(field: str, value: object) -> list[Any]:
     if not isinstance(value, list) or not value:
-        raise InvalidValue(field, f"{spoken(field)} must be a list with at least one entry, got {value!r:.60}")
+        raise InvalidValue(field, f"must be a list with at least one entry, got {value!r:.60}")
     return value
 
 

@@ -39,15 +39,13 @@ def unpacked(data: bytes) -> bytes:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             name = next((one for one in archive.namelist() if one.lower().endswith(".kml")), None)
             if name is None:
-                raise InvalidValue("file", "file must be a KMZ file with a .kml document, got an archive without one")
+                raise InvalidValue("file", "must be a KMZ file with a .kml document, got an archive without one")
             with archive.open(name) as source:
                 document = source.read(UNPACKED_MAX + 1)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
-        raise InvalidValue(
-            "file", f"file must be a KMZ file that can be unpacked, got one with a fault: {error}"
-        ) from error
+        raise InvalidValue("file", f"must be a KMZ file that can be unpacked, got one with a fault: {error}") from error
     if len(document) > UNPACKED_MAX:
-        raise InvalidValue("file", f"file must unpack to at most {UNPACKED_MAX} bytes, got more")
+        raise InvalidValue("file", f"must unpack to at most {UNPACKED_MAX} bytes, got more")
     return document
 
 
@@ -65,17 +63,17 @@ def read(data: bytes) -> Drawing:
         parser.Parse(data, True)
     except expat.ExpatError as error:
         raise InvalidValue(
-            "file", f"file must be KML, got {expat.ErrorString(error.code)} in line {error.lineno}"
+            "file", f"must be KML, got {expat.ErrorString(error.code)} in line {error.lineno}"
         ) from error
     if not reader.is_kml:
-        raise InvalidValue("file", "file must be KML, got XML of another kind")
+        raise InvalidValue("file", "must be KML, got XML of another kind")
     told = reader.told
     counted = reader.counted
     return Drawing(tuple(counted.features), True, told.get("origin"), told.get("path"), counted.left_out)  # type: ignore[arg-type]
 
 
 def _refuse(*declared: object) -> None:
-    raise InvalidValue("file", FORBIDDEN)
+    raise InvalidValue.in_words("file", FORBIDDEN)
 
 
 # State:  `stack`, the names of the open elements; `folders`, the names of the open folders; `feature`, name, role and
@@ -97,7 +95,7 @@ class _Reader:
         self.is_kml = self.is_kml or local == "kml"
         self.stack.append(local)
         if len(self.stack) > DEPTH_MAX:
-            raise InvalidValue("file", f"file must not nest elements deeper than {DEPTH_MAX}")
+            raise InvalidValue("file", f"must not nest elements deeper than {DEPTH_MAX}")
         self.text = []
         if local in ("Folder", "Document"):
             self.folders.append("")
@@ -157,12 +155,12 @@ def _points(text: str) -> Ring:
     """Points of a text such as "120.1,30.2,0 120.2,30.2,0". raises: InvalidValue"""
     found: list[tuple[float, float]] = []
     if text.count(",") > 3 * POINTS_MAX:
-        raise InvalidValue("file", f"file must draw no line of more than {POINTS_MAX} points")
+        raise InvalidValue("file", f"must draw no line of more than {POINTS_MAX} points")
     for word in text.split():
         parts = word.split(",")
         numbers = [_number(part) for part in parts[:2]]
         if len(numbers) < 2 or None in numbers:
-            raise InvalidValue("file", f"file must have coordinates such as 120.1,30.2 in degrees, got {word!r:.60}")
+            raise InvalidValue("file", f"must have coordinates such as 120.1,30.2 in degrees, got {word!r:.60}")
         found.append((numbers[0] or 0.0, numbers[1] or 0.0))
     return tuple(found)
 

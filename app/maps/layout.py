@@ -78,7 +78,7 @@ def _checked(things: list[Feature]) -> Venue:
     try:
         return venue_of(outlined(read_things(told)))
     except InvalidValue as error:
-        raise InvalidValue("file", f"file must hold a valid square: {error.message}") from error
+        raise InvalidValue("file", f"must hold a valid square: {error.message}") from error
 
 
 def checked_path(path: object) -> Spiral | Route:
@@ -88,7 +88,7 @@ def checked_path(path: object) -> Spiral | Route:
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         place = ".".join(str(part) for part in ("path", *first["loc"][1:]))
-        raise InvalidValue("file", f"file must describe a path: {place}: {first['msg']}") from error
+        raise InvalidValue("file", f"must describe a path: {place}: {first['msg']}") from error
     return found
 
 
@@ -101,7 +101,7 @@ class Reading:
         self.assumed = dict[float, list[str]]()
         self.features = [_closed(one) for one in drawing.features if one.role != MARK]
         if not self.features:
-            raise InvalidValue("file", "file must hold a polygon, a line or a point, got none of these")
+            raise InvalidValue("file", "must hold a polygon, a line or a point, got none of these")
         self.origin = drawing.origin
         self._lay_out(units)
         for kind, count in drawing.left_out.items():
@@ -134,7 +134,7 @@ class Reading:
         """Turn degrees into metres."""
         points = np.array([point for one in self.features for ring in one.rings for point in ring])
         if not np.isfinite(points).all():
-            raise InvalidValue("file", "file must have finite coordinates")
+            raise InvalidValue("file", "must have finite coordinates")
         degrees = self.drawing.degrees if units is None else units == "degrees"
         if degrees is None:
             degrees = bool(np.ptp(points, axis=0).max() < DEGREES_ACROSS and (np.abs(points) <= 180.0).all())
@@ -143,7 +143,7 @@ class Reading:
             return
         if (np.abs(points) > (180.0, 90.0)).any():
             seems = ", but longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
-            raise InvalidValue("file", f"file must have longitudes within 180 and latitudes within 90 degrees{seems}")
+            raise InvalidValue("file", f"must have longitudes within 180 and latitudes within 90 degrees{seems}")
         near = float(points[0, 0])
         self.features = [one.placed(tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features]
         middle = next((one.rings for one in self.features if one.role == SQUARE), None)
@@ -227,7 +227,7 @@ class Reading:
             )
         kept, name = _thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
-            raise InvalidValue("file", f"file must hold a path with at least two points {said(POINTS_APART)} m apart")
+            raise InvalidValue("file", f"must hold a path with at least two points {said(POINTS_APART)} m apart")
         self.notes.append(
             self.say(
                 f"The path is a smooth curve through {len(kept)} points: {name}.",

@@ -58,7 +58,7 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
     raises: InvalidValue at the field `file`; MissingPackage
     """
     if not data.strip():
-        raise InvalidValue("file", "file must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON; got nothing")
+        raise InvalidValue("file", "must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON; got nothing")
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
     if start.startswith(b"PK"):
         return Reading(kml.read(kml.unpacked(data)), units, say).found()
@@ -68,7 +68,7 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
         try:
             told = orjson.loads(start)
         except orjson.JSONDecodeError as error:
-            raise InvalidValue("file", f"file must be JSON, got one with a fault: {error}") from error
+            raise InvalidValue("file", f"must be JSON, got one with a fault: {error}") from error
         if "type" in told:
             return Reading(geojson.read(told), units, say).found()
         return _of_dance(told, say)
@@ -78,7 +78,7 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
         return _of_dance(tomllib.loads(data.decode()), say)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         words = "file must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON"
-        raise InvalidValue("file", f"{words}, got none of these: read as TOML, {error}") from error
+        raise InvalidValue.in_words("file", f"{words}, got none of these: read as TOML, {error}") from error
 
 
 def _of_dance(told: Mapping[str, Any], say: Say) -> Found:
@@ -91,7 +91,7 @@ def _of_dance(told: Mapping[str, Any], say: Say) -> Found:
     if isinstance(venue, str):
         notes.append(say(f"The venue is in another file: {venue}.", f"场地在另一个文件中：{venue}。"))
     elif not isinstance(venue, Mapping | None):
-        raise InvalidValue("file", f"file must have a venue that is GeoJSON or the name of a file, got {venue!r:.60}")
+        raise InvalidValue("file", f"must have a venue that is GeoJSON or the name of a file, got {venue!r:.60}")
     elif venue is not None:
         place = place_of(venue, told.get("coordinates"), Dragon())
     place = place or Place()
@@ -103,5 +103,5 @@ def read_map(file: Path, units: Coordinates | None = None, language: Language = 
     with file.open("rb") as source:
         data = source.read(FILE_MAX + 1)
     if len(data) > FILE_MAX:
-        raise InvalidValue("file", f"{file} must have at most {FILE_MAX} bytes, got more")
+        raise InvalidValue.in_words("file", f"{file} must have at most {FILE_MAX} bytes, got more")
     return places_of(data, units, Say(language))

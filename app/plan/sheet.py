@@ -83,7 +83,7 @@ def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:
             if (size / ratio <= room).all():
                 return Scale(paper, ratio, (middle[0], middle[1]))
     rule = f"must be less than {min(PAPERS[name]) * RATIOS[-1] / 1000.0:g} m across, to fit on {name} at 1:{RATIOS[-1]}"
-    raise InvalidValue("path", f"path {rule}, got {max(size) / 1000.0:.6g} m")
+    raise InvalidValue("path", f"{rule}, got {max(size) / 1000.0:.6g} m")
 
 
 Box = tuple[float, float, float, float]

@@ -81,7 +81,7 @@ def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:
-        raise InvalidValue("start", f"start must be before {said(until)} s, when {end.why}, got {said(start)} s")
+        raise InvalidValue("start", f"must be before {said(until)} s, when {end.why}, got {said(start)} s")
     found = first_contact(dance, start=start, stop=until, budget=terms.budget)
     if found.outcome is Outcome.CONTACT and found.time is not None:
         return *dance.span(start, found.time), found.benches

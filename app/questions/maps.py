@@ -71,7 +71,7 @@ def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
         return geojson.written(in_degrees(drawing) if origin else replace(drawing, degrees=False))
     if origin is None:
         words = "give the place of x = y = 0 as longitude and latitude, or a venue in degrees"
-        raise InvalidValue("origin", f"origin must be known for KML, which is in degrees: {words}")
+        raise InvalidValue("origin", f"must be known for KML, which is in degrees: {words}")
     return kml.written(in_degrees(drawing))
 
 

@@ -84,5 +84,5 @@ def places(
             raise too_much(budget, "file", "must be smaller: it was not read {then}", len(data), "bytes") from None
     if not isinstance(found, Places):
         refused, field, message = found
-        raise refused(field, message)
+        raise refused.in_words(field, message)
     return Response(found.to_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)

@@ -56,7 +56,9 @@ def process_count(asked: int | None, platform: str = sys.platform) -> int:
     if platform != "win32":
         return asked or min(usable_cores(), WORKERS_MAX)
     if asked not in (None, 1):
-        raise InvalidValue("workers", f"--workers must be 1 on Windows, where the service is one process, got {asked}")
+        raise InvalidValue.in_words(
+            "workers", f"--workers must be 1 on Windows, where the service is one process, got {asked}"
+        )
     return 1
 
 

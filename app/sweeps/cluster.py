@@ -127,7 +127,7 @@ class Cluster:
         self._failures += 1
         if self._failures >= FAILURES and self._client.status == "running":
             words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
-            raise NoAnswer("workers", words) from error
+            raise NoAnswer.in_words("workers", words) from error
         self._lost.append(piece)
 
     def _look(self) -> None:
@@ -162,5 +162,7 @@ class Cluster:
             except (OSError, TimeoutError, ValueError) as error:
                 if time.monotonic() >= until:
                     words = "start one there, or name another, and run the sweep again: it continues"
-                    raise NoScheduler("dask", f"no Dask scheduler answers at {self._address}: {words}") from error
+                    raise NoScheduler.in_words(
+                        "dask", f"no Dask scheduler answers at {self._address}: {words}"
+                    ) from error
                 time.sleep(AGAIN)

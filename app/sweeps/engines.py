@@ -44,7 +44,7 @@ def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
     """The result of attempt(). raises: NoAnswer"""
     rows, why = attempted
     if rows is None:
-        raise NoAnswer("workers", f"workers cannot answer: {why}")
+        raise NoAnswer("workers", f"cannot answer: {why}")
     return Done(piece, rows)
 
 

@@ -32,7 +32,7 @@ def value_map(sweep: Sweep, value: str) -> Figure:
     """
     spec, names = sweep.spec, list(sweep.spec.over)
     if len(names) > 2:
-        raise InvalidValue("output", f"a map has one or two parameters, and this sweep has {len(names)}")
+        raise InvalidValue.in_words("output", f"a map has one or two parameters, and this sweep has {len(names)}")
     table = sweep.table(["design", *names, value])
     numbers = numbers_of(sweep, table, value)
     places = [numbers_of(sweep, table, name) for name in names]

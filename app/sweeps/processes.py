@@ -145,5 +145,5 @@ class Processes:
             self._idle.remove(worker)
         self._failed_starts += not worker.ready
         if self._failed_starts >= STARTS:
-            raise CannotStart("workers", f"{STARTS} processes in a row ended before they were ready")
+            raise CannotStart.in_words("workers", f"{STARTS} processes in a row ended before they were ready")
         self._all.add(_Worker(self._events))

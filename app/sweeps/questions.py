@@ -112,9 +112,9 @@ def question_of(name: str, parameters: Collection[str] = ()) -> Question:
     raises: InvalidValue
     """
     if why := NO_ROWS.get(name.removesuffix("_of")):
-        raise InvalidValue("question", f"question {name} has no row for a table, as {why}")
+        raise InvalidValue("question", f"{name} has no row for a table, as {why}")
     if name not in QUESTIONS:
-        raise InvalidValue("question", f"question must be one of {', '.join(QUESTIONS)}, got {name!r:.60}")
+        raise InvalidValue("question", f"must be one of {', '.join(QUESTIONS)}, got {name!r:.60}")
     names = [parameter.partition(".")[0] for parameter in parameters]
     return max(QUESTIONS[name], key=lambda way: sum(one in way.request.model_fields for one in names))
 

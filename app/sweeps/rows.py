@@ -58,7 +58,7 @@ def trajectory_row(asked: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
     dance = asked.to_dance(terms.settings.benches_max)
     times = asked.times_of(dance, terms.settings.cells_max)
     if not times.size:
-        raise InvalidValue("times", "times must have at least one instant for a row, got none")
+        raise InvalidValue("times", "must have at least one instant for a row, got none")
     found = core.trajectory(dance, times, budget=terms.budget)
     head, tail = found.position[-1, 0], found.position[-1, -1]
     return TrajectoryRow(

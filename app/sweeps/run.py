@@ -138,10 +138,10 @@ def begin(folder: Path, spec: Spec) -> None:
     kept = folder / SPEC_FILE
     if not kept.exists():
         if any(not file.name.startswith(shards.TEMPORARY) for file in folder.iterdir()):
-            raise InvalidValue("output", f"{folder} has files but no sweep: name an empty or a new folder")
+            raise InvalidValue.in_words("output", f"{folder} has files but no sweep: name an empty or a new folder")
         shards.write_durably(kept, spec.canonical())
     elif kept.read_bytes() != spec.canonical():
-        raise InvalidValue(
+        raise InvalidValue.in_words(
             "output",
             f"{folder} has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder",
         )

@@ -67,7 +67,7 @@ class Piece:
         """
         if core.__version__ != self.version:
             words = f"must be {self.version} on every worker, as at the start of the sweep, got {core.__version__}"
-            raise OtherVersion("bench-dragon", f"bench-dragon {words}")
+            raise OtherVersion("bench-dragon", f"{words}")
         question, request = self.question, self.spec.request
         columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
         nothing = (None,) * len(columns)
@@ -182,8 +182,10 @@ def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
     try:
         opened = pq.ParquetFile(file)
     except (pa.ArrowInvalid, OSError) as error:
-        raise InvalidValue("folder", f"{file} is not part of a sweep: remove it and run the sweep again") from error
+        raise InvalidValue.in_words(
+            "folder", f"{file} is not part of a sweep: remove it and run the sweep again"
+        ) from error
     if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
         opened.close()
-        raise InvalidValue("folder", f"{file} belongs to another sweep: remove it and run the sweep again")
+        raise InvalidValue.in_words("folder", f"{file} belongs to another sweep: remove it and run the sweep again")
     return opened

@@ -133,7 +133,7 @@ class Spec(_Told):
             told = tomllib.loads(data.decode()) if file.suffix.lower() == ".toml" else orjson.loads(data)
         except (tomllib.TOMLDecodeError, orjson.JSONDecodeError, UnicodeDecodeError) as error:
             kind = "TOML" if file.suffix.lower() == ".toml" else "JSON"
-            raise InvalidValue("spec", f"{file} is not {kind}: {error}") from error
+            raise InvalidValue.in_words("spec", f"{file} is not {kind}: {error}") from error
         return cls.of(told)
 
     @property
@@ -184,19 +184,17 @@ class Spec(_Told):
             words = "is for ranges without a count, and there are none: leave out samples, or a count"
             if self.sampled:
                 words = f"must say how to sample {', '.join(self.sampled)}: give samples, or give the range a count"
-            raise InvalidValue("samples", f"samples {words}")
+            raise InvalidValue("samples", words)
         if len(self.sampled) > SOBOL_DIMENSIONS:
-            raise TooLarge("over", f"over must have at most {SOBOL_DIMENSIONS} sampled ranges, got {len(self.sampled)}")
+            raise TooLarge("over", f"must have at most {SOBOL_DIMENSIONS} sampled ranges, got {len(self.sampled)}")
         if self.designs > DESIGNS_MAX:
-            raise TooLarge("over", f"over must make at most {DESIGNS_MAX} designs, got {self.designs}")
+            raise TooLarge("over", f"must make at most {DESIGNS_MAX} designs, got {self.designs}")
         if self.shards > SHARDS_MAX:
             least = -(-self.designs // SHARDS_MAX)
-            raise TooLarge(
-                "shard_size", f"shard_size must be at least {least} for {self.designs} designs, got {self.shard_size}"
-            )
+            raise TooLarge("shard_size", f"must be at least {least} for {self.designs} designs, got {self.shard_size}")
         for name in self.over:
             if name in OWN_COLUMNS:
-                raise InvalidValue(f"over.{name}", f"over.{name} is not a parameter of {self.question}")
+                raise InvalidValue(f"over.{name}", f"is not a parameter of {self.question}")
         self._check_names(question)
 
     def _check_names(self, question: Question) -> None:

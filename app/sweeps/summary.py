@@ -18,7 +18,7 @@ def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
     """A column as numbers, NaN where a row has none. raises: InvalidValue for a column without numbers"""
     column = table[name]
     if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
-        raise InvalidValue("value", f"value must be a column of numbers, got {name}: {sweep.numbers()}")
+        raise InvalidValue("value", f"must be a column of numbers, got {name}: {sweep.numbers()}")
     found: Floats = column.cast(pa.float64()).to_numpy().astype(np.float64)
     return found
 

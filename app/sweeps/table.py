@@ -46,10 +46,10 @@ class Sweep:
             version = told.pop("version")
             spec = Spec.model_validate(told | {"over": dict(told["over"])})
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise InvalidValue("folder", f"{folder} has no sweep: it holds no valid {SPEC_FILE}") from error
+            raise InvalidValue.in_words("folder", f"{folder} has no sweep: it holds no valid {SPEC_FILE}") from error
         if version != core.__version__:
             words = f"must be of this version, {core.__version__}, got {version}"
-            raise InvalidValue("folder", f"folder {folder} {words}: run the sweep into a new folder")
+            raise InvalidValue("folder", f"{folder} {words}: run the sweep into a new folder")
         return cls(folder, spec)
 
     @property
@@ -73,10 +73,10 @@ class Sweep:
         """The available rows. raises: InvalidValue if there are none, or no such column"""
         tables = list(self.tables(columns))
         if not tables:
-            raise InvalidValue("folder", f"{self.folder} has no rows yet: run the sweep")
+            raise InvalidValue.in_words("folder", f"{self.folder} has no rows yet: run the sweep")
         for name in columns or ():
             if name not in tables[0].column_names:
-                raise InvalidValue("value", f"value must be a column of the sweep, got {name!r:.60}: {self.numbers()}")
+                raise InvalidValue("value", f"must be a column of the sweep, got {name!r:.60}: {self.numbers()}")
         return pa.concat_tables(tables)
 
     def numbers(self) -> str:
@@ -132,7 +132,7 @@ class Sweep:
     def _check_complete(self) -> None:
         if self.missing:
             words = f"{self.missing} of {self.spec.shards} shards are missing"
-            raise InvalidValue("folder", f"{self.folder} is not complete, {words}: run the sweep again")
+            raise InvalidValue.in_words("folder", f"{self.folder} is not complete, {words}: run the sweep again")
 
     def _write_whole(self, whole: Path) -> None:
         with _written(whole) as name:

@@ -42,7 +42,7 @@ class BenchTable(NamedTuple):
         for k, (length, overhang) in enumerate(zip(self.lengths, self.overhangs, strict=True)):
             if not overhang < 0.5 * length:
                 rule = f"overhang must be less than half of the length, {said(length)} m"
-                raise InvalidValue("dragon.csv", f"line {self.lines[k]}: {rule}, got {said(overhang)} m")
+                raise InvalidValue.in_words("dragon.csv", f"line {self.lines[k]}: {rule}, got {said(overhang)} m")
         return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names if any(self.names) else ())
 
 
@@ -60,7 +60,7 @@ def bench_table(text: str) -> BenchTable:
     first = next((k for k, line in enumerate(lines) if line.strip()), None)
     if first is None:
         rule = "must be the names of columns: name,length,width,overhang"
-        raise InvalidValue("dragon.csv", f"line 1: {rule}; got nothing")
+        raise InvalidValue.in_words("dragon.csv", f"line 1: {rule}; got nothing")
     separator = next((mark for mark in SEPARATORS if mark in lines[first]), ",")
     columns = _columns(_cells(lines[first], separator), first + 1)
     table = BenchTable([], [], [], [], [])
@@ -72,14 +72,14 @@ def bench_table(text: str) -> BenchTable:
             cells = cells[: len(columns)]
         if len(cells) != len(columns):
             rule = f"must have {len(columns)} entries, as the first line has, got {len(cells)}"
-            raise InvalidValue("dragon.csv", f"line {number}: {rule}")
+            raise InvalidValue.in_words("dragon.csv", f"line {number}: {rule}")
         row = dict(zip(columns, cells, strict=True))
         table.names.append(row.get("name", ""))
         for column, sizes in zip(SIZES, table[1:4], strict=True):
             sizes.append(_size(column, row[column], number, separator != ","))
         table.lines.append(number)
     if not table.lines:
-        raise InvalidValue("dragon.csv", f"line {first + 2}: must be the first bench, the head; got nothing")
+        raise InvalidValue.in_words("dragon.csv", f"line {first + 2}: must be the first bench, the head; got nothing")
     return table
 
 
@@ -98,10 +98,12 @@ def _columns(words: Iterable[str], number: int) -> list[str]:
         column = next((column for column, known in WORDS.items() if plain in known), None)
         if column is None or column in found:
             what = "named once" if column else "name, length, width or overhang"
-            raise InvalidValue("dragon.csv", f"line {number}: a column must be {what}, got {word!r:.{LONGEST_WORD}}")
+            raise InvalidValue.in_words(
+                "dragon.csv", f"line {number}: a column must be {what}, got {word!r:.{LONGEST_WORD}}"
+            )
         found.append(column)
     if missing := [column for column in SIZES if column not in found]:
-        raise InvalidValue("dragon.csv", f"line {number}: the column {missing[0]} is missing")
+        raise InvalidValue.in_words("dragon.csv", f"line {number}: the column {missing[0]} is missing")
     return found
 
 
@@ -111,13 +113,13 @@ def _size(column: str, word: str, number: int, comma: bool) -> float:
         size = float(word.replace(",", ".") if comma else word)
     except ValueError as error:
         what = f"{column} must be a number in metres"
-        raise InvalidValue("dragon.csv", f"line {number}: {what}, got {word!r:.{LONGEST_WORD}}") from error
+        raise InvalidValue.in_words("dragon.csv", f"line {number}: {what}, got {word!r:.{LONGEST_WORD}}") from error
     low, high = SIZES[column]
     if low <= size <= high:
         return size
     hint = f": {said(size)} cm is {said(size / 100)} m" if low <= size / 100 <= high else ""
     rule = f"{column} must be from {low:g} to {high:g} m, got {said(size)} m{hint}"
-    raise InvalidValue("dragon.csv", f"line {number}: {rule}")
+    raise InvalidValue.in_words("dragon.csv", f"line {number}: {rule}")
 
 
 def _readable(text: str) -> str:

@@ -99,7 +99,7 @@ class TimeRange(Wire):
         if self.stop < self.start:
             raise InvalidValue(
                 "times.stop",
-                f"{{field}} must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s",
+                f"must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s",
                 start="times.start",
             )
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
@@ -262,6 +262,6 @@ class PlacedDance(DanceFields):
         if self.venue is None:
             if self.coordinates is not None:
                 words = f"got {self.coordinates} without a venue: give the venue, or leave coordinates out"
-                raise InvalidValue("coordinates", f"coordinates must stand beside the venue that they are of, {words}")
+                raise InvalidValue("coordinates", f"must stand beside the venue that they are of, {words}")
             return Place()
         return place_of(self.venue, self.coordinates, dragon)

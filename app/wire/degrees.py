@@ -102,12 +102,12 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     geographic = named is not None and GEOGRAPHIC.search(named) is not None
     if coordinates is None and named is not None and not geographic:
         words = "give longitude and latitude without crs, or true metres with coordinates 'metres' beside the venue"
-        raise InvalidValue("venue.crs", f"venue.crs must be left out or name CRS84, got {named!r:.60}: {words}")
+        raise InvalidValue("venue.crs", f"must be left out or name CRS84, got {named!r:.60}: {words}")
     if named is not None and coordinates == ("metres" if geographic else "degrees"):
         meant = "longitude and latitude" if geographic else "something else"
         raise InvalidValue(
             "coordinates",
-            f"coordinates must agree with venue.crs, which is {named!r:.60}: {meant}, got {coordinates!r}",
+            f"must agree with venue.crs, which is {named!r:.60}: {meant}, got {coordinates!r}",
         )
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))
@@ -122,7 +122,7 @@ def _told_origin(told: object) -> Origin | None:
     if told is None:
         return None
     if not isinstance(told, Mapping) or set(told) != {"longitude", "latitude"}:
-        raise InvalidValue("venue.origin", "venue.origin must have longitude and latitude in degrees, or be left out")
+        raise InvalidValue("venue.origin", "must have longitude and latitude in degrees, or be left out")
     limits = zip(("longitude", "latitude"), DEGREES[1:], strict=True)
     return Origin(
         *(checked_number(f"venue.origin.{name}", told[name], "degrees", -most, most) for name, most in limits)
@@ -137,7 +137,7 @@ def named_system(geometry: Mapping[str, object]) -> str | None:
     properties = system.get("properties") if isinstance(system, Mapping) else None
     name = properties.get("name") if isinstance(properties, Mapping) else None
     if not isinstance(name, str):
-        raise InvalidValue("venue.crs", "venue.crs must be left out, or name a coordinate system in properties.name")
+        raise InvalidValue("venue.crs", "must be left out, or name a coordinate system in properties.name")
     return name
 
 
@@ -146,7 +146,7 @@ def _refuse_systems_inside(field: str, part: object) -> None:
     if isinstance(part, Mapping):
         if part.get("crs") is not None:
             words = "its coordinate system is that of the whole venue: name it in venue.crs"
-            raise InvalidValue(f"{field}.crs", f"{field}.crs must be left out: {words}")
+            raise InvalidValue(f"{field}.crs", f"must be left out: {words}")
         for member in ("geometry", "features", "geometries"):
             _refuse_systems_inside(f"{field}.{member}", part.get(member))
     elif isinstance(part, list):
@@ -163,7 +163,7 @@ def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
             read_things(geometry, LATITUDE_FIRST)
         except InvalidValue:
             raise error from None
-        raise InvalidValue(error.field, f"{error.message}: {SWAPPED}") from error
+        raise InvalidValue.in_words(error.field, f"{error.message}: {SWAPPED}") from error
 
 
 def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
@@ -186,7 +186,7 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     change = 'give "coordinates": "degrees" beside the venue (in TOML: coordinates = "degrees") to have it in metres'
     if not in_order:
         change = f"{SWAPPED}; put them in order, and {change}"
-    raise InvalidValue("venue", f"venue must be in metres, got what looks like {looks}, a square of {size}: {change}")
+    raise InvalidValue("venue", f"must be in metres, got what looks like {looks}, a square of {size}: {change}")
 
 
 def _laid_out(polygons: list[Polygon]) -> Place:
@@ -215,7 +215,7 @@ def refuse_wide(field: str, rings: list[Ring], origin: Origin) -> None:
     across = AXIS * math.radians(max((right - left) * math.cos(math.radians(origin.latitude)), high - low))
     if across > ACROSS_MAX:
         limit, size = ACROSS_MAX / 1000.0, across / 1000.0
-        raise InvalidValue(field, f"{field} must be at most {limit:g} km across, got about {size:.4g} km")
+        raise InvalidValue(field, f"must be at most {limit:g} km across, got about {size:.4g} km")
 
 
 def unwrapped(ring: Ring, near: float) -> Ring:

@@ -47,7 +47,7 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
     found = _polygons("venue", geometry)
     whole = [k for k, one in enumerate(found) if one[3] is None]
     if not whole:
-        raise InvalidValue("venue", "venue must hold at least one polygon, the square")
+        raise InvalidValue("venue", "must hold at least one polygon, the square")
     refuse_many_edges(
         ring for _, _, rings, _ in found if isinstance(rings, list) for ring in rings if isinstance(ring, list)
     )
@@ -89,9 +89,9 @@ def geometry_of(found: Envelope) -> dict[str, object]:
 def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     """Every polygon of a GeoJSON object, in its order."""
     if depth > DEPTH_MAX:
-        raise InvalidValue("venue", f"venue must not nest objects deeper than {DEPTH_MAX}")
+        raise InvalidValue("venue", f"must not nest objects deeper than {DEPTH_MAX}")
     if not isinstance(geometry, Mapping):
-        raise InvalidValue(field, f"{field} must be a GeoJSON object, got {type(geometry).__name__}")
+        raise InvalidValue(field, f"must be a GeoJSON object, got {type(geometry).__name__}")
     kind = geometry.get("type")
     if kind == "Polygon":
         return [(None, f"{field}.coordinates", geometry.get("coordinates"), None)]
@@ -99,7 +99,7 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
         properties = geometry.get("properties")
         name = properties.get("name") if isinstance(properties, Mapping) else None
         if name is not None:
-            checked_name(f"{field}.properties.name", name, f"{field}.properties.name")
+            checked_name(f"{field}.properties.name", name)
         shape = geometry.get("geometry")
         if isinstance(shape, Mapping) and shape.get("type") in ("Point", "LineString"):
             given = properties.get("radius") if isinstance(properties, Mapping) else None
@@ -113,7 +113,7 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     if members is None:
         raise InvalidValue(
             f"{field}.type",
-            f"{field}.type must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
+            f"must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
         )
     items = _listed(f"{field}.{members}", geometry.get(members))
     each = (_polygons(f"{field}.{members}.{k}", item, depth + 1) for k, item in enumerate(items))
@@ -131,9 +131,9 @@ def _rings(field: str, value: object, scale: Scale, radius: float | None) -> tup
     if radius is None:
         return read
     if scale != METRES:
-        raise InvalidValue(field, f"{field} must be in metres, as its radius is, or be a Polygon: got {scale[0]}")
+        raise InvalidValue(field, f"must be in metres, as its radius is, or be a Polygon: got {scale[0]}")
     if len(read[0]) < 2:
-        raise InvalidValue(field, f"{field} must be at least 2 points, got {len(read[0])}")
+        raise InvalidValue(field, f"must be at least 2 points, got {len(read[0])}")
     return read
 
 
@@ -142,7 +142,7 @@ def _place(field: str, value: object, scale: Scale) -> Point:
     numbers = _listed(field, value)
     if len(numbers) not in (2, 3):
         words = "[x, y] in metres" if scale == METRES else f"[longitude, latitude] in {unit}"
-        raise InvalidValue(field, f"{field} must be a position {words}, got {len(numbers)} numbers")
+        raise InvalidValue(field, f"must be a position {words}, got {len(numbers)} numbers")
     x, y = (checked_number(f"{field}.{k}", numbers[k], unit, -limits[k], limits[k]) for k in range(2))
     return x, y
 
@@ -150,7 +150,7 @@ def _place(field: str, value: object, scale: Scale) -> Point:
 def _listed(field: str, value: object, entry: str = "") -> list[object]:
     """The value if it is a list; if the entry has a name, the list must not be empty."""
     if not isinstance(value, list):
-        raise InvalidValue(field, f"{field} must be a list, got {type(value).__name__}")
+        raise InvalidValue(field, f"must be a list, got {type(value).__name__}")
     if entry and not value:
-        raise InvalidValue(field, f"{field} must hold at least one {entry}")
+        raise InvalidValue(field, f"must hold at least one {entry}")
     return value

@@ -43,7 +43,7 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
         fault, field = fault_of({**first, "loc": ("request", *first["loc"])}, model, thing), ".".join(map(str, steps))
         named = next((step for step in reversed(steps) if isinstance(step, str)), fault.name) == fault.name
         subject = fault.subject if len(steps) < 2 else spoken(field) if named else f"{spoken(field)}: {fault.subject}"
-        raise InvalidValue(field, subject + fault.rule) from error
+        raise InvalidValue.in_words(field, subject + fault.rule) from error
 
 
 def shown(value: Any) -> str:

@@ -74,7 +74,7 @@ CrossCheck = Annotated[
 def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> None:
     """raises: TooLarge, at the field, when the count exceeds the limit; what: the things counted"""
     if count > limit:
-        raise TooLarge(field, f"{what} must be at most {limit} here, got {count}: {advice}")
+        raise TooLarge.in_words(field, f"{what} must be at most {limit} here, got {count}: {advice}")
 
 
 class Wire(BaseModel):
@@ -167,7 +167,7 @@ class Strays(Wire):
     def to_stray(self) -> float:
         """The stray in all, 0.0 for none [m]. raises: InvalidValue for a pin wider than its hole"""
         if self.pin > self.hole:
-            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
+            rule = f"must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
             raise InvalidValue("pin", rule, hole="hole")
         return Stray(self.stray, self.hole, self.pin).total if self.strays else 0.0
 

@@ -80,7 +80,7 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
     (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
     why = f"the turn bends to a radius of {bend:.4g} m, and bench {bench} follows none below {tightest:.4g} m"
     place = f"path.{name}" if body else name
-    return type(error)(place, f"{place} {rule}: {why}")
+    return type(error)(place, f"{rule}: {why}")
 
 
 def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:

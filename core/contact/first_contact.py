@@ -90,7 +90,7 @@ def first_contact(
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 
-    >>> from core import Dragon
+    >>> from core import Dragon, Spiral
     >>> contact = first_contact(Dance(Dragon(), Spiral()))
     >>> contact.outcome.value, round(contact.time, 6), contact.benches
     ('contact', 412.473838, (0, 8))

@@ -199,7 +199,7 @@ def _too_much(dragon: Dragon, pitch: float) -> str:
 
 
 def _checked_pitches(pitches: object) -> Floats:
-    words = "pitches must be a list of numbers in metres, ascending"
+    words = "must be a list of numbers in metres, ascending"
     try:
         column = np.asarray(pitches)
     except ValueError as error:

@@ -178,12 +178,12 @@ def too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
     why += f": the chord of bench {a + 1} between them is {chord:.9g} m, {overhangs}"
     if gap > 0.0 and margin:
         rule = "smaller" if hardly else f"less than {gap:.9g} m"
-        return InvalidValue("margin", f"margin must be {rule}, got {said(margin)} m: {why}")
+        return InvalidValue("margin", f"must be {rule}, got {said(margin)} m: {why}")
     if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
         body = float(dragon.lengths[a + 1])
         quarter = f"less than a quarter of {{body}} ({said(body)} m / 4 = {said(0.25 * body)} m)"
         rule = f"must be {'smaller' if hardly else quarter}, got {said(front)} m: {why}"
-        return InvalidValue("dragon.overhang", f"{{field}} {rule}", body="dragon.body_length")
+        return InvalidValue("dragon.overhang", rule, body="dragon.body_length")
     field, other = f"dragon.overhangs.{a}", f"dragon.overhangs[{b}]"
     rule = "must be smaller" if hardly else f"must be less than the chord of bench {a + 1} ({chord:.9g} m)"
-    return InvalidValue(field, f"{field} + {other} {rule}, got {said(front)} m + {said(rear)} m: {why}")
+    return InvalidValue(field, f"+ {other} {rule}, got {said(front)} m + {said(rear)} m: {why}")

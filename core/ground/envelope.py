@@ -127,7 +127,7 @@ class Envelope(Shown):
         """
         points = [checked_point(f"line.{k}", point) for k, point in enumerate(listed("line", line, "a list of points"))]
         if not points:
-            raise InvalidValue("line", "line must have at least one point")
+            raise InvalidValue("line", "must have at least one point")
         return distance_from(self.polygons, np.array(points))
 
 

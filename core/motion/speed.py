@@ -109,8 +109,8 @@ def highest_speed(
         when = f"before {said_bound(end.time, 9, -1)} s, when bench {end.bench} folds"
         if stop is None:
             why = f"the run ends at a fold, towards which speeds grow without bound; it must be {when}"
-            raise InvalidValue("stop", f"stop must be given: {why}")
-        raise InvalidValue("stop", f"stop must be {when} and speeds grow without bound")
+            raise InvalidValue("stop", f"must be given: {why}")
+        raise InvalidValue("stop", f"must be {when} and speeds grow without bound")
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)

@@ -42,7 +42,7 @@ def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     x, y = path.position(s)
     raise InvalidValue(
         "path",
-        f"path must not bend tighter than a radius of {tightest:.4g} m for the chord of "
+        f"must not bend tighter than a radius of {tightest:.4g} m for the chord of "
         f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
     )
 
@@ -66,7 +66,7 @@ def earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
     if not has_room(high):
         raise InvalidValue(
             "path",
-            f"path is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
+            f"is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
             f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
         )
     return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_number, checked_point, checked_size, listed, spoken
+from core.errors import InvalidValue, checked_number, checked_point, checked_size, listed
 from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints
 from core.paths.route import Route
@@ -59,7 +59,7 @@ class Legs(Route):
     ) -> None:
         given = listed("path.points", points, "a list of points [x, y] in metres")
         if len(given) < 2:
-            raise InvalidValue("path.points", f"path.points must be at least 2 points, got {len(given)}")
+            raise InvalidValue("path.points", f"must be at least 2 points, got {len(given)}")
         self.points = tuple(checked_point(f"path.points.{k}", point) for k, point in enumerate(given))
         self.straight = _checked_legs(straight, len(given) - 1)
         self.radius = checked_size("path.radius", radius)
@@ -138,7 +138,7 @@ def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
     for k, leg in enumerate(given):
         name = f"path.straight.{k}"
         if checked_number(name, leg, "", 0, legs - 1) != int(leg):
-            raise InvalidValue(name, f"{name} must be a whole number, got {leg!r}")
+            raise InvalidValue(name, f"must be a whole number, got {leg!r}")
     return frozenset(map(int, given))
 
 
@@ -148,11 +148,11 @@ def _by_point(error: InvalidValue, firsts: list[int]) -> InvalidValue:
     if found is None:
         return error
     first = firsts[int(found[1])]
-    words = error.message.replace(spoken(error.field), "path.points", 1)
+    words = error.named("path.points").message
     pair = re.search(r"points (\d+) and (\d+)", words)
     if pair:
         words = words.replace(pair[0], f"points {first + int(pair[1])} and {first + int(pair[2])}")
-    return InvalidValue("path.points", words)
+    return InvalidValue.in_words("path.points", words)
 
 
 def _refuse_near(points: tuple[Point, ...]) -> None:
@@ -160,9 +160,7 @@ def _refuse_near(points: tuple[Point, ...]) -> None:
         gap = math.dist(a, b)
         if gap < WAYPOINT_GAP:
             name = f"path.points.{k}"
-            raise InvalidValue(
-                name, f"{name} must be at least {WAYPOINT_GAP:g} m from the point before it, got {gap:g} m"
-            )
+            raise InvalidValue(name, f"must be at least {WAYPOINT_GAP:g} m from the point before it, got {gap:g} m")
 
 
 def _heading(a: Point, b: Point) -> float:
@@ -183,7 +181,7 @@ def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point
         return None
     if math.pi - abs(turn) < 2.0 * BACK_MIN:
         name = f"path.points.{k}"
-        raise InvalidValue(name, f"{name} must not be where two straight legs turn back: make one of them a curve")
+        raise InvalidValue(name, "must not be where two straight legs turn back: make one of them a curve")
     half = math.tan(0.5 * abs(turn))
     cut = min(max(radius * half, LENGTH_MIN), CUT_MOST * min(into, out))
     arc_radius, side = cut / half, math.copysign(1.0, turn)

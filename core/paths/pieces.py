@@ -130,7 +130,7 @@ class Waypoints(Shown):
     def __post_init__(self) -> None:
         given = listed("waypoints.points", self.points, "a list of points [x, y] in metres")
         if len(given) < 2:
-            raise InvalidValue("waypoints.points", f"waypoints.points must be at least 2 points, got {len(given)}")
+            raise InvalidValue("waypoints.points", f"must be at least 2 points, got {len(given)}")
         _settle(self, points=tuple(checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
         for name in ("start_heading", "end_heading"):
             if (heading := getattr(self, name)) is not None:
@@ -155,8 +155,7 @@ class Waypoints(Shown):
             k = int(short[0])
             raise InvalidValue(
                 f"{name}.points.{k + 1}",
-                f"{name}.points.{k + 1} must be at least {WAYPOINT_GAP:g} m from the point before it, "
-                f"got {steps[k]:g} m",
+                f"must be at least {WAYPOINT_GAP:g} m from the point before it, got {steps[k]:g} m",
             )
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
@@ -177,4 +176,4 @@ Piece = Line | Arc | Coil | Waypoints
 
 def _refuse_short(name: str, length: float) -> None:
     if length < LENGTH_MIN:
-        raise InvalidValue(name, f"{name} must be at least {LENGTH_MIN:g} m long, got {length:g} m")
+        raise InvalidValue(name, f"must be at least {LENGTH_MIN:g} m long, got {length:g} m")

@@ -54,14 +54,14 @@ class Route(Shown):
         budget = budget or Budget()
         self.pieces: tuple[Piece, ...] = tuple(listed("path.pieces", pieces, "a list of pieces"))
         if not self.pieces:
-            raise InvalidValue("path.pieces", "path.pieces must hold at least one piece")
+            raise InvalidValue("path.pieces", "must hold at least one piece")
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
         rows: list[Floats] = []
         joints, count, s = [], 0, -self.start
         for k, piece in enumerate(self.pieces):
             name = f"path.pieces.{k}"
             if not isinstance(piece, Piece):
-                raise InvalidValue(name, f"{name} must be a Line, Arc, Coil or Waypoints, got {piece!r}")
+                raise InvalidValue(name, f"must be a Line, Arc, Coil or Waypoints, got {piece!r}")
             joints.append((s, count))
             try:
                 budget.look()
@@ -116,11 +116,11 @@ class Route(Shown):
         name = f"path.pieces.{k}"
         where = f"the joint of path.pieces[{k - 1}] and path.pieces[{k}]"
         if gap > JOINT_GAP:
-            raise InvalidValue(
+            raise InvalidValue.in_words(
                 name, f"{where} must close: ({x:.9g}, {y:.9g}) m is {gap:.3g} m from ({x2:.9g}, {y2:.9g}) m"
             )
         if kink > JOINT_KINK:
-            raise InvalidValue(
+            raise InvalidValue.in_words(
                 name, f"{where} must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
             )
 

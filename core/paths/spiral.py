@@ -63,7 +63,7 @@ class Spiral(Shown):
         object.__setattr__(self, "centre", checked_point("path.centre", self.centre))
         object.__setattr__(self, "rotation", checked_angle("path.rotation", self.rotation))
         if not isinstance(self.clockwise, bool):
-            raise InvalidValue("path.clockwise", f"path.clockwise must be True or False, got {self.clockwise!r:.60}")
+            raise InvalidValue("path.clockwise", f"must be True or False, got {self.clockwise!r:.60}")
         turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
         object.__setattr__(self, "start_turns", turns)
         object.__setattr__(self, "growth", self.pitch / (2.0 * math.pi))

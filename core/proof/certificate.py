@@ -12,7 +12,7 @@ from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import InvalidValue, OutsideRun, ProofRefused, spoken
+from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import Clear, Contact, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
@@ -57,7 +57,7 @@ def prove_collision_time(
     """
     path = _steady(dance).path.spiral
     if path is None:
-        raise InvalidValue("path", "path must be a spiral: prove_contact() takes any other")
+        raise InvalidValue("path", "must be a spiral: prove_contact() takes any other")
     claim = CollisionTimeClaim(dance.dragon, path.pitch, path.start_turns, dance.head_speed, time, margin)
     return _proven(claim, every_pair, progress)
 
@@ -138,7 +138,7 @@ def prove_tolerance(
     """
     path = _steady(dance).path.spiral
     if path is None:
-        raise InvalidValue("path", "path must be a spiral: strays have no proof on any other")
+        raise InvalidValue("path", "must be a spiral: strays have no proof on any other")
     if stop is None:
         stop, _ = last_stop(dance.dragon, recorded_path(path), dance.head_speed)
     if exhibit is not None:
@@ -154,7 +154,7 @@ def _steady(dance: Dance) -> Dance:
         rule = (
             "must be left out for a proof, which is about places of the head: prove dance.steady, whose times are those"
         )
-        raise InvalidValue("passages", f"passages {rule} places divided by its head speed")
+        raise InvalidValue("passages", f"{rule} places divided by its head speed")
     return dance.steady
 
 
@@ -200,19 +200,19 @@ def check(certificate: Certificate, *, progress: Progress = lambda share: None) 
     """
     stated = certificate.get("format") if isinstance(certificate, dict) else None
     if isinstance(stated, str) and stated != FORMAT:
-        raise ProofRefused("format", f"the certificate's format is not {FORMAT!r}: {stated[:SHOWN_MOST]!r}")
+        raise ProofRefused.in_words("format", f"the certificate's format is not {FORMAT!r}: {stated[:SHOWN_MOST]!r}")
     refuse_malformed(certificate)
     content = {name: value for name, value in certificate.items() if name != "digest"}
     if certificate["digest"] != digest(content):
-        raise ProofRefused("digest", "the certificate was changed after it was made")
+        raise ProofRefused.in_words("digest", "the certificate was changed after it was made")
     try:
         with ctx.workprec(certificate["precision"]), refusing("certificate"):
             return _verified(content, progress)
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"
-        words = error.message.replace(spoken(error.field), spoken(place), 1)
-        raise ProofRefused(place, f"the certificate is malformed: {words}") from error
+        words = error.named(place).message
+        raise ProofRefused.in_words(place, f"the certificate is malformed: {words}") from error
 
 
 def _verified(content: Certificate, progress: Progress) -> Proof:
@@ -220,11 +220,11 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
     claim = CLAIMS[values.pop("kind")](_dragon(content["dragon"]), **values)
     chain, repeats_from, sweeps = claim.chain, content["repeats_from"], content["sweeps"]
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
-        raise ProofRefused("repeats_from", f"the benches from {repeats_from} on are not alike")
+        raise ProofRefused.in_words("repeats_from", f"the benches from {repeats_from} on are not alike")
     statement = claim.check_overlap(content.get("overlap", {}))
     proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress, claim.follows)
     if len(proven) != len(sweeps):
-        raise ProofRefused("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")
+        raise ProofRefused.in_words("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")
     tiles = [tile for sweep in proven for tile in sweep["stretches"]]
     return Proof(statement, len(tiles), sum(len(tile[2]) for tile in tiles))
 
@@ -245,5 +245,5 @@ def _text(value: Any) -> str:
 def _dragon(runs: Sequence[Any]) -> Dragon:
     counts = [run[0] for run in runs]
     if not (min(counts) > 0 and sum(counts) <= BENCHES_MAX):
-        raise ProofRefused("dragon", f"a dragon has 1 to {BENCHES_MAX} benches")
+        raise ProofRefused.in_words("dragon", f"a dragon has 1 to {BENCHES_MAX} benches")
     return Dragon.of(*(np.repeat([run[column] for run in runs], counts) for column in (1, 2, 3)))

@@ -124,7 +124,9 @@ class MinimumPitchClaim(SpiralClaim):
     def _way(self, chain: Chain) -> tuple[float, float]:
         circle = self.turning_radius / chain.growth
         if circle > chain.start:
-            raise ProofRefused("claim", f"with pitch {said(self.pitch)} m the start lies within the turning circle")
+            raise ProofRefused.in_words(
+                "claim", f"with pitch {said(self.pitch)} m the start lies within the turning circle"
+            )
         return above(chain.start), below(circle)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
@@ -141,7 +143,7 @@ class MinimumPitchClaim(SpiralClaim):
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
         free = f"keeps the margin of {said(self.margin)} m too" if self.margin else "is free of contact too"
-        raise ProofRefused("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
+        raise ProofRefused.in_words("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
         """The fold on the way with PITCH_STEP less, as doubles find it; empty if no bench folds [rad]."""
@@ -212,7 +214,7 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
                 return [bench, bench + partner]
         place = pose.places[1]
     how = f"come nearer to one another than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
-    raise ProofRefused("claim", f"no two benches {how} {when}")
+    raise ProofRefused.in_words("claim", f"no two benches {how} {when}")
 
 
 def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
@@ -257,4 +259,4 @@ def refusing(field: str) -> Iterator[None]:
     try:
         yield
     except (Overlap, Unproven) as why:
-        raise ProofRefused(field, f"not proven: {why}") from None
+        raise ProofRefused.in_words(field, f"not proven: {why}") from None

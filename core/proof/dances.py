@@ -58,8 +58,8 @@ class Clear(DanceClaim):
         _settle_span(self, self.stop)
         endings = ("stop", "fold", "centre") if self.path["kind"] == "spiral" else ("stop", "end")
         if self.until not in endings:
-            words = f"until must be {' or '.join(endings)} on a {self.path['kind']}, got {self.until}"
-            raise InvalidValue("until", words)
+            rule = f"must be {' or '.join(endings)} on a {self.path['kind']}, got {self.until}"
+            raise InvalidValue("until", rule)
 
     @cached_property
     def chain(self) -> AnyChain:

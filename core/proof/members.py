@@ -54,7 +54,9 @@ def refuse_malformed(certificate: Any) -> None:
 
 
 def _malformed(name: str, must: str, got: Any) -> ProofRefused:
-    return ProofRefused(name, f"the certificate is malformed: {name or 'it'} {must}, got {_shown(got)}")
+    return ProofRefused.in_words(
+        name, f"the certificate is malformed: {spoken(name) or 'it'} {must}, got {_shown(got)}"
+    )
 
 
 def _shown(value: Any) -> str:
@@ -73,11 +75,13 @@ def _object(name: str, value: Any, members: dict[str, Rule]) -> None:
     inside = f"{name}." if name else ""
     for member in members:
         if member not in value:
-            raise ProofRefused(f"{inside}{member}", f"the certificate is malformed: {inside}{member} is missing")
+            raise ProofRefused.in_words(
+                f"{inside}{member}", f"the certificate is malformed: {spoken(inside + member)} is missing"
+            )
     for member in value:
         if member not in members:
             unknown = f"{inside}{str(member)[:SHOWN_MOST]}"
-            raise ProofRefused(unknown, f"the certificate is malformed: {unknown} is no member of it")
+            raise ProofRefused.in_words(unknown, f"the certificate is malformed: {spoken(unknown)} is no member of it")
     for member, rule in members.items():
         rule(f"{inside}{member}", value[member])
 

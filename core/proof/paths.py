@@ -57,7 +57,7 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
                 f"{must} for a proof in ball arithmetic, got waypoints: on a path with waypoints a dance can be "
                 "checked in double precision, with bounds on its rounding, not proven"
             )
-            raise InvalidValue(f"path.pieces.{k}", words)
+            raise InvalidValue.in_words(f"path.pieces.{k}", words)
         recorded.append(_recorded_piece(piece))
     return {"kind": "route", "start": path.start, "pieces": recorded}
 
@@ -81,13 +81,13 @@ def core_path(record: Record) -> Spiral | Route:
         try:
             return _turn(record)
         except InvalidValue as error:  # Turn does not name the path around its fields
-            raise InvalidValue(f"path.{error.field}", f"path.{error.message}") from error
+            raise error.named(f"path.{error.field}") from error
     given = []
     for k, piece in enumerate(record["pieces"]):
         try:
             given.append(PIECES[piece["kind"]][0](**_arguments(piece)))
         except InvalidValue as error:  # a piece does not name the route around its fields
-            raise error.named(error.field.replace(piece["kind"], f"path.pieces.{k}", 1)) from error
+            raise error.named(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
     return Route(given, record["start"])
 
 

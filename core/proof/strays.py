@@ -45,7 +45,7 @@ class ToleranceClaim(SpiralClaim):
         start, stop = dance.span(self.start, self.stop)
         stray = checked_stray(self.stray, self.dragon)
         if not stray > 0.0:
-            raise InvalidValue("stray", f"stray must be positive, got {said(stray)} m: prove clear without one")
+            raise InvalidValue("stray", f"must be positive, got {said(stray)} m: prove clear without one")
         settle(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=dance.head_speed)
         settle(self, start=start, stop=stop, stray=stray)
 
@@ -110,7 +110,7 @@ def recorded_pose(exhibit: Exhibit) -> tuple[dict[str, Any], float]:
     raises: InvalidValue for a pose of a bench and an edge of a venue
     """
     if exhibit.benches[1] is None:
-        raise InvalidValue("exhibit", "exhibit must be a pose of two benches: a venue is not part of a proof")
+        raise InvalidValue("exhibit", "must be a pose of two benches: a venue is not part of a proof")
     links = exhibit.handles[:-1] - exhibit.handles[1:]
     record = {
         "benches": list(exhibit.benches),

@@ -7,7 +7,7 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeGuard
 
-from core.errors import ProofRefused, said
+from core.errors import ProofRefused, said, spoken
 from core.proof.chain import Chain, Stretch
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven
@@ -108,7 +108,7 @@ def _sides(stretch: Stretch, partner: int) -> list[int]:
             a, b = _met(stretch, partner)
             strayed = f"with strays up to {said(float(stretch.chain.stray))} m"
             where = f"when handle {a} is at {stretch.chain.named(place)}"
-            raise ProofRefused("claim", f"not proven: {strayed} benches {a} and {b} may touch {where}")
+            raise ProofRefused.in_words("claim", f"not proven: {strayed} benches {a} and {b} may touch {where}")
     raise Unproven(f"benches {stretch.bench} and {stretch.bench + partner} are not shown to stay apart")
 
 
@@ -133,7 +133,7 @@ def found(chain: AnyChain) -> Source:
                 width = (high - start) / 2
                 if width < WIDTH_LEAST:
                     place = f"where handle {bench} is at {chain.named(high)}"
-                    raise ProofRefused("claim", f"not proven {place}: {why}") from None
+                    raise ProofRefused.in_words("claim", f"not proven {place}: {why}") from None
                 continue
             yield stretch, tile
             high, width = start, width * WIDTH_GROWTH
@@ -146,15 +146,15 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
         if bench >= len(sweeps):
-            raise ProofRefused("sweeps", f"the certificate is malformed: sweeps[{bench}] is missing")
+            raise ProofRefused.in_words("sweeps", f"the certificate is malformed: sweeps[{bench}] is missing")
         if sweeps[bench]["bench"] != bench:
-            raise ProofRefused("sweeps", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
+            raise ProofRefused.in_words("sweeps", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
         for k, (high, low, faces, *rest) in enumerate(sweeps[bench]["stretches"]):
             most = max(0, chain.count - bench - 2)
             if len(faces) > most:
                 place = f"sweeps.{bench}.stretches.{k}.2"
                 words = f"must have at most {most} faces, one for each bench behind, got {len(faces)}"
-                raise ProofRefused(place, f"the certificate is malformed: {place} {words}")
+                raise ProofRefused.in_words(place, f"the certificate is malformed: {spoken(place)} {words}")
             stretch = stretch_of(chain, bench, low, high, chain.count - bisect_left(places, low))
             while len(stretch.placed) < min(len(faces) + 2, chain.count - bench):
                 stretch.grow()

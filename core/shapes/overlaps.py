@@ -102,7 +102,7 @@ def overlaps(
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
     if not isinstance(engine, str) or engine not in list(Engine):
         words = ", ".join(Engine)
-        raise InvalidValue("engine", f"engine must be one of {words}, got {engine!r:.60}")
+        raise InvalidValue("engine", f"must be one of {words}, got {engine!r:.60}")
     (pairs,) = found_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
@@ -158,7 +158,7 @@ def verdicts(
     pose_after = checked_array("benches", after, "(2, 3): x, y, heading", 3)
     for pose in (pose_before, pose_after):
         if pose.shape != (2, 3):
-            raise InvalidValue("benches", f"benches must have shape (2, 3): x, y, heading, got {pose.shape}")
+            raise InvalidValue("benches", f"must have shape (2, 3): x, y, heading, got {pose.shape}")
     checked_columns("benches", pose_after, POSE)
     poses = np.array([pose_before, pose_after])
     return {engine: Verdict(*JUDGES[engine](poses, size, margin)) for engine in able(margin)}
@@ -183,7 +183,7 @@ def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes
     try:
         shape = np.broadcast_shapes(a.shape, b.shape)
     except ValueError as error:
-        raise InvalidValue(
+        raise InvalidValue.in_words(
             "poses_b", f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
         ) from error
     return frames_separation(np.broadcast_to(a, shape), np.broadcast_to(b, shape))
@@ -198,12 +198,12 @@ def checked_benches(
     """
     pose = checked_array("benches", poses, "(n, 3): x, y, heading", 3)
     if pose.ndim != 2:
-        raise InvalidValue("benches", f"benches must have shape (n, 3): x, y, heading, got {pose.shape}")
+        raise InvalidValue("benches", f"must have shape (n, 3): x, y, heading, got {pose.shape}")
     length = checked_array("lengths", lengths, "(n,)", None)
     width = checked_array("widths", widths, "(n,)", None)
     for name, column in (("lengths", length), ("widths", width)):
         if column.size != len(pose):
-            raise InvalidValue(name, f"{name} must have one number for each of {len(pose)} benches, got {column.size}")
+            raise InvalidValue(name, f"must have one number for each of {len(pose)} benches, got {column.size}")
     checked_columns("benches", np.column_stack([pose, length, width]), POSE + SIZE)
     return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
 
@@ -226,9 +226,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
                 limit = "a finite number"
             elif low > 0.0 and column[k] <= 0.0:
                 limit = "positive"
-            raise InvalidValue(
-                f"{subject}.{k}.{name}", f"{subject}[{k}].{name} must be {limit}, got {said(column[k])} {unit}"
-            )
+            raise InvalidValue(f"{subject}.{k}.{name}", f"must be {limit}, got {said(column[k])} {unit}")
 
 
 def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
@@ -239,9 +237,9 @@ def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) ->
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"{name} must be numbers of shape {shape}") from error
+        raise InvalidValue(name, f"must be numbers of shape {shape}") from error
     if (array.ndim != 1) if last is None else (array.shape[-1:] != (last,)):
-        raise InvalidValue(name, f"{name} must have shape {shape}, got {array.shape}")
+        raise InvalidValue(name, f"must have shape {shape}, got {array.shape}")
     return array
 
 
@@ -253,7 +251,7 @@ def _checked_frames(suffix: str, poses: ArrayLike, sizes: ArrayLike) -> Floats:
     try:
         return frames(pose, size)
     except ValueError as error:
-        raise InvalidValue(
+        raise InvalidValue.in_words(
             f"sizes{suffix}",
             f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}",
         ) from error

@@ -159,7 +159,7 @@ def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
     poses = bench_poses(handles)
     if poses.shape[-2] != dragon.benches:
         count = poses.shape[-2] + 1
-        raise InvalidValue("handles", f"handles must be {dragon.benches + 1}, one more than benches, got {count}")
+        raise InvalidValue("handles", f"must be {dragon.benches + 1}, one more than benches, got {count}")
     return corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
 
 
@@ -167,9 +167,9 @@ def _checked_handles(handles: object) -> Floats:
     try:
         places = np.asarray(handles)
     except ValueError as error:
-        raise InvalidValue("handles", "handles must be places of shape (..., n + 1, 2) in metres") from error
+        raise InvalidValue("handles", "must be places of shape (..., n + 1, 2) in metres") from error
     if places.dtype.kind not in "iuf" or places.ndim < 2 or places.shape[-1] != 2:
-        words = "handles must be places of shape (..., n + 1, 2) in metres"
+        words = "must be places of shape (..., n + 1, 2) in metres"
         raise InvalidValue("handles", f"{words}, got {places.dtype.name} of shape {places.shape}")
     return places.astype(np.float64, copy=False)
 
@@ -207,8 +207,7 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
         counts = (meetings.found, meetings.met)
         for count, limit, what in zip(counts, most, words, strict=True):
             if count > limit:
-                message = f"benches must have at most {limit} pairs {what}, got more among {len(frame)}"
-                raise TooLarge("benches", message)
+                raise TooLarge("benches", f"must have at most {limit} pairs {what}, got more among {len(frame)}")
         if meetings.found <= len(pairs):
             return pairs[: meetings.found]
         pairs = np.empty((meetings.found, 2), dtype=np.int64)
@@ -327,7 +326,7 @@ def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, 
     if margin != 0.0:
         raise InvalidValue(
             "margin",
-            f"margin must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
+            f"must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
         )
     for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
         pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)

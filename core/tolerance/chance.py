@@ -315,11 +315,11 @@ def _checked_samples(samples: object) -> range:
         return range(int(samples))
     if isinstance(samples, range) and samples and min(samples) >= 0 and max(samples) < SAMPLES_MAX:
         return samples
-    rule = f"samples must be a whole number from 1 to {SAMPLES_MAX}, or a range of numbers below {SAMPLES_MAX}"
+    rule = f"must be a whole number from 1 to {SAMPLES_MAX}, or a range of numbers below {SAMPLES_MAX}"
     raise InvalidValue("samples", f"{rule}, got {samples!r:.60}")
 
 
 def _checked_seed(seed: object) -> int:
     if isinstance(seed, Integral) and not isinstance(seed, bool) and 0 <= int(seed) <= SEED_MAX:
         return int(seed)
-    raise InvalidValue("seed", f"seed must be a whole number from 0 to {SEED_MAX}, got {seed!r:.60}")
+    raise InvalidValue("seed", f"must be a whole number from 0 to {SEED_MAX}, got {seed!r:.60}")

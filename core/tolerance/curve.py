@@ -82,7 +82,7 @@ def tolerance_curve(
     raises: InvalidValue, also for a pitch at which the dance begins inside the circle or folds before it; TooMuchWork
     """
     radius = checked_size("turning_radius", turning_radius)
-    rule = f"pitches must be a list of 1 to {CURVE_MOST} numbers in metres"
+    rule = f"must be a list of 1 to {CURVE_MOST} numbers in metres"
     try:
         column = np.asarray(pitches, dtype=np.float64)
     except (TypeError, ValueError) as error:

@@ -134,7 +134,7 @@ def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Rea
     of = [numbers.setdefault(size, len(numbers)) for size in zip(*columns, strict=True)]
     if len(numbers) > SIZES_MAX:
         rule = f"must have at most {SIZES_MAX} different sizes of benches with a stray of {said(stray)} m"
-        raise InvalidValue("dragon.lengths", f"dragon.lengths {rule}, got {len(numbers)}")
+        raise InvalidValue("dragon.lengths", f"{rule}, got {len(numbers)}")
     kinds = np.array(of, dtype=np.int64)
     hulls = _hulls(np.stack([supports(*size, stray) for size in numbers], axis=1))
     half_lengths, half_widths = np.abs(hulls).max(axis=(1, 2)).T

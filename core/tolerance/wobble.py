@@ -55,14 +55,14 @@ class Wobble(Shown):
         if self.step is not None:
             object.__setattr__(self, "step", self._checked_step(self.step))
         if self.pin > self.hole:
-            rule = f"{{field}} must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
+            rule = f"must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
             raise InvalidValue("model.pin", rule, hole="model.hole")
 
     def _checked_step(self, given: object) -> float:
         step = checked_number("model.step", given, "s", 0.0, CORRELATION_MAX, open_low=True)
         most = self.correlation_time / INSTANTS_PER_TIME
         if step > most and not math.isclose(step, most):
-            rule = f"{{field}} must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
+            rule = f"must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
             raise InvalidValue("model.step", rule, time="model.correlation_time")
         return step
 
@@ -86,7 +86,7 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
         if size > most:
             raise InvalidValue.of(f"model.{name}", f"must be at most {of}", size, "m")
     if model.play > most:
-        rule = f"{{field}} must leave a play of at most {of} around its {{pin}}, got {model.play:.9g} m of play"
+        rule = f"must leave a play of at most {of} around its {{pin}}, got {model.play:.9g} m of play"
         raise InvalidValue("model.hole", rule, pin="model.pin")
     if model.pitch_error > 0.0:
         if dance.path.spiral is None:

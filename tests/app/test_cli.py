@@ -251,7 +251,7 @@ def test_the_limits_are_those_of_the_settings() -> None:
 def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
     done = run("collision-time", BENCH_DRAGON_BENCHES_MAX="many")
     assert done.returncode == 2
-    assert done.stderr.startswith("Error: BENCH_DRAGON_BENCHES_MAX must be a valid integer")
+    assert done.stderr.startswith("Error: BENCH_DRAGON_BENCHES_MAX must be a whole number")
     assert done.stderr.count("\n") == 1
 
 

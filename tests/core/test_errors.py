@@ -51,23 +51,25 @@ def test_a_number_that_breaks_a_rule_is_named_with_its_unit_and_why(kind: type[B
 
 
 def test_a_message_without_a_number_changes_its_first_words_alone() -> None:
-    error = InvalidValue("path.pieces.1", "path.pieces[1] must close up with path.pieces[0]")
+    error = InvalidValue("path.pieces.1", "must close up with path.pieces[0]")
     assert error.named("path").message == "path must close up with path.pieces[0]"
-    assert TooLarge("benches", "the dragon is too long").named("dragon").message == "the dragon is too long"
+    assert error.message == "path.pieces[1] must close up with path.pieces[0]"
+    long = TooLarge.in_words("benches", "the dragon is too long").named("dragon")
+    assert (long.field, long.message, str(long)) == ("dragon", "the dragon is too long", "the dragon is too long")
 
 
 def test_the_other_parameters_of_a_message_get_their_new_names_too() -> None:
-    error = InvalidValue("times.stop", "{field} must not be before {start}", start="times.start")
+    error = InvalidValue("times.stop", "must not be before {start}", start="times.start")
     assert error.message == "times.stop must not be before times.start"
     renamed = error.renamed(lambda name: f"--{name.removeprefix('times.')}")
     assert (renamed.field, renamed.message) == ("--stop", "--stop must not be before --start")
 
 
 def test_what_was_stopped_stays_so_under_another_name() -> None:
-    error = TooMuchWork("pitch", "pitch was not found")
+    error = TooMuchWork("pitch", "was not found")
     error.stopped = True
     assert error.named("width").stopped
-    assert not TooMuchWork("pitch", "pitch was not found").named("width").stopped
+    assert not TooMuchWork("pitch", "was not found").named("width").stopped
 
 
 @pytest.mark.parametrize("number", [432.9179242286, -432.9179242286, 0.1, -0.1, 1e-12, 5.0])

@@ -98,7 +98,7 @@ ERRORS = [kind for kind in vars(core).values() if isinstance(kind, type) and iss
 @pytest.mark.parametrize("kind", ERRORS)
 def test_every_error_of_core_is_a_problem_of_the_client(kind: type[core.BenchDragonError]) -> None:
     def fail() -> None:
-        raise kind("path.pitch", "pitch is wrong")
+        raise kind.in_words("path.pitch", "pitch is wrong")
 
     app = create_app(Settings())
     app.add_api_route("/fail", fail)

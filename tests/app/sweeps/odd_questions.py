@@ -33,7 +33,7 @@ class Height(BaseModel):
 def height(asked: Place) -> Height:
     """x times y; refused at x = 13, a mistake at x = 14, the end of the process at the deadly places."""
     if asked.x == 13.0:
-        raise InvalidValue("x", "x must not be 13 m")
+        raise InvalidValue("x", "must not be 13 m")
     if asked.x == 14.0:
         raise ZeroDivisionError("a mistake of ours")
     if asked.x in asked.deadly:
