@@ -87,7 +87,7 @@ class Settings(BaseModel):
         except ValidationError as error:
             first = error.errors()[0]
             name = variables[str(first["loc"][0])]
-            rule = RULES.get(first["type"], first["msg"]).format(**first.get("ctx", {}))
+            rule = RULES[first["type"]].format(**first.get("ctx", {})) if first["type"] in RULES else first["msg"]
             raise InvalidValue(name, f"{rule}, got {first['input']!r:.60}") from error
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")

@@ -255,6 +255,25 @@ def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
     assert done.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize(
+    ("name", "given", "rule"),
+    [
+        ("BENCHES_MAX", "0", "must be at least 1, got '0'"),
+        ("SWEEP_PROCESSES", "65", "must be at most 64, got '65'"),
+        ("JOB_DAYS_MAX", "0", "must be more than 0, got '0'"),
+        ("JOB_DAYS_MAX", "{gt}", "must be a number, got '{gt}'"),
+        ("LOG_JSON", "maybe", "must be true or false, got 'maybe'"),
+    ],
+)
+def test_a_setting_outside_its_limits_is_told_the_limit(
+    name: str, given: str, rule: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(f"BENCH_DRAGON_{name}", given)
+    with pytest.raises(core.InvalidValue) as refused:
+        Settings()
+    assert refused.value.message == f"BENCH_DRAGON_{name} {rule}"
+
+
 NO_SCHEDULER = "BENCH_DRAGON_DASK must be the address of a scheduler, as tcp://scheduler:8786, got "
 
 
