@@ -81,12 +81,7 @@ class ContactCheck(Shown):
 
 @asked_of("contact", FirstContact, "the engines' verdict on the contact was not found")
 def contact_check(
-    contact: FirstContact,
-    dance: Dance,
-    *,
-    margin: float = 0.0,
-    whole: bool = True,
-    budget: Budget | None = None,
+    contact: FirstContact, dance: Dance, *, margin: float = 0.0, whole: bool = True, budget: Budget | None = None
 ) -> ContactCheck | None:
     """The engines' verdicts CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 

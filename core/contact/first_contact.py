@@ -148,13 +148,7 @@ def _known_overlap(search: Search, proven: float, last: float, clock: Clock, unt
 
 
 def _result(
-    dance: Dance,
-    search: Search,
-    state: Ended,
-    found: Marched,
-    end: RunEnd,
-    span: tuple[float, float],
-    tolerance: float,
+    dance: Dance, search: Search, state: Ended, found: Marched, end: RunEnd, span: tuple[float, float], tolerance: float
 ) -> FirstContact:
     graze, clock = None, dance.clock
     if found.graze is not None:

@@ -13,15 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.coils import clear_places
-from core.contact.march import (
-    BRACKET,
-    BRACKET_MIN,
-    BRACKETS_GRAZING,
-    FOLD_SLIVER,
-    FOLD_WAYS,
-    TOUCHES,
-    TRAVEL_ROUNDING,
-)
+from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TOUCHES, TRAVEL_ROUNDING
 from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels import Budget, Ended

@@ -158,13 +158,7 @@ class Kinds:
     def lay(self, hulls: Floats, of: Ints, directions: Floats) -> None: ...
 
 def largest_supports(
-    chord: float,
-    overhang: float,
-    half_width: float,
-    stray: float,
-    samples: Floats,
-    directions: Floats,
-    found: Floats,
+    chord: float, overhang: float, half_width: float, stray: float, samples: Floats, directions: Floats, found: Floats
 ) -> None: ...
 
 class Scene:

@@ -325,8 +325,7 @@ def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, 
     """
     if margin != 0.0:
         raise InvalidValue(
-            "margin",
-            f"must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m",
+            "margin", f"must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m"
         )
     for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
         pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)
