@@ -48,7 +48,8 @@ class BenchDragonError(Exception):
     code: stable word for programs; field: dotted name of the wrong parameter
     rule: what the parameter must be, with {word} in the place of each other parameter; the message is the field, in the
         form of spoken(), and the rule. in_words() makes an error whose message does not begin with the field
-    others: names of the other parameters by their words; got: the given number, if of() made the error
+    others: the other parameters by their words: names, or numbers that stay as they are; got: the given number, if of()
+        made the error
 
     >>> InvalidValue("times.stop", "must not be before {start}", start="times.start").renamed(
     ...     lambda name: name.removeprefix("times.")
@@ -61,10 +62,10 @@ class BenchDragonError(Exception):
     _unit = ""
     _is_whole = False
 
-    def __init__(self, field: str, rule: str, **others: str) -> None:
+    def __init__(self, field: str, rule: str, **others: str | int) -> None:
         self.field, self._rule, self._others = field, rule, others
         if others:
-            rule = rule.format(**{word: spoken(name) for word, name in others.items()})
+            rule = rule.format(**{word: spoken(one) if isinstance(one, str) else one for word, one in others.items()})
         self.message = f"{spoken(field)} {rule}"
         super().__init__(self.message)
 
@@ -99,11 +100,13 @@ class BenchDragonError(Exception):
             return type(self).in_words(field, self.message)
         return type(self)(field, self._rule, **self._others)
 
-    def renamed(self, name_of: Callable[[str], str]) -> Self:
-        """The same error with other names for its field and for the other parameters in its message."""
+    def renamed(self, name_of: Callable[[str], str], number_of: Callable[[int], int] = int) -> Self:
+        """The same error with other names for its field, and other names and numbers of the others in its message."""
         error = self.named(name_of(self.field))
         if self._others:
-            return type(self)(error.field, self._rule, **{word: name_of(name) for word, name in self._others.items()})
+            others = self._others.items()
+            told = {word: name_of(one) if isinstance(one, str) else number_of(one) for word, one in others}
+            return type(self)(error.field, self._rule, **told)
         return error
 
 

@@ -63,9 +63,8 @@ def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats
         left = ~whole
         if (lengths[left] < CUBIC_SHORT).any():
             k = int(piece[left][lengths[left] < CUBIC_SHORT].min())
-            raise InvalidValue(
-                name, f"must not make the curve stop or turn on the spot, as between points {k} and {k + 1}"
-            )
+            rule = "must not make the curve stop or turn on the spot, as between points {first} and {second}"
+            raise InvalidValue(name, rule, first=k, second=k + 1)
         if sum(map(len, done)) + 2 * int(left.sum()) > CUBICS_MAX:
             raise InvalidValue(name, f"must make a curve of at most {CUBICS_MAX} cubics: take fewer points")
         coefficients, ends = halves[left].reshape(-1, 4, 2), np.repeat(half[left], 2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
@@ -144,14 +143,10 @@ def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
 
 def _by_point(error: InvalidValue, firsts: list[int]) -> InvalidValue:
     """A refusal of one piece, with the numbers of the path's points instead of the piece's."""
-    found = re.match(r"path\.pieces\.(\d+)", error.field)
-    if found is None:
+    if not error.field.startswith("path.pieces."):
         return error
-    first = firsts[int(found[1])]
-    words = error.named("path.points").message
-    pair = re.search(r"points (\d+) and (\d+)", words)
-    if pair:
-        words = words.replace(pair[0], f"points {first + int(pair[1])} and {first + int(pair[2])}")
+    first = firsts[int(error.field.split(".")[2])]
+    words = error.renamed(lambda _: "path.points", lambda point: first + point).message
     return InvalidValue.in_words("path.points", words)
 
 
@@ -176,16 +171,16 @@ def _rounded(k: int, a: Point, b: Point, c: Point, radius: float) -> tuple[Point
     """
     into, out = math.dist(a, b), math.dist(b, c)
     u, v = ((b[0] - a[0]) / into, (b[1] - a[1]) / into), ((c[0] - b[0]) / out, (c[1] - b[1]) / out)
-    turn = math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
-    if abs(turn) < CORNER_MIN:
+    angle = math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
+    if abs(angle) < CORNER_MIN:
         return None
-    if math.pi - abs(turn) < 2.0 * BACK_MIN:
+    if math.pi - abs(angle) < 2.0 * BACK_MIN:
         name = f"path.points.{k}"
         raise InvalidValue(name, "must not be where two straight legs turn back: make one of them a curve")
-    half = math.tan(0.5 * abs(turn))
+    half = math.tan(0.5 * abs(angle))
     cut = min(max(radius * half, LENGTH_MIN), CUT_MOST * min(into, out))
-    arc_radius, side = cut / half, math.copysign(1.0, turn)
+    arc_radius, side = cut / half, math.copysign(1.0, angle)
     begin, end = (b[0] - cut * u[0], b[1] - cut * u[1]), (b[0] + cut * v[0], b[1] + cut * v[1])
     centre = (begin[0] - side * arc_radius * u[1], begin[1] + side * arc_radius * u[0])
     from_centre = math.atan2(begin[1] - centre[1], begin[0] - centre[0])
-    return begin, Arc(centre, arc_radius, from_centre, turn), end
+    return begin, Arc(centre, arc_radius, from_centre, angle), end
