@@ -126,11 +126,11 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 #     [low_k + delta(low_k), high_k + delta(high_k)],
 # as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
 # once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
-# more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) turns by
-#     turn = min((D_a + D_b) / c, k (D_a + D_b) / 2)
+# more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) rotates by
+#     angle = min((D_a + D_b) / c, k (D_a + D_b) / 2)
 # at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
 # handle by o at most and sideways by w / 2, moves by no more than
-#     max(D_a, D_b) + (o + w / 2) turn.
+#     max(D_a, D_b) + (o + w / 2) angle.
 # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
 #
 # Rounding. Stretches meet at the same computed theta, so that nothing is left out; the first one begins before its
@@ -191,9 +191,9 @@ def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
             inner, outer, curvatures[k] = outer, inner, curvature
         low, high = (low + inner) * (1.0 - THETA_ROUNDING), (high + outer) * (1.0 + THETA_ROUNDING)
     both = arcs[:-1] + arcs[1:]
-    turned = both * np.minimum(1.0 / chords, 0.5 * curvatures)
+    angles = both * np.minimum(1.0 / chords, 0.5 * curvatures)
     over = search.sizes[:benches, HALF_LENGTH] - 0.5 * chords + search.sizes[:benches, HALF_WIDTH]
-    return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * turned
+    return arcs, np.maximum(arcs[:-1], arcs[1:]) + over * angles
 
 
 def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float, float]:

@@ -114,11 +114,11 @@ class _FclBoxes:
         """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
         import fcl
 
-        turns, places = np.zeros((len(poses), 4)), np.zeros((len(poses), 3))
-        turns[:, 0], turns[:, 3] = np.cos(0.5 * poses[:, 2]), np.sin(0.5 * poses[:, 2])
+        rotations, places = np.zeros((len(poses), 4)), np.zeros((len(poses), 3))
+        rotations[:, 0], rotations[:, 3] = np.cos(0.5 * poses[:, 2]), np.sin(0.5 * poses[:, 2])
         places[:, :2] = poses[:, :2]
-        for body, turn, place in zip(self.bodies, turns, places, strict=True):
-            body.setQuatRotation(turn)
+        for body, rotation, place in zip(self.bodies, rotations, places, strict=True):
+            body.setQuatRotation(rotation)
             body.setTranslation(place)
         manager = fcl.DynamicAABBTreeCollisionManager()
         manager.registerObjects(self.bodies)
@@ -178,8 +178,8 @@ def _fcl_box(length: float, width: float) -> object:
 def _fcl_body(shape: object, x: float, y: float, heading: float) -> object:
     import fcl
 
-    turn = np.array([np.cos(0.5 * heading), 0.0, 0.0, np.sin(0.5 * heading)])
-    return fcl.CollisionObject(shape, fcl.Transform(turn, np.array([x, y, 0.0])))
+    rotation = np.array([np.cos(0.5 * heading), 0.0, 0.0, np.sin(0.5 * heading)])
+    return fcl.CollisionObject(shape, fcl.Transform(rotation, np.array([x, y, 0.0])))
 
 
 def _fcl_within(poses: Floats, sizes: Floats, margin: float, budget: Budget) -> bool:
