@@ -167,7 +167,7 @@ def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     s, last, columns = held * dance.head_speed, dance.end.theta or 0.0, (position, velocity, speed)
     budget.afford(float(speed.size))
-    before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, *columns, budget)
+    before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, columns, budget)
     budget.look()
     if before_fold < held.size:
         raise dance.after_the_end(held, before_fold)

@@ -277,7 +277,7 @@ class _Lone:
         """Corners (N, 4, 2) at places (N,) [m]."""
         shape = (s.size, 2)
         position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-        self.path.handles(s, self.last, self.dragon.chords, 1.0, position, velocity, speed, self.budget)
+        self.path.handles(s, self.last, self.dragon.chords, 1.0, (position, velocity, speed), self.budget)
         self.budget.look()
         outlines: Floats = bench_outlines(self.dragon, position)[:, 0]
         return outlines

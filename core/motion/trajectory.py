@@ -134,7 +134,7 @@ def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget:
         rows = slice(first, first + batch)
         budget.afford(float(handles * time[rows].size))
         s, columns = time[rows] * dance.head_speed, (position[rows], velocity[rows], speed[rows])
-        before_fold = dance.path.handles(s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, *columns, budget)
+        before_fold = dance.path.handles(s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, columns, budget)
         budget.look()
         if before_fold < time[rows].size:
             raise dance.after_the_end(asked, first + before_fold)

@@ -10,6 +10,8 @@ from core.paths.frame import Frame
 from core.shown import Shown
 from core.values import Floats
 
+Columns = tuple[Floats, Floats, Floats]
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HeadState(Shown):
@@ -78,20 +80,12 @@ class Path(Protocol):
         """The head at arc length s [m]."""
 
     def handles(
-        self,
-        s: Floats,
-        last: float,
-        chords: Floats,
-        head_speed: float,
-        position: Floats,
-        velocity: Floats,
-        speed: Floats,
-        budget: kernels.Budget,
+        self, s: Floats, last: float, chords: Floats, head_speed: float, columns: Columns, budget: kernels.Budget
     ) -> int:
         """Fill in all handles in the own frame; returns the number of places before a fold.
 
         s: (T,) of the head [m]; last: least polar angle of the head on a spiral [rad]; chords: (n,) [m]
-        position: (T, n + 1, 2) [m]; velocity: (T, n + 1, 2), speed: (T, n + 1) [m/s]
+        columns: to fill: position (T, n + 1, 2) [m]; velocity (T, n + 1, 2), speed (T, n + 1) [m/s]
         budget: ends it before it is done; the caller looks at it afterwards
         """
 

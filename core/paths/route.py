@@ -13,7 +13,7 @@ from core.errors import InvalidValue, checked_number, listed, said, too_much
 from core.kernels import Budget, Halted
 from core.kernels.constants import K_END, K_START, POINT_CURVATURE, PX, PY, S_END, S_START, TX, TY
 from core.paths.frame import WORLD
-from core.paths.path import HeadState
+from core.paths.path import Columns, HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
 from core.values import Floats
@@ -164,21 +164,13 @@ class Route(Shown):
         return HeadState(None, math.hypot(x, y), x, y)
 
     def handles(
-        self,
-        s: Floats,
-        last: float,
-        chords: Floats,
-        head_speed: float,
-        position: Floats,
-        velocity: Floats,
-        speed: Floats,
-        budget: kernels.Budget,
+        self, s: Floats, last: float, chords: Floats, head_speed: float, columns: Columns, budget: kernels.Budget
     ) -> int:
         """Fill in all handles, see Path; no bench folds on a route."""
         sizes = np.zeros((chords.size, kernels.SIZE_COLUMNS))
         sizes[:, kernels.CHORD] = chords
         chain = np.empty((chords.size + 1, kernels.CHAIN_COLUMNS))
-        kernels.route_trajectory(self.table, s, head_speed, sizes, chain, position, velocity, speed)
+        kernels.route_trajectory(self.table, s, head_speed, sizes, chain, *columns)
         return s.size
 
     def places(self, s: Floats, last: float) -> Floats:

@@ -14,7 +14,7 @@ import numpy as np
 from core import kernels
 from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
 from core.paths.frame import WORLD, Frame
-from core.paths.path import HeadState
+from core.paths.path import Columns, HeadState
 from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.sampling import bisected
@@ -207,19 +207,10 @@ class Spiral(Shown):
         return HeadState(theta, radius, *((x, y) if self.frame == WORLD else self.frame.point(x, y)))
 
     def handles(
-        self,
-        s: Floats,
-        last: float,
-        chords: Floats,
-        head_speed: float,
-        position: Floats,
-        velocity: Floats,
-        speed: Floats,
-        budget: kernels.Budget,
+        self, s: Floats, last: float, chords: Floats, head_speed: float, columns: Columns, budget: kernels.Budget
     ) -> int:
         """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
-        head = self.places(s, last)
-        return kernels.spiral_trajectory(self.growth, head, chords, head_speed, position, velocity, speed, budget)
+        return kernels.spiral_trajectory(self.growth, self.places(s, last), chords, head_speed, *columns, budget)
 
     def calm(self, curvature: float) -> float:
         """Radius outside which the |curvature| is at most this [1/m], in the form of kernels.Peak [m]."""
