@@ -17,21 +17,6 @@ from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIV
 from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels import Budget, Ended
-from core.kernels.constants import (
-    CHORD,
-    COIL_GROWTH,
-    EDGES_PER_WORK,
-    FREE,
-    HALF_LENGTH,
-    HALF_WIDTH,
-    MX,
-    MY,
-    NO_BRACKET,
-    RADIUS,
-    RATE,
-    UX,
-    UY,
-)
 from core.kernels.results import Marched
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -99,7 +84,7 @@ class Search:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
         self.use(path, margin)
-        everyone = path.spiral is None and rings.clear_place >= FREE  # no benches are known to be out of reach
+        everyone = path.spiral is None and rings.clear_place >= kernels.FREE  # no benches are known to be out of reach
         self.resize(dragon.benches if everyone else min(dragon.benches, 255))
 
     def use(self, path: Spiral | Route, margin: float) -> None:
@@ -107,9 +92,9 @@ class Search:
         self.path, self.margin = path, margin
         self.growth, self.place, self.curve = path.growth, path.place, path.curve
         if path.spiral is None:
-            route, self.clear_radius, radius = path.as_route(path.end), FREE, FREE
+            route, self.clear_radius, radius = path.as_route(path.end), kernels.FREE, kernels.FREE
             if route.tail_begin is None and not len(self.edges) and self.dragon.benches >= 3:
-                radius = float(kernels.clear_radius(float(route.table[0, COIL_GROWTH]), margin, self.rings))
+                radius = float(kernels.clear_radius(float(route.table[0, kernels.COIL_GROWTH]), margin, self.rings))
             places = clear_places(route, self.dragon, margin, radius, self.travel_rounding)
             self.rings.clear_place, self.rings.end_place = places
         else:
@@ -145,10 +130,10 @@ class Search:
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
-            self.sizes[benches + 1 :, HALF_LENGTH] = self.sizes[benches + 1 :, RADIUS] = half
+            self.sizes[benches + 1 :, kernels.HALF_LENGTH] = self.sizes[benches + 1 :, kernels.RADIUS] = half
             self.rows[:, benches + 1 :] = 0.0
-            self.rows[:, benches + 1 :, MX : MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
-            self.rows[:, benches + 1 :, UX : UY + 1] = along / (2.0 * half)[:, None]
+            self.rows[:, benches + 1 :, kernels.MX : kernels.MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+            self.rows[:, benches + 1 :, kernels.UX : kernels.UY + 1] = along / (2.0 * half)[:, None]
         self.room = benches
         self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, self.dragon.benches, len(edges))
         self._set_scene()
@@ -161,9 +146,9 @@ class Search:
         """Rows for a number of leading benches of a dragon, and empty ones for the edges at rest."""
         lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
         sizes = np.zeros((benches + 1 + len(self.edges), kernels.SIZE_COLUMNS))
-        sizes[:benches, CHORD] = dragon.chords[:benches]
-        sizes[:benches, HALF_LENGTH], sizes[:benches, HALF_WIDTH] = 0.5 * lengths, 0.5 * widths
-        sizes[:benches, RADIUS] = 0.5 * np.hypot(lengths, widths)
+        sizes[:benches, kernels.CHORD] = dragon.chords[:benches]
+        sizes[:benches, kernels.HALF_LENGTH], sizes[:benches, kernels.HALF_WIDTH] = 0.5 * lengths, 0.5 * widths
+        sizes[:benches, kernels.RADIUS] = 0.5 * np.hypot(lengths, widths)
         return sizes
 
     def spend(self, work: float) -> None:
@@ -173,7 +158,7 @@ class Search:
 
     def samples(self, span: float, step: float) -> int:
         """Number of samples over a span [m] at a step [m], or fewer if the remaining work requires it."""
-        step_work = self.room * (1.0 + len(self.edges) / EDGES_PER_WORK)
+        step_work = self.room * (1.0 + len(self.edges) / kernels.EDGES_PER_WORK)
         affordable = min(float(SAMPLES), SAMPLED_SHARE * min(self.work, self.budget.left) / step_work)
         return max(3, int(min(3.0 + span / step, affordable)))
 
@@ -199,7 +184,7 @@ class Search:
         rounding, asked = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
         stop = min(stop + rounding, max(stop, self.path.limit))
-        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < FREE else start
+        clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < kernels.FREE else start
         if clear_until > start:
             opening = False
             start = max(start, clear_until - rounding)
@@ -207,7 +192,7 @@ class Search:
         if nothing or (start >= stop and not opening):
             return Ended.REACHED, Marched(asked[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
-        grazes = dips or tolerance != NO_BRACKET
+        grazes = dips or tolerance != kernels.NO_BRACKET
         while True:
             most_work = max(min(self.work, self.budget.left), 1.0)
             ended = self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, most_work)
@@ -299,7 +284,7 @@ class Search:
     def rates(self, travel: float) -> Floats:
         """Speed of every handle along the path over the head's after a travel [1]; negative for one that moves back."""
         self.clearance(travel)
-        return self.rows[0, : self.room + 1, RATE].copy()
+        return self.rows[0, : self.room + 1, kernels.RATE].copy()
 
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
         """Rate at which a pair parts after a travel, per metre of head travel [1]."""

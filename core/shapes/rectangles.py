@@ -18,23 +18,14 @@ from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge, asked_of, said
 from core.kernels import Budget
-from core.kernels.constants import (
-    FRAME_COLUMNS,
-    FRAME_HALF_LENGTH,
-    FRAME_HALF_WIDTH,
-    FRAME_UX,
-    FRAME_UY,
-    FRAME_X,
-    FRAME_Y,
-)
 from core.shown import Shown, worded
 from core.values import Floats
 
 Pairs = NDArray[np.int64]
 
 # Columns of a frame: its centre, its direction, and the same with x and y exchanged.
-CENTRE, ALONG = slice(FRAME_X, FRAME_Y + 1), slice(FRAME_UX, FRAME_UY + 1)
-ACROSS = slice(FRAME_UY, FRAME_UX - 1, -1)
+CENTRE, ALONG = slice(kernels.FRAME_X, kernels.FRAME_Y + 1), slice(kernels.FRAME_UX, kernels.FRAME_UY + 1)
+ACROSS = slice(kernels.FRAME_UY, kernels.FRAME_UX - 1, -1)
 # Sides of the centre on which the corners lie, in units of (half length, half width).
 CORNER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
@@ -86,8 +77,8 @@ class Separation(Shown):
 def frames_separation(a: Floats, b: Floats) -> Separation:
     """Signed separation of rectangles given as frames. a, b: (..., 6) as frames() returns, of equal shape."""
     shape = a.shape[:-1]
-    out = np.empty((a.size // FRAME_COLUMNS, kernels.SEPARATION_COLUMNS))
-    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, FRAME_COLUMNS) for frame in (a, b))
+    out = np.empty((a.size // kernels.FRAME_COLUMNS, kernels.SEPARATION_COLUMNS))
+    rows_a, rows_b = (np.require(frame, requirements=["C", "W"]).reshape(-1, kernels.FRAME_COLUMNS) for frame in (a, b))
     kernels.pair_separations(rows_a, rows_b, out)
     return Separation(
         separation=out[:, kernels.SEPARATION].reshape(shape),
@@ -104,11 +95,11 @@ def frames(poses: Floats, sizes: Floats) -> Floats:
     returns: (..., 6), never a view
     """
     shape = np.broadcast_shapes(poses.shape[:-1], sizes.shape[:-1])
-    out = np.empty((*shape, FRAME_COLUMNS))
+    out = np.empty((*shape, kernels.FRAME_COLUMNS))
     out[..., CENTRE] = poses[..., :2]
-    out[..., FRAME_UX] = np.cos(poses[..., 2])
-    out[..., FRAME_UY] = np.sin(poses[..., 2])
-    out[..., FRAME_HALF_LENGTH:] = 0.5 * sizes
+    out[..., kernels.FRAME_UX] = np.cos(poses[..., 2])
+    out[..., kernels.FRAME_UY] = np.sin(poses[..., 2])
+    out[..., kernels.FRAME_HALF_LENGTH :] = 0.5 * sizes
     return out
 
 
@@ -121,8 +112,8 @@ def corners(poses: Floats, sizes: Floats) -> Floats:
     [[2.0, 0.5], [2.0, -0.5], [0.0, -0.5], [0.0, 0.5]]
     """
     frame = frames(np.asarray(poses, dtype=np.float64), np.asarray(sizes, dtype=np.float64))[..., None, :]
-    along = CORNER_SIDES[:, :1] * frame[..., FRAME_HALF_LENGTH, None] * frame[..., ALONG]
-    left = CORNER_SIDES[:, 1:] * frame[..., FRAME_HALF_WIDTH, None] * (frame[..., ACROSS] * [-1.0, 1.0])
+    along = CORNER_SIDES[:, :1] * frame[..., kernels.FRAME_HALF_LENGTH, None] * frame[..., ALONG]
+    left = CORNER_SIDES[:, 1:] * frame[..., kernels.FRAME_HALF_WIDTH, None] * (frame[..., ACROSS] * [-1.0, 1.0])
     return frame[..., CENTRE] + along + left
 
 
@@ -176,8 +167,8 @@ def _checked_handles(handles: object) -> Floats:
 
 def upright_boxes(frame: Floats, spare: Floats | float = 0.0) -> Floats:
     """Upright boxes (N, 4) around rectangles, x, y to x, y [m]; spare: added on every side. frame: rows of frames()"""
-    half = np.abs(frame[:, ALONG]) * frame[:, FRAME_HALF_LENGTH, None]
-    half += np.abs(frame[:, ACROSS]) * frame[:, FRAME_HALF_WIDTH, None]
+    half = np.abs(frame[:, ALONG]) * frame[:, kernels.FRAME_HALF_LENGTH, None]
+    half += np.abs(frame[:, ACROSS]) * frame[:, kernels.FRAME_HALF_WIDTH, None]
     return np.hstack([frame[:, CENTRE] - (half + spare), frame[:, CENTRE] + (half + spare)])
 
 
@@ -190,7 +181,7 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
     raises: TooLarge with the field benches for more than PAIRS_MAX pairs or CANDIDATES_MAX meeting boxes if exact, for
         more than CROSS_CANDIDATES_MAX otherwise
     """
-    scale = np.abs(frame[:, CENTRE]).sum(axis=1) + frame[:, FRAME_HALF_LENGTH:].sum(axis=1) + margin
+    scale = np.abs(frame[:, CENTRE]).sum(axis=1) + frame[:, kernels.FRAME_HALF_LENGTH :].sum(axis=1) + margin
     boxes = upright_boxes(frame, 0.5 * margin + ROUNDING * scale[:, None])
     leaves = 1 << max(0, (-(-len(frame) // kernels.BOXES_PER_LEAF) - 1).bit_length())
     order = _tree_order(frame[:, CENTRE], leaves)
