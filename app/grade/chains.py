@@ -7,25 +7,18 @@ angles rounded in between, and turns whose arcs do not meet the spiral tangentia
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from app.grade.expected import Motion, motion
 from core import Dance, Dragon, Spiral, Turn
 from core.values import Floats
 
-# x, y [m] and speed [m/s] of every handle (T, H, 3) at times (T,) [s].
-Motion = Callable[[Floats], Floats]
 # Most steps of Newton for the next angle, and of false position for the next place: both reach 1e-12 much earlier.
 NEWTON_STEPS, FALSE_STEPS = 8, 40
 # Step of the search for the nearest place one chord away, in chords: where a path turns back, that place is far [1].
 WIDER = 0.05
-
-
-def motion(position: Floats, speed: Floats) -> Floats:
-    """(T, H, 3) from positions (T, H, 2) and speeds (T, H)."""
-    return np.concatenate([position, speed[..., None]], axis=-1)
 
 
 def link_speeds(position: Floats, tangent: Floats) -> Floats:
@@ -55,11 +48,9 @@ def rounded_angles(dance: Dance, path: Spiral, decimals: int) -> Motion:
     """Motion with every polar angle rounded to some decimals before the next one is computed."""
 
     def moved(times: Floats) -> Floats:
-        theta = np.round(path.theta(times * dance.head_speed), decimals)
-        thetas = [theta]
+        thetas = [np.round(path.theta(times * dance.head_speed), decimals)]
         for chord in dance.dragon.chords:
-            theta = np.round(theta + _turned(theta, (chord / path.growth) ** 2), decimals)
-            thetas.append(theta)
+            thetas.append(np.round(thetas[-1] + _turned(thetas[-1], (chord / path.growth) ** 2), decimals))
         return _on_spiral(path, np.stack(thetas, axis=1))
 
     return moved
@@ -120,17 +111,12 @@ def on_bent(dragon: Dragon, path: Bent) -> Motion:
     """Motion of a dragon along such a turn at 1 m/s: each handle is at the nearest place a chord behind its leader."""
 
     def moved(times: Floats) -> Floats:
-        s = times
-        points: list[Floats] = []
-        tangents: list[Floats] = []
-        for chord in [None, *dragon.chords]:
-            if chord is not None:
-                s = _behind(path, s, points[-1], float(chord))
-            point, tangent = path.place(s)
-            points.append(point)
-            tangents.append(tangent)
-        position = np.stack(points, axis=1)
-        return motion(position, link_speeds(position, np.stack(tangents, axis=1)))
+        s, found = times, [path.place(times)]
+        for chord in dragon.chords.tolist():
+            s = _behind(path, s, found[-1][0], chord)
+            found.append(path.place(s))
+        position, tangent = (np.stack(some, axis=1) for some in zip(*found, strict=True))
+        return motion(position, link_speeds(position, tangent))
 
     return moved
 
@@ -139,8 +125,7 @@ def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
     """Places behind s with points one chord from `point`: bracketed, then by the Illinois method, all together."""
 
     def excess(at: Floats) -> Floats:
-        found: Floats = np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord
-        return found
+        return np.asarray(np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord)
 
     near = far = s - 0.9 * chord
     f_near = f_far = excess(far)

@@ -10,19 +10,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from app.grade.chains import Motion
-from app.grade.expected import Workbook, contact_time, dance_of
-from app.grade.geometry import Model, geometries, of_dance, time_at
+from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
+from app.grade.geometry import Model, geometries, time_at
 from app.grade.labels import SPEED
 from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, Kind
 from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding, explained
 from app.grade.verdict import RIGHT, ROUNDED, Judgement
 from app.grade.words import note
-from core import Budget
+from core import Budget, Dance
 from core.values import Floats
 
 # Shares of the wrong cells, and of all cells, that a model must give [1].
@@ -89,10 +89,8 @@ def _best(one: Judgement, times: Floats, models: Iterable[Model], budget: Budget
     for model in models:
         budget.look()
         # Most models are already far off at a few instants.
-        if _fit(one, model.motion(times[some]), some).all < LOOK_SHARE:
-            continue
-        fit = _fit(one, model.motion(times))
-        if fit.explains:
+        is_near = _fit(one, model.motion(times[some]), some).all >= LOOK_SHARE
+        if is_near and (fit := _fit(one, model.motion(times))).explains:
             found.append((model, fit))
     return max(found, key=lambda pair: (round(pair[1].all, 3), -pair[1].off), default=None)
 
@@ -114,26 +112,20 @@ def _finding(model: Model, fit: _Fit, one: Judgement) -> Finding:
 def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budget) -> list[Finding]:
     either = position or speed
     assert either is not None
-    right = Model("", of_dance(dance_of(either.workbook)))
-    findings: list[Finding] = []
-    base: Model | None = right
+    dance, findings = dance_of(either.workbook), list[Finding]()
+    base: Motion | None = of_dance(dance)
     if position and position.is_off:
-        times = position.times
-        found = _best(position, times, geometries(dance_of(position.workbook), times, _head(position)), budget)
-        base = found[0] if found else None
+        found = _best(position, position.times, geometries(dance, position.times, _head(position)), budget)
+        base = found[0].motion if found else None
         if found:
             findings.append(_finding(*found, position))
         elif ring := wrong_ring(position):
             findings.append(ring)
-    if speed is None or not speed.is_off:
+    if speed is None or not speed.is_off or (base and _fit(speed, base(speed.times)).explains):
         return findings
-    if base is not None and _fit(speed, base.motion(speed.times)).explains:
-        return findings
-    models = [] if base is None else [*speed_errors(base.motion)]
+    models = [*speed_errors(base)] if base else [_equal_speeds()]
     if position is None:
-        models += geometries(dance_of(speed.workbook), speed.times, None)
-    elif base is None:
-        models += [_equal_speeds()]
+        models += geometries(dance, speed.times, None)
     if found := _best(speed, speed.times, models, budget):
         findings.append(_finding(*found, speed))
     return findings
@@ -158,33 +150,27 @@ def speed_errors(motion: Motion) -> Iterator[Model]:
             ("backward_difference", -step, 0.0),
             ("central_difference", -step, step),
         ):
+            yield Model(error, partial(_quotient, motion, before, after), {"step": f"{step:g}"})
 
-            def moved(times: Floats, before: float = before, after: float = after) -> Floats:
-                first, last = motion(times + before), motion(times + after)
-                last[..., SPEED] = np.linalg.norm(last[..., :2] - first[..., :2], axis=-1) / (after - before)
-                return last
 
-            yield Model(error, moved, {"step": f"{step:g}"})
+def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Floats:
+    """A motion whose speeds are its difference quotients over an interval around each time [s]."""
+    first, last = motion(times + before), motion(times + after)
+    last[..., SPEED] = np.linalg.norm(last[..., :2] - first[..., :2], axis=-1) / (after - before)
+    return last
 
 
 def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
     """Findings on result2, whose instant follows from the place of the head."""
-    right = of_dance(dance_of(Workbook.RESULT2))
-    time = np.array([contact_time()])
-    head = _head(one)
-    times = [contact_time(), *(_instants(head) if head is not None else [])]
-    findings: list[Finding] = []
-    for instant in times:
-        at = np.array([instant])
-        base = Model("other_instant", right, {"time": f"{instant:.6f}"})
-        models = [base] if instant != time[0] else []
-        models += [*geometries(dance_of(Workbook.RESULT2), at, None), *speed_errors(right)]
+    dance, head = dance_of(Workbook.RESULT2), _head(one)
+    right = of_dance(dance)
+    for instant in [contact_time(), *(_instants(dance, head) if head is not None else [])]:
+        at, is_other = np.array([instant]), instant != contact_time()
+        models = [Model("other_instant", right, {"time": f"{instant:.6f}"})] if is_other else []
+        models += [*geometries(dance, at, None), *speed_errors(right)]
         if found := _best(one, at, models, budget):
-            findings.append(_finding(*found, one))
-            if instant != time[0]:
-                findings += _why_then(instant)
-            break
-    return findings
+            return [_finding(*found, one), *(_why_then(instant) if is_other else [])]
+    return []
 
 
 def _why_then(instant: float) -> list[Finding]:
@@ -194,9 +180,8 @@ def _why_then(instant: float) -> list[Finding]:
     return explained("collision_time", exact, INSTANT_OFF) or explained("collision_time", exact, 0.5 * 10.0**-decimals)
 
 
-def _instants(head: Floats) -> Iterator[float]:
+def _instants(dance: Dance, head: Floats) -> Iterator[float]:
     """Times at which the head is at the student's place [s], also on the mirrored spiral."""
-    dance = dance_of(Workbook.RESULT2)
     for point in (head[0], head[0] * [1.0, -1.0]):
         s = float(places(dance.path, point))
         if np.isfinite(s):

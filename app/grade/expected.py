@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
 from functools import cache
 
 import numpy as np
 
-from app.grade.layout import BENCHES, HANDLES, Kind
+from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind
 from core import Dance, Dragon, Spiral, Turn, first_contact
 from core import trajectory as trajectory_of
 from core.values import Floats
 
+# x, y [m] and speed [m/s] of every handle (T, H, 3) at times (T,) [s].
+Motion = Callable[[Floats], Floats]
 PITCH = 1.7  # [m], of the spiral that question 4 turns on
 # Time of result4 before and after the beginning of the turn, and length of result1 [s].
 TURN_SPAN, SPIRAL_SPAN = 100, 300
@@ -56,17 +59,25 @@ def times_of(workbook: Workbook) -> Floats:
     """The instants of a workbook [s]."""
     if workbook is Workbook.RESULT2:
         return np.array([contact_time()])
-    if workbook is Workbook.RESULT4:
-        return np.arange(-TURN_SPAN, TURN_SPAN + 1, dtype=np.float64)
-    return np.arange(SPIRAL_SPAN + 1, dtype=np.float64)
+    first, last = (-TURN_SPAN, TURN_SPAN) if workbook is Workbook.RESULT4 else (0, SPIRAL_SPAN)
+    return np.arange(first, last + 1, dtype=np.float64)
 
 
 def cells_of(workbook: Workbook, kind: Kind) -> int:
     """Number of cells with numbers in a sheet."""
-    return times_of(workbook).size * HANDLES * {Kind.POSITION: 2, Kind.SPEED: 1, Kind.CONTACT: 3}[kind]
+    return times_of(workbook).size * HANDLES * len(COMPONENTS[kind])
 
 
-def motion_of(workbook: Workbook, times: Floats) -> Floats:
-    """x, y [m] and speed [m/s] of every handle (T, HANDLES, 3) at these times (T,) [s]."""
-    found = trajectory_of(dance_of(workbook), times)
-    return np.concatenate([found.position, found.speed[..., None]], axis=-1)
+def motion(position: Floats, speed: Floats) -> Floats:
+    """(T, H, 3) from positions (T, H, 2) and speeds (T, H)."""
+    return np.concatenate([position, speed[..., None]], axis=-1)
+
+
+def of_dance(dance: Dance) -> Motion:
+    """The right motion of a dance."""
+
+    def moved(times: Floats) -> Floats:
+        found = trajectory_of(dance, np.minimum(times, dance.end.time))
+        return motion(found.position, found.speed)
+
+    return moved

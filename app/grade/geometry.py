@@ -9,15 +9,15 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
-from app.grade.chains import Bent, Motion, equal_arcs, motion, on_bent, rounded_angles
-from app.grade.expected import PITCH, right_turn
+from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
+from app.grade.expected import PITCH, Motion, of_dance, right_turn
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
-from core import trajectory as trajectory_of
 from core.values import Floats
 
 # Decimals to try for a constant or an angle that was rounded early.
@@ -34,16 +34,6 @@ class Model:
     error: str
     motion: Motion
     values: dict[str, object] = field(default_factory=dict)
-
-
-def of_dance(dance: Dance) -> Motion:
-    """The right motion of a dance."""
-
-    def moved(times: Floats) -> Floats:
-        found = trajectory_of(dance, np.minimum(times, dance.end.time))
-        return motion(found.position, found.speed)
-
-    return moved
 
 
 def geometries(dance: Dance, times: Floats, head: Floats | None) -> Iterator[Model]:
@@ -134,34 +124,26 @@ def _rounded_head(dance: Dance, path: Spiral, decimals: int, times: Floats) -> F
 
 def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
     """Models with numbers rounded before their use."""
-    turns = {}
-    for decimals in CONSTANT_DECIMALS:
-        turns[f"b = {round(path.growth, decimals):g}"] = 2.0 * math.pi * round(path.growth, decimals)
-    for rounded in PI_ROUNDED:
-        turns[f"pi = {rounded:g}"] = path.pitch * math.pi / rounded
-    for what, pitch in turns.items():
-        try:
+    growths = [round(path.growth, decimals) for decimals in CONSTANT_DECIMALS]
+    pitches = {f"b = {growth:g}": 2.0 * math.pi * growth for growth in growths}
+    pitches |= {f"pi = {rounded:g}": path.pitch * math.pi / rounded for rounded in PI_ROUNDED}
+    for what, pitch in pitches.items():
+        with suppress(BenchDragonError):
             yield Model("rounded_early", of_dance(Dance(dance.dragon, Spiral(pitch, path.start_turns))), {"what": what})
-        except BenchDragonError:
-            continue
     for decimals in ANGLE_DECIMALS:
         yield Model("rounded_early", rounded_angles(dance, path, decimals), {"what": f"theta, {decimals} decimals"})
 
 
 def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
     """Turns of another shape."""
-    for ratio in (1.0 / path.ratio, 1.0):
-        error = "ratio_inverted" if ratio < 1.0 else "equal_arcs_of_turn"
+    for error, ratio in (("ratio_inverted", 1.0 / path.ratio), ("equal_arcs_of_turn", 1.0)):
         yield Model(error, of_dance(Dance(dance.dragon, Turn(PITCH, ratio=ratio))))
     entry, leaving = complex(*path.entry), complex(*path.exit)
     # Semicircles on the line from entry to exit, which are tangent to the turning circle instead of the spiral.
     along = (leaving - entry) / abs(leaving - entry)
-    total = 0.5 * abs(leaving - entry)
-    radii = (total * path.ratio / (1.0 + path.ratio), total / (1.0 + path.ratio))
-    centres = (entry + radii[0] * along, leaving - radii[1] * along)
-    begins = (cmath.phase(-along), cmath.phase(-along))
-    turned = (-math.pi, math.pi)
-    arcs = tuple(zip(centres, radii, begins, turned, strict=True))
+    total, begin = 0.5 * abs(leaving - entry), cmath.phase(-along)
+    first, last = total * path.ratio / (1.0 + path.ratio), total / (1.0 + path.ratio)
+    arcs = (entry + first * along, first, begin, -math.pi), (leaving - last * along, last, begin, math.pi)
     yield Model("arcs_not_tangent", on_bent(dance.dragon, Bent(path, arcs)))
     mirrored = tuple(
         (along * (centre / along).conjugate(), radius, 2.0 * cmath.phase(along) - start, -angle)
@@ -172,12 +154,11 @@ def _other_turns(dance: Dance, path: Turn) -> Iterator[Model]:
 
 def arcs_of(path: Turn) -> list[tuple[complex, float, float, float]]:
     """Centre, radius, first angle and angle turned of the right arcs."""
-    points = (complex(*path.entry), complex(*path.tangent_point))
-    found = []
-    for k, sign in enumerate((-1.0, 1.0)):
-        centre = complex(*path.centres[k])
-        found.append((centre, path.radii[k], cmath.phase(points[k] - centre), sign * path.angles[k]))
-    return found
+    pieces = zip(path.centres, path.radii, (path.entry, path.tangent_point), (-1.0, 1.0), path.angles, strict=True)
+    return [
+        (complex(*centre), radius, cmath.phase(complex(*first) - complex(*centre)), sign * angle)
+        for centre, radius, first, sign, angle in pieces
+    ]
 
 
 def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
@@ -189,11 +170,9 @@ def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
     if spiral is not None and times[first] == 0.0:
         turns = round(float(np.hypot(*head[first])) / spiral.pitch, 3)
         if turns > 1.0 and abs(turns - spiral.start_turns) > 1e-3:
-            try:
+            with suppress(BenchDragonError):
                 moved = of_dance(Dance(dance.dragon, Spiral(spiral.pitch, turns)))
                 yield Model("other_start", moved, {"turns": f"{turns:g}"})
-            except BenchDragonError:
-                pass
     span = np.arange(times[first] - 500.0, min(times[first] + 500.0, dance.end.time), PLACE_STEP)
     off = np.linalg.norm(path.position(span * dance.head_speed) - head[first], axis=-1)
     if off.min() > PLACE_NEAR:

@@ -13,7 +13,6 @@ from functools import cache
 
 import numpy as np
 
-from app.grade.chains import Motion
 from app.grade.contacts import (
     EXACT_ANGLE,
     LOOSE_ANGLE,
@@ -26,8 +25,8 @@ from app.grade.contacts import (
     head_touches_at_start,
     stepped_pitch,
 )
-from app.grade.expected import PITCH, Workbook, contact_time, dance_of, right_turn
-from app.grade.geometry import geometries, of_dance
+from app.grade.expected import PITCH, Motion, Workbook, contact_time, dance_of, of_dance, right_turn
+from app.grade.geometry import geometries
 from app.grade.labels import SPEED
 from app.grade.words import Note, note
 from core import (

@@ -13,7 +13,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from app.grade.expected import KINDS, Workbook, cells_of, contact_time, dance_of, motion_of, times_of
+from app.grade.expected import KINDS, Workbook, cells_of, contact_time, dance_of, of_dance, times_of
 from app.grade.layout import COMPONENTS, HANDLES, Kind, Table
 from app.grade.words import Note, note
 from core.values import Floats
@@ -127,8 +127,7 @@ def judged(table: Table, workbook: Workbook) -> Judgement:
         notes.append(note("more_text", count=len(table.notes) - len(notes)))
     times = np.array([contact_time()]) if table.kind is Kind.CONTACT else table.times
     told = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
-    at = np.where(told, times, 0.0)
-    motion = motion_of(workbook, at)[..., list(COMPONENTS[table.kind])]
+    motion = of_dance(dance_of(workbook))(np.where(told, times, 0.0))[..., list(COMPONENTS[table.kind])]
     values = table.values * _scale(table, motion, notes)
     handles = _handles(table, values, motion, notes)
     known = handles < HANDLES

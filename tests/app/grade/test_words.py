@@ -11,8 +11,8 @@ import pytest
 from app.files.tables import Language
 from app.grade import words
 from app.grade.diagnosis import speed_errors
-from app.grade.expected import Workbook, dance_of
-from app.grade.geometry import geometries, of_dance
+from app.grade.expected import Workbook, dance_of, of_dance
+from app.grade.geometry import geometries
 from app.grade.shortcuts import UNITS, shortcuts
 
 GRADE = Path(words.__file__).parent
