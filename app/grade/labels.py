@@ -14,10 +14,8 @@ UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米":
 TIME = re.compile(r"(?:t\s*=?\s*)?([-+]?\d+(?:\.\d+)?)\s*(s|sec|seconds?|秒)?", re.IGNORECASE)
 UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
 HEAD, REAR = re.compile(r"龙头|head", re.IGNORECASE), re.compile(r"[(（]\s*后|后把手|rear", re.IGNORECASE)
-TAIL, BODY = (
-    re.compile(r"龙尾|tail", re.IGNORECASE),
-    re.compile(r"第?\s*(\d+)\s*节|body\D*(\d+)|龙身\D*(\d+)", re.IGNORECASE),
-)
+TAIL = re.compile(r"龙尾|tail", re.IGNORECASE)
+BODY = re.compile(r"第?\s*(\d+)\s*节|body\D*(\d+)|龙身\D*(\d+)", re.IGNORECASE)
 SPEED_WORD = re.compile(r"速度|速率|speed|velocity|^v$", re.IGNORECASE)
 TIME_WORD, HANDLE_WORD = re.compile(r"时间|time|^t$", re.IGNORECASE), re.compile(r"把手|handle", re.IGNORECASE)
 # Components of a number, in the order of the last axis of a table.

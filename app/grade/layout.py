@@ -60,12 +60,7 @@ class Table:
     values: Floats
     row: Ints
     column: Ints
-    grid: Grid
     notes: list[Note] = field(default_factory=list)
-
-    def place(self, at: tuple[int, ...]) -> tuple[int, int]:
-        """Row and column of one number in the grid, from 0."""
-        return int(self.row[at]), int(self.column[at])
 
 
 def tables_of(grid: Grid) -> list[Table]:
@@ -89,10 +84,9 @@ def _trimmed(grid: Grid) -> list[list[Cell]]:
 
 def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
     """Tables of a list with a line for each handle and instant: time, handle, x, y, speed."""
-    names = [plain(cell).lower() if isinstance(cell, str) else "" for cell in cells[0]]
     columns = {}
-    for k, name in enumerate(names):
-        label = label_of(cells[0][k])
+    for k, cell in enumerate(cells[0]):
+        name, label = plain(cell) if isinstance(cell, str) else "", label_of(cell)
         if TIME_WORD.search(name):
             columns["time"] = k
         elif HANDLE_WORD.search(name):
@@ -101,31 +95,25 @@ def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
             columns["xyv"[label.component]] = k
     if not {"time", "handle"} <= columns.keys() or len(columns) < 3:
         return []
-    lines = [
-        (n, row)
-        for n, row in enumerate(cells[1:], start=1)
-        if isinstance(row[columns["time"]], float) and isinstance(row[columns["handle"]], float)
-    ]
+    placed = [(row[columns["time"]], row[columns["handle"]]) for row in cells]
+    lines = [n for n, pair in enumerate(placed) if n and all(isinstance(one, float) for one in pair)]
     if not lines:
         return []
-    instants = np.array([row[columns["time"]] for _, row in lines], dtype=np.float64)
+    instants, numbers = np.array([placed[n] for n in lines], dtype=np.float64).T
     times, t = np.unique(instants, return_inverse=True)
-    numbers = np.array([row[columns["handle"]] for _, row in lines], dtype=np.float64)
     handles, h = np.unique(numbers.astype(np.int64), return_inverse=True)
     found = []
     for kind in (Kind.POSITION, Kind.SPEED):
-        names_of = ["xyv"[component] for component in COMPONENTS[kind]]
-        if not set(names_of) <= columns.keys():
+        if not {"xyv"[component] for component in COMPONENTS[kind]} <= columns.keys():
             continue
-        wanted = [columns[name] for name in names_of]
+        wanted = [columns["xyv"[component]] for component in COMPONENTS[kind]]
         shape = (times.size, handles.size, len(wanted))
         values, rows = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
         for c, k in enumerate(wanted):
-            values[t, h, c] = [row[k] if isinstance(row[k], float) else np.nan for _, row in lines]
-            rows[t, h, c] = [n for n, _ in lines]
+            values[t, h, c] = [cell if isinstance(cell := cells[n][k], float) else np.nan for n in lines]
+            rows[t, h, c] = lines
         column = np.broadcast_to(np.array(wanted, dtype=np.int64), shape)
-        order = np.arange(handles.size)
-        found.append(Table(grid.title, kind, times, handles, order, values, rows, column, grid))
+        found.append(Table(grid.title, kind, times, handles, np.arange(handles.size), values, rows, column))
     return found
 
 
@@ -170,10 +158,8 @@ def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
 
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
     """Columns and their instants; by their order if no heading gives them."""
-    best: dict[int, float] = {}
-    for row in heads:
-        told = {k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None}
-        best = told if len(told) > len(best) else best
+    told = ({k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None} for row in heads)
+    best: dict[int, float] = max(told, key=len, default={})
     if best and np.all(np.diff(list(best.values())) > 0):
         return best
     columns = range(aside + 1, len(cells[0]))
@@ -181,17 +167,13 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
     return {k: start + n for n, k in enumerate(columns)}
 
 
-def _numbered(lines: list[tuple[int, Label]]) -> tuple[dict[int, int], dict[int, int]]:
+def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
     """Handle of every line, by its label and by its order. The tail follows the last body bench with a label."""
-    last = max([BENCHES - 2, *(label.handle for _, label in lines if label.handle is not None)])
-    by_label: dict[int, int] = {}
-    by_order: dict[int, int] = {}
-    seen: dict[int, int] = {}
-    for k, label in lines:
-        assert label.handle is not None
-        handle = label.handle if label.handle >= 0 else last - label.handle
-        by_label[k], by_order[k] = handle, seen.setdefault(handle, len(seen))
-    return by_label, by_order
+    named = [label.handle for _, label in lines if label.handle is not None]
+    last = max([BENCHES - 2, *named])
+    by_label = [handle if handle >= 0 else last - handle for handle in named]
+    order = {handle: n for n, handle in enumerate(dict.fromkeys(by_label))}
+    return np.array(by_label), np.array([order[handle] for handle in by_label])
 
 
 def _over_time(
@@ -206,17 +188,15 @@ def _over_time(
         if twice:
             lines = [(k, replace(label, component=n % 2)) for n, (k, label) in enumerate(lines)]
         by_speed = not twice
-    kind = Kind.SPEED if by_speed else Kind.POSITION
-    if kind is Kind.SPEED:
+    if by_speed:
         lines = [(k, replace(label, component=SPEED)) for k, label in lines if label.component in (None, SPEED)]
-    return _filled(grid, cells, kind, lines, times, turned)
+    return _filled(grid, cells, Kind.SPEED if by_speed else Kind.POSITION, lines, times, turned)
 
 
 def _contact(
     grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], heads: dict[int, Label], turned: bool
 ) -> Table:
     """x, y and speed of handles at one instant."""
-    by_label, by_order = _numbered(lines)
     columns = {label.component: (k, label.unit) for k, label in heads.items()}
     rows = [k for k, _ in lines]
     shape = (1, len(rows), len(COMPONENTS[Kind.CONTACT]))
@@ -227,8 +207,7 @@ def _contact(
         values[0, :, component] = [_value(cells[n][k], notes, n, k, turned) * unit for n in rows]
         row[0, :, component], column[0, :, component] = rows, k
     above, aside = (column, row) if turned else (row, column)
-    handles, order = (np.array([of[k] for k in rows]) for of in (by_label, by_order))
-    return Table(grid.title, Kind.CONTACT, np.array([np.nan]), handles, order, values, above, aside, grid, notes)
+    return Table(grid.title, Kind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, notes)
 
 
 def _filled(
@@ -244,24 +223,19 @@ def _filled(
     lines = [(k, label) for k, label in lines if label.component in components]
     if not lines or not times:
         return None
-    by_label, by_order = _numbered(lines)
-    handles = list(dict.fromkeys(by_label[k] for k, _ in lines))
-    place = {handle: n for n, handle in enumerate(handles)}
-    order = {by_label[k]: by_order[k] for k, _ in lines}
-    shape = (len(times), len(handles), len(components))
+    by_label, places = _numbered(lines)
+    handles = np.array(list(dict.fromkeys(by_label.tolist())))
+    shape = (len(times), handles.size, len(components))
     values, row = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
     notes: list[Note] = []
-    columns = list(times)
-    for k, label in lines:
-        at = (slice(None), place[by_label[k]], components.index(label.component or 0))
-        values[at] = [_value(cells[k][n], notes, k, n, turned) for n in columns]
-        values[at] *= label.unit
+    for (k, label), place in zip(lines, places, strict=True):
+        at = (slice(None), place, components.index(label.component or 0))
+        values[at] = [_value(cells[k][n], notes, k, n, turned) * label.unit for n in times]
         row[at] = k
-    column = np.broadcast_to(np.array(columns, dtype=np.int64)[:, None, None], shape)
+    column = np.broadcast_to(np.array(list(times), dtype=np.int64)[:, None, None], shape)
     above, aside = (column, row) if turned else (row, column)
     instants = np.array(list(times.values()))
-    numbered, ordered = np.array(handles), np.array([order[handle] for handle in handles])
-    return Table(grid.title, kind, instants, numbered, ordered, values, above, aside, grid, notes)
+    return Table(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, notes)
 
 
 def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -> float:
@@ -273,30 +247,28 @@ def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -
     place = cell_name(*((column, row) if turned else (row, column)))
     try:
         number = float(plain(cell).replace(",", "."))
-        notes.append(note("text_number", cell=place))
     except ValueError:
         notes.append(note("text", cell=place, text=cell[:30]))
         return float("nan")
+    notes.append(note("text_number", cell=place))
     return number if np.isfinite(number) else float("nan")
 
 
 def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
     """A table of numbers without labels of handles, recognised by its size."""
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
-    if not numeric:
-        return None
     # A line of numbers above those of the handles can only hold times.
     first = next((k for k in numeric[:2] if len(cells) - k in (HANDLES, 2 * HANDLES)), None)
     if first is None:
         return None
-    rows = range(first, len(cells))
-    twice = len(rows) == 2 * HANDLES
-    kind = Kind.POSITION if twice else Kind.SPEED
-    lines = [(k, Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in enumerate(rows)]
+    twice = len(cells) - first == 2 * HANDLES
+    numbered = enumerate(range(first, len(cells)))
+    lines = [(k, Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in numbered]
     aside = next(k for k, cell in enumerate(cells[first]) if isinstance(cell, float)) - 1
     if not twice and len(cells[first]) - aside - 1 == len(COMPONENTS[Kind.CONTACT]):
         heads = {aside + 1 + c: Label(None, c, 1.0) for c in COMPONENTS[Kind.CONTACT]}
         return _contact(grid, cells, lines, heads, False)
+    kind = Kind.POSITION if twice else Kind.SPEED
     return _filled(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from contextlib import suppress
 
 from app.grade.grid import Cell, Grid, Unreadable
 from app.grade.words import Note, note
@@ -58,17 +59,10 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
 
 
 def _decoded(data: bytes) -> str:
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        codings: tuple[str, ...] = ("utf-16",)
-    elif b"\0" in data:
-        raise Unreadable(note("no_csv"))
-    else:
-        codings = CODINGS
-    for coding in codings:
-        try:
+    is_wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
+    for coding in ("utf-16",) if is_wide else () if b"\0" in data else CODINGS:
+        with suppress(UnicodeDecodeError):
             return data.decode(coding)
-        except UnicodeDecodeError:
-            continue
     raise Unreadable(note("no_csv"))
 
 

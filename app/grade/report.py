@@ -10,13 +10,13 @@ from pydantic import Field
 from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
-from app.grade.expected import cells_of
+from app.grade.expected import KINDS, cells_of
 from app.grade.grid import Unreadable
-from app.grade.layout import BENCHES, COMPONENTS, HANDLES, SHEETS, Kind, cell_name, tables_of
+from app.grade.layout import BENCHES, COMPONENTS, SHEETS, Kind, cell_name, tables_of
 from app.grade.reading import ZIP, grids_of
-from app.grade.rubric import Criterion, rubric_of
+from app.grade.rubric import rubric_of
 from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn, right_answer
-from app.grade.verdict import Judgement, Rating, judged, lacking, workbook_of, worst_of
+from app.grade.verdict import Judgement, Rating, judged, workbook_of, worst_of
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
@@ -149,14 +149,16 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     findings = diagnosed(judgements, budget)
     sheets = [_sheet(one, language) for one in judgements]
     if len(grids) > 1 or data.startswith(ZIP):
-        sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking(tables, workbook)]
+        lacking = (kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables})
+        sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking]
+    rubric = rubric_of(judgements, findings)
     return FileAnswer(
         file=name,
         workbook=workbook.value,
         verdict=worst_of(sheet.verdict for sheet in sheets),
         diagnosis=_found(findings, language),
         sheets=sheets,
-        rubric=[_criterion(one, language) for one in rubric_of(judgements, findings)],
+        rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=one.said.said(language)) for one in rubric],
         notes=[one.said(language) for one in notes],
     )
 
@@ -194,15 +196,10 @@ def _found(findings: Sequence[Finding], language: Language) -> list[DiagnosisAns
     ]
 
 
-def _criterion(one: Criterion, language: Language) -> CriterionAnswer:
-    return CriterionAnswer(criterion=one.name, met=one.met, words=one.said.said(language))
-
-
 def _sheet(one: Judgement, language: Language) -> SheetAnswer:
-    worst, first = one.worst(), one.first()
-    off = []
+    worst, first, notes = one.worst(), one.first(), [*one.notes]
     if one.verdict is Rating.ROUNDED and one.written != one.decimals:
-        off = [note("not_rounded", written=one.written, decimals=one.decimals)]
+        notes.append(note("not_rounded", written=one.written, decimals=one.decimals))
     return SheetAnswer(
         sheet=_title(one, language),
         holds=one.table.kind.value,
@@ -214,7 +211,7 @@ def _sheet(one: Judgement, language: Language) -> SheetAnswer:
         worst=worst and _cell(one, worst, language),
         first=first and _cell(one, first, language),
         picture=one.picture(),
-        notes=[known.said(language) for known in [*one.notes, *off]],
+        notes=[known.said(language) for known in notes],
     )
 
 
@@ -223,8 +220,7 @@ def _title(one: Judgement, language: Language) -> str:
 
 
 def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer:
-    row, column = one.table.place(at)
-    t, h, c = at
+    (t, h, c), row, column = at, int(one.table.row[at]), int(one.table.column[at])
     return CellAnswer(
         sheet=_title(one, language),
         cell=cell_name(row, column),
@@ -244,6 +240,3 @@ def _lacking(kind: Kind, cells: int, language: Language) -> SheetAnswer:
         sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
         worst=None, first=None, picture=[], notes=[said],
     )  # fmt: skip
-
-
-assert HANDLES == BENCHES + 1

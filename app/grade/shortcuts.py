@@ -8,39 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
-from app.grade.contacts import (
-    EXACT_ANGLE,
-    LOOSE_ANGLE,
-    RESOLUTION,
-    TURNING_RADIUS,
-    angle_sum_time,
-    any_touch_at_start,
-    circle_pitch,
-    corner_at_start,
-    head_touches_at_start,
-    stepped_pitch,
-)
+import core
+from app.grade import contacts
+from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, RESOLUTION, TURNING_RADIUS, angle_sum_time, circle_pitch
 from app.grade.expected import PITCH, Motion, Workbook, contact_time, dance_of, of_dance, right_turn
 from app.grade.geometry import geometries
 from app.grade.labels import SPEED
 from app.grade.words import Note, note
-from core import (
-    BenchDragonError,
-    Dance,
-    Dragon,
-    Spiral,
-    Turn,
-    clearance_profile,
-    first_contact,
-    maximum_head_speed,
-    minimum_pitch,
-    shortest_turn,
-)
+from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.shapes.rectangles import corners, literal_corners
 
 SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
@@ -100,16 +81,16 @@ def right_answer(name: str) -> float:
     if name == "collision_time":
         return contact_time()
     if name == "pitch":
-        return minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS).pitch
+        return core.minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS).pitch
     if name == "speed":
-        return maximum_head_speed(dance_of(Workbook.RESULT4), SPEED_LIMIT).head_speed
+        return core.maximum_head_speed(dance_of(Workbook.RESULT4), SPEED_LIMIT).head_speed
     return right_turn().length
 
 
 @cache
 def shortest_length(ratio: float) -> float:
     """Length of the shortest turn at a ratio, which enters deeper inside the circle [m]."""
-    return shortest_turn(Dragon(), PITCH, TURNING_RADIUS, ratio).turn.length
+    return core.shortest_turn(Dragon(), PITCH, TURNING_RADIUS, ratio).turn.length
 
 
 def accepted(name: str, value: float, half_unit: float) -> float | None:
@@ -143,16 +124,12 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
         fits = [*_truncated(value, right_answer(name)), *fits] or [*_on_grid(value)]
     exact = [one for one in fits if one.exact]
     numbers = {"unit": UNITS[name], "right": f"{right_answer(name):.9g}", "value": f"{value:.9g}"}
-    return [
-        Finding(
-            one.error,
-            note(f"error_{one.error}", **one.values),
-            note(
-                "gives_on_grid" if "grid" in one.values else "gives", gives=f"{one.value:.9g}", **numbers, **one.values
-            ),
-        )
-        for one in _by_error(exact or fits, value)[:FINDINGS_MOST]
-    ]
+    found = []
+    for one in _by_error(exact or fits, value)[:FINDINGS_MOST]:
+        words = "gives_on_grid" if "grid" in one.values else "gives"
+        evidence = note(words, gives=f"{one.value:.9g}", **numbers, **one.values)
+        found.append(Finding(one.error, note(f"error_{one.error}", **one.values), evidence))
+    return found
 
 
 def _by_error(fits: list[Shortcut], value: float) -> list[Shortcut]:
@@ -170,13 +147,8 @@ def _by_error(fits: list[Shortcut], value: float) -> list[Shortcut]:
 @cache
 def shortcuts(name: str) -> tuple[Shortcut, ...]:
     """The known shortcuts to one of UNITS, each with its result."""
-    found = {
-        "collision_time": _collision_times,
-        "pitch": _pitches,
-        "speed": _speeds,
-        "turn_length": _lengths,
-    }[name]()
-    return tuple(found)
+    known = {"collision_time": _collision_times, "pitch": _pitches, "speed": _speeds, "turn_length": _lengths}
+    return tuple(known[name]())
 
 
 def _collision_times() -> Iterator[Shortcut]:
@@ -184,13 +156,12 @@ def _collision_times() -> Iterator[Shortcut]:
     dance = dance_of(Workbook.RESULT2)
     for step in EVENT_STEPS:
         after, before = math.ceil(right / step) * step, math.floor(right / step) * step
-        clear, touching = clearance_profile(dance, np.array([before, after])).clearance
+        clear, touching = core.clearance_profile(dance, np.array([before, after])).clearance
         assert clear > 0.0 > touching
         yield Shortcut("time_steps", after, {"step": f"{step:g}"}, exact=True)
         yield Shortcut("time_steps_before", before, {"step": f"{step:g}"}, exact=True)
     for error, dragon in _other_dragons():
-        time = first_contact(Dance(dragon, Spiral())).time
-        if time is not None:
+        if (time := core.first_contact(Dance(dragon, Spiral())).time) is not None:
             yield Shortcut(error, time, {})
     yield Shortcut("loose_angle", angle_sum_time(corners, LOOSE_ANGLE), {"angle": f"{360.0 - LOOSE_ANGLE:.1f}"})
     yield Shortcut("literal_corners", angle_sum_time(literal_corners, EXACT_ANGLE), {})
@@ -204,16 +175,14 @@ def _other_dragons() -> Iterator[tuple[str, Dragon]]:
 
 
 def _pitches() -> Iterator[Shortcut]:
-    yield Shortcut("pose_on_circle", circle_pitch(any_touch_at_start), {})
-    yield Shortcut("pose_on_circle_head", circle_pitch(head_touches_at_start), {})
-    yield Shortcut("one_corner", circle_pitch(corner_at_start), {})
+    yield Shortcut("pose_on_circle", circle_pitch(contacts.any_touch_at_start), {})
+    yield Shortcut("pose_on_circle_head", circle_pitch(contacts.head_touches_at_start), {})
+    yield Shortcut("one_corner", circle_pitch(contacts.corner_at_start), {})
     for step in STEPS[:4]:
-        yield Shortcut("pitch_time_steps", stepped_pitch(step, right_answer("pitch")), {"step": f"{step:g}"})
+        yield Shortcut("pitch_time_steps", contacts.stepped_pitch(step, right_answer("pitch")), {"step": f"{step:g}"})
     for error, dragon in _other_dragons():
-        try:
-            yield Shortcut(error, minimum_pitch(dragon, turning_radius=TURNING_RADIUS).pitch, {})
-        except BenchDragonError:
-            continue
+        with suppress(BenchDragonError):
+            yield Shortcut(error, core.minimum_pitch(dragon, turning_radius=TURNING_RADIUS).pitch, {})
 
 
 def _truncated(value: float, right: float) -> Iterator[Shortcut]:
@@ -234,15 +203,15 @@ def _on_grid(value: float) -> Iterator[Shortcut]:
 
 
 def _speeds() -> Iterator[Shortcut]:
-    dance = dance_of(Workbook.RESULT4)
-    right = of_dance(Dance(Dragon(PEAK_BENCHES), dance.path))
+    dance = Dance(Dragon(PEAK_BENCHES), right_turn())
+    right = of_dance(dance)
     for step in STEPS[:6]:
         yield Shortcut("speed_time_steps", _fastest(right, step), {"step": f"{step:g}"})
     for step in STEPS:
         times = np.arange(0.0, PEAK_SPAN, step)
         moved = np.linalg.norm(right(times + step)[..., :2] - right(times)[..., :2], axis=-1) / step
         yield Shortcut("forward_difference", SPEED_LIMIT / float(moved.max()), {"step": f"{step:g}"})
-    for model in geometries(Dance(Dragon(PEAK_BENCHES), dance.path), np.zeros(1), None):
+    for model in geometries(dance, np.zeros(1), None):
         if model.error in SMOOTH:
             yield Shortcut(model.error, _fastest(model.motion, PEAK_STEP), model.values)
 
@@ -255,5 +224,4 @@ def _fastest(motion: Motion, step: float) -> float:
 def _lengths() -> Iterator[Shortcut]:
     yield Shortcut("arcs_not_tangent", math.pi * TURNING_RADIUS, {})
     for entry in ENTRIES:
-        length = Turn(PITCH, TURNING_RADIUS, entry_radius=entry).length
-        yield Shortcut("other_entry", length, {"entry": f"{entry:g}"})
+        yield Shortcut("other_entry", Turn(PITCH, TURNING_RADIUS, entry_radius=entry).length, {"entry": f"{entry:g}"})

@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from app.grade.expected import KINDS, Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.layout import COMPONENTS, HANDLES, Kind, Table
+from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
+from app.grade.layout import COMPONENTS, HANDLES, Ints, Kind, Table
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -67,7 +66,7 @@ class Judgement:
     right: int
     missing: int
     times: Floats
-    handles: NDArray[np.int64]
+    handles: Ints
     values: Floats
     wanted: Floats
     notes: list[Note] = field(default_factory=list)
@@ -140,18 +139,7 @@ def judged(table: Table, workbook: Workbook) -> Judgement:
     if not asked.all():
         notes.append(note("extra_times", count=int((~asked).sum())))
     wanted[~asked] = np.nan
-    return _counted(table, workbook, times, handles, np.where(np.isnan(wanted), np.nan, values), wanted, notes)
-
-
-def _counted(
-    table: Table,
-    workbook: Workbook,
-    times: Floats,
-    handles: NDArray[np.int64],
-    values: Floats,
-    wanted: Floats,
-    notes: list[Note],
-) -> Judgement:
+    values = np.where(np.isnan(wanted), np.nan, values)
     off, cells = np.abs(values - wanted), cells_of(workbook, table.kind)
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
@@ -167,13 +155,11 @@ def _counted(
         verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
     missing = cells - present
     if missing and present:
-        absent = sorted(set(range(HANDLES)) - set(handles.tolist()))
-        late = len(set(times_of(workbook).tolist()) - set(times.tolist()))
-        notes.append(note("missing", count=missing, handles=len(absent), times=late))
-    rounded = None if largest <= RIGHT else decimals
-    written = _decimals(values)
+        absent, late = set(range(HANDLES)) - {*handles.tolist()}, {*times_of(workbook).tolist()} - {*times.tolist()}
+        notes.append(note("missing", count=missing, handles=len(absent), times=len(late)))
+    decimals, written = None if largest <= RIGHT else decimals, _decimals(values)
     return Judgement(
-        table, workbook, verdict, rounded, written, cells, right, missing, times, handles, values, wanted, notes
+        table, workbook, verdict, decimals, written, cells, right, missing, times, handles, values, wanted, notes
     )
 
 
@@ -188,10 +174,10 @@ def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
     return 1.0
 
 
-def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) -> NDArray[np.int64]:
+def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) -> Ints:
     """Handle of every line: by its label, or by its order if that fits more numbers."""
 
-    def near(handles: NDArray[np.int64]) -> int:
+    def near(handles: Ints) -> int:
         known = handles < HANDLES
         return int((np.abs(values[:, known] - motion[:, handles[known]]) < NEAR).sum())
 
@@ -204,13 +190,5 @@ def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) ->
 def _decimals(values: Floats) -> int:
     """Number of decimals of the numbers."""
     some = values[np.isfinite(values)].ravel()[:5000]
-    for k in range(DECIMALS_MOST):
-        scaled = some * 10.0**k
-        if np.all(np.abs(scaled - np.round(scaled)) < 1e-6):
-            return k
-    return DECIMALS_MOST
-
-
-def lacking(tables: list[Table], workbook: Workbook) -> list[Kind]:
-    """Kinds of sheets that are missing in a workbook of the contest."""
-    return [kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables}]
+    units = enumerate(some * 10.0**k for k in range(DECIMALS_MOST))
+    return next((k for k, scaled in units if np.all(np.abs(scaled - np.round(scaled)) < 1e-6)), DECIMALS_MOST)
