@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 from app.contest.solved import Solved, Turned
 from app.files.words import Say
@@ -24,18 +23,13 @@ class Given:
     bracket: tuple[float | None, float | None] | None
     how: str
 
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
-
 
 def answers(solved: Solved, say: Say) -> list[Given]:
     """The numbers of the five answers, in the order of the questions."""
-    return [
-        *_inwards(solved, say),
-        *_contact(solved, say),
-        *_pitch(solved, say),
-        *([*_turn(solved.turned, say), _speed(solved.turned, solved.asked.speed_limit, say)] if solved.turned else []),
-    ]
+    found = [*_inwards(solved, say), *_contact(solved, say), _pitch(solved.pitch, say)]
+    if solved.turned:
+        found += [*_turn(solved.turned, say), _speed(solved.turned, solved.asked.speed_limit, say)]
+    return found
 
 
 def _inwards(solved: Solved, say: Say) -> list[Given]:
@@ -44,17 +38,13 @@ def _inwards(solved: Solved, say: Say) -> list[Given]:
         "every handle from the chord equation, every speed from the rigid links: good to 1e-11 m and 1e-11 m/s",
         "逐节由弦长方程求位置，由刚性约束求速度：误差小于 1e-11 m 与 1e-11 m/s",
     )
-    head = say("head", "龙头")
-    rear = say("rear handle of the tail", "龙尾（后）把手")
-    at = say(f" at {stop:g} s", f"（{stop:g} s）")
-    rows = [(head, 0), (rear, -1)]
-    numbers = [
-        (f"{name}{say(', ', ' ')}{axis}{at}", float(found.position[-1, k, i]))
-        for name, k in rows
+    rear, at = say("rear handle of the tail", "龙尾（后）把手"), say(f" at {stop:g} s", f"（{stop:g} s）")
+    places = [
+        Given(1, f"{name}{say(', ', ' ')}{axis}{at}", float(found.position[-1, k, i]), "m", None, how)
+        for name, k in ((say("head", "龙头"), 0), (rear, -1))
         for i, axis in enumerate("xy")
     ]
-    speed = (f"{rear}{say(', speed', '速度')}{at}", float(found.speed[-1, -1]))
-    return [Given(1, name, value, "m", None, how) for name, value in numbers] + [Given(1, *speed, "m/s", None, how)]
+    return [*places, Given(1, f"{rear}{say(', speed', '速度')}{at}", float(found.speed[-1, -1]), "m/s", None, how)]
 
 
 def _contact(solved: Solved, say: Say) -> list[Given]:
@@ -88,12 +78,7 @@ def _why_ended(solved: Solved, say: Say) -> str:
     return say("the head is at the centre", "龙头已到中心")
 
 
-def _pitch(solved: Solved, say: Say) -> list[Given]:
-    found = solved.pitch
-    return [Given(3, say("minimum pitch", "最小螺距"), found.pitch, "m", found.pitch_bracket, _why_pitch(found, say))]
-
-
-def _why_pitch(found: MinimumPitch, say: Say) -> str:
+def _pitch(found: MinimumPitch, say: Say) -> Given:
     pair = found.benches or ()
     whose = say(" of benches {} and {}", "（第 {} 节与第 {} 节板凳）").format(*pair) if pair else ""
     words = {
@@ -106,7 +91,8 @@ def _why_pitch(found: MinimumPitch, say: Say) -> str:
     proven = say("every larger pitch is proven feasible", "已证明更大的螺距全部可行")
     sampled = say("larger pitches are partly sampled, not proven", "更大的螺距有一部分是抽样而非证明")
     limit = say("limited by ", "限制因素：") + words[found.limited_by.value]
-    return f"{limit}{say('; ', '；')}{proven if every else sampled}"
+    how = f"{limit}{say('; ', '；')}{proven if every else sampled}"
+    return Given(3, say("minimum pitch", "最小螺距"), found.pitch, "m", found.pitch_bracket, how)
 
 
 def _turn(turned: Turned, say: Say) -> list[Given]:
@@ -117,20 +103,18 @@ def _turn(turned: Turned, say: Say) -> list[Given]:
         "闭式解：两段圆弧半径之和 S = sqrt(R^2 + (p / 2π)^2) 与比例无关，且两段圆弧转过同一角 a，"
         "因此长度 S a 与半径之比无关",
     )
-    inner = say("turn from the deepest entry", "从最深处进入时的调头曲线长度")
+    inner, shorter = say("turn from the deepest entry", "从最深处进入时的调头曲线长度"), say("shorter by", "缩短")
     equal = say(
         "turn from the deepest entry with equal arcs (ratio 1)", "两段圆弧半径相等（比例 1）、从最深处进入时的长度"
     )
     found = [
-        Given(4, say("length of the turn", "调头曲线长度"), length, "m", None, why),
-        Given(4, inner, shortest.turn.length, "m", None, _why_shortest(shortest, say)),
-        Given(
-            4, say("shorter by", "缩短"), length - shortest.turn.length, "m", None, say("the difference", "两者之差")
-        ),
+        (say("length of the turn", "调头曲线长度"), length, why),
+        (inner, shortest.turn.length, _why_shortest(shortest, say)),
+        (shorter, length - shortest.turn.length, say("the difference", "两者之差")),
     ]
     if even and even.turn.length < shortest.turn.length:
-        found.append(Given(4, equal, even.turn.length, "m", None, _why_shortest(even, say)))
-    return found
+        found.append((equal, even.turn.length, _why_shortest(even, say)))
+    return [Given(4, name, value, "m", None, how) for name, value, how in found]
 
 
 def _why_shortest(found: ShortestTurn, say: Say) -> str:
@@ -139,11 +123,8 @@ def _why_shortest(found: ShortestTurn, say: Say) -> str:
         "contact": say("benches would touch", "板凳会相碰"),
         "centre": say("nothing, down to the centre", "直到中心都没有限制"),
     }
-    radius = f"{found.turn.entry_radius:.6f} m"
-    return (
-        say(f"entry at a radius of {radius}; limit: ", f"在半径 {radius} 处进入；限制：")
-        + limits[found.limited_by.value]
-    )
+    radius, limit = f"{found.turn.entry_radius:.6f} m", limits[found.limited_by.value]
+    return say(f"entry at a radius of {radius}; limit: {limit}", f"在半径 {radius} 处进入；限制：{limit}")
 
 
 def _speed(turned: Turned, limit: float, say: Say) -> Given:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import zip_longest
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -17,7 +17,7 @@ from matplotlib.patheffects import withStroke
 import core
 from app.contest.sensitivity import Panel, panels
 from app.contest.solved import Solved
-from app.files.drawing import canvas
+from app.files.drawing import canvas, file_bytes
 from app.files.fonts import families
 from app.files.tables import handle_names
 from app.files.words import Say
@@ -33,8 +33,11 @@ COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0
 CURVE = 400
 # The clearance is drawn over this last part of the way to first contact [1].
 CLEARANCE_FROM = 0.72
-# A white edge keeps text readable on a line.
-OUTLINED = [withStroke(linewidth=3.0, foreground="white")]
+# Text beside a point [points]; a white edge keeps it readable on a line.
+BESIDE: dict[str, Any] = {
+    "textcoords": "offset points",
+    "path_effects": [withStroke(linewidth=3.0, foreground="white")],
+}
 # Number of pitches of the staircase.
 STAIRS = 60
 
@@ -54,23 +57,15 @@ def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iter
     of_turn = (geometry, amplification) if solved.turned else ()
     kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
     for k, draw in enumerate(kinds):
-        with matplotlib.rc_context({"font.family": family, "svg.hashsalt": "bench-dragon"}):
+        with matplotlib.rc_context({"font.family": family}):
             figure, caption = draw(solved, say)
             # The layout is the same for all three files, and takes as long as writing one. With the engine "none", a
             # placeholder, savefig would still draw twice.
             figure.draw_without_rendering()
             figure.set_layout_engine(None)
-            files = {kind: _bytes(figure, kind) for kind in FORMATS}
+            files = {kind: file_bytes(figure, kind, PNG_DPI) for kind in FORMATS}
         progress((k + 1) / len(kinds))
         yield Drawn(draw.__name__, caption, files)
-
-
-def _bytes(figure: Figure, format: str) -> bytes:
-    """The file of a figure, the same bytes for the same figure."""
-    sink = io.BytesIO()
-    undated = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {"Software": None}}[format]
-    figure.savefig(sink, format=format, dpi=PNG_DPI, metadata=undated)
-    return sink.getvalue()
 
 
 def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
@@ -83,9 +78,8 @@ def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
     dots = places.scatter(*handles.T, c=solved.inwards.speed[-1], s=11, cmap="cividis", zorder=3, linewidths=0)
     bar = figure.colorbar(dots, ax=places, label=say("speed of the handle [m/s]", "把手速度 [m/s]"), shrink=0.85)
     bar.ax.ticklabel_format(useOffset=False)
-    places.plot(
-        *handles[0], "o", markersize=9, markerfacecolor="none", markeredgecolor=VERMILION, label=say("head", "龙头")
-    )
+    ring: dict[str, Any] = {"markersize": 9, "markerfacecolor": "none", "markeredgecolor": VERMILION}
+    places.plot(*handles[0], "o", label=say("head", "龙头"), **ring)
     places.legend(loc="upper right", fontsize=8)
     places.set_title(say(f"Handles at {stop:g} s", f"{stop:g} s 时的把手位置"), fontsize=10)
     names = handle_names(solved.dragon.benches, say.language)
@@ -109,6 +103,7 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
     figure = canvas(9.0, 9.0)
     found = core.trajectory(solved.spiral, times)
     extent = 1.22 * float(np.abs(found.position).max())
+    view = (-extent, extent)
     pair = solved.contact.benches or ()
     for axes, time, handles in zip(figure.subplots(2, 2).flat, times, found.position, strict=True):
         outlines = bench_outlines(solved.dragon, handles)
@@ -119,11 +114,10 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
             for k in filter(None, pair):  # Bench 0 is the head.
                 axes.fill(*outlines[k].T, color=BLUE, zorder=4, label=say(f"bench {k}", f"第 {k} 节板凳"))
             title = say(f"First contact, {time:.6f} s", f"首次碰撞，{time:.6f} s")
-        axes.set(xlim=(-extent, extent), ylim=(-extent, extent))
+        axes.set(xlim=view, ylim=view)
         axes.set_title(title, fontsize=10)
         axes.legend(loc="upper right", fontsize=8)
-    caption = say("Every bench at four instants.", "四个时刻的全部板凳。")
-    return figure, caption
+    return figure, say("Every bench at four instants.", "四个时刻的全部板凳。")
 
 
 def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
@@ -137,33 +131,24 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
     order = np.argsort(time)
     axes.plot(time[order], gap[order], color=BLUE, linewidth=1.2, label=say("clearance", "最小间距"))
     if grazes:
-        axes.plot(
-            *np.transpose(grazes),
-            "o",
-            color=VERMILION,
-            markersize=4,
-            label=say("graze (local minimum)", "擦碰（局部极小）"),
-        )
+        label = say("graze (local minimum)", "擦碰（局部极小）")
+        axes.plot(*np.transpose(grazes), "o", color=VERMILION, markersize=4, label=label)
     axes.axhline(0.0, color="black", linewidth=0.8, linestyle="dashed", label=say("touch", "相碰"))
-    axes.set(
-        xlabel=say("time [s]", "时间 [s]"), ylabel=say("clearance of the nearest pair [mm]", "最近两节板凳的间距 [mm]")
-    )
+    axes.set_xlabel(say("time [s]", "时间 [s]"))
+    axes.set_ylabel(say("clearance of the nearest pair [mm]", "最近两节板凳的间距 [mm]"))
     axes.legend(fontsize=8)
     met = solved.contact.time is not None
     until = ("first contact", "首次碰撞") if met else ("the end of the run", "运动结束")
-    near = solved.contact.certificate.least_clearance
-    least = (
-        say(
+    caption = say(
+        f"Clearance over time up to {until[0]}, with its grazes; some are only fractions of a millimetre deep.",
+        f"{until[1]}之前的最小间距及其擦碰：有的极小值只低零点几毫米。",
+    )
+    if near := solved.contact.certificate.least_clearance:
+        caption += say(
             f" The closest graze before it leaves {1e3 * near.clearance:.3f} mm at {near.time:.3f} s.",
             f" 此前最近的一次擦碰在 {near.time:.3f} s，间距仅 {1e3 * near.clearance:.3f} mm。",
         )
-        if near
-        else ""
-    )
-    return figure, say(
-        f"Clearance over time up to {until[0]}, with its grazes; some are only fractions of a millimetre deep.",
-        f"{until[1]}之前的最小间距及其擦碰：有的极小值只低零点几毫米。",
-    ) + least
+    return figure, caption
 
 
 def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
@@ -174,10 +159,8 @@ def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
     )
     axes = figure.subplots()
     _stairs(axes, scan, radius, least, say)
-    axes.set(
-        xlabel=say("pitch [m]", "螺距 [m]"),
-        ylabel=say("radius of the head at first contact [m]", "首次碰撞时龙头的半径 [m]"),
-    )
+    axes.set_xlabel(say("pitch [m]", "螺距 [m]"))
+    axes.set_ylabel(say("radius of the head at first contact [m]", "首次碰撞时龙头的半径 [m]"))
     axes.set_ylim(0.0, 1.25 * float(scan.radius.max(initial=radius)))
     axes.legend(loc="lower left", fontsize=8)
     near = axes.inset_axes((0.56, 0.60, 0.41, 0.36))
@@ -197,16 +180,10 @@ def _stairs(axes: Axes, scan: core.PitchScan, radius: float, least: float, say: 
         axes.plot(scan.pitch[a:b], scan.radius[a:b], color=BLUE, linewidth=1.6, label=label)
     for a, _ in scan.pieces[1:]:
         if scan.pitch[a] - scan.pitch[a - 1] <= JUMP_WIDTH:
-            axes.plot(
-                scan.pitch[a - 1 : a + 1], scan.radius[a - 1 : a + 1], color=GREY, linewidth=0.8, linestyle="dotted"
-            )
-    axes.axhline(
-        radius,
-        color="black",
-        linewidth=0.9,
-        linestyle="dashed",
-        label=say(f"turning circle, {radius:g} m", f"调头圆，{radius:g} m"),
-    )
+            fall = slice(a - 1, a + 1)
+            axes.plot(scan.pitch[fall], scan.radius[fall], color=GREY, linewidth=0.8, linestyle="dotted")
+    label = say(f"turning circle, {radius:g} m", f"调头圆，{radius:g} m")
+    axes.axhline(radius, color="black", linewidth=0.9, linestyle="dashed", label=label)
     label = say(f"minimum pitch, {least:.9f} m", f"最小螺距，{least:.9f} m")
     axes.axvline(least, color=VERMILION, linewidth=1.1, linestyle="dashdot", label=label)
 
@@ -218,8 +195,7 @@ def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
     axes, radius = figure.subplots(), turn.turning_radius
     axes.set_aspect("equal")
     axes.set(xlabel="x [m]", ylabel="y [m]")
-    reach = 2.2 * radius
-    for (s0, s1), colour, label in _stretches(turn, reach, say):
+    for s0, s1, colour, label in _stretches(turn, say):
         axes.plot(*turn.position(np.linspace(s0, s1, CURVE)).T, color=colour, linewidth=2.0, label=label)
     axes.add_patch(Circle((0.0, 0.0), radius, fill=False, linestyle="dashed", color=GREY, linewidth=1.0))
     for k, (centre, size) in enumerate(zip(turn.centres, turn.radii, strict=True), start=1):
@@ -227,17 +203,11 @@ def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
         end = turn.entry if k == 1 else turn.exit
         axes.plot(*np.transpose([centre, end]), color=GREY, linewidth=0.9, linestyle="dotted")
         axes.plot(*centre, "k+", markersize=9)
-        axes.annotate(
-            f"$C_{k}$, {size:.4f} m", centre, (8, -12), textcoords="offset points", fontsize=9, path_effects=OUTLINED
-        )
-    marks = (
-        (turn.entry, say("entry", "入点")),
-        (turn.tangent_point, say("joint", "切点")),
-        (turn.exit, say("exit", "出点")),
-    )
-    for point, name in marks:
+        axes.annotate(f"$C_{k}$, {size:.4f} m", centre, (8, -12), fontsize=9, **BESIDE)
+    names = say("entry", "入点"), say("joint", "切点"), say("exit", "出点")
+    for point, name in zip((turn.entry, turn.tangent_point, turn.exit), names, strict=True):
         axes.plot(*point, "ko", markersize=5, zorder=6)
-        axes.annotate(name, point, (8, 8), textcoords="offset points", fontsize=10, zorder=7, path_effects=OUTLINED)
+        axes.annotate(name, point, (8, 8), fontsize=10, zorder=7, **BESIDE)
     axes.set(xlim=(-1.6 * radius, 1.6 * radius), ylim=(-1.5 * radius, 1.5 * radius))
     axes.legend(loc="upper left", fontsize=8, framealpha=1.0)
     caption = say(
@@ -247,15 +217,14 @@ def geometry(solved: Solved, say: Say) -> tuple[Figure, str]:
     return figure, caption
 
 
-def _stretches(turn: core.Turn, reach: float, say: Say) -> list[tuple[tuple[float, float], str, str]]:
+def _stretches(turn: core.Turn, say: Say) -> list[tuple[float, float, str, str]]:
     """Beginning and end [m], colour and name of each drawn piece."""
-    middle = turn.radii[0] * turn.angles[0]
-    low, high = max(turn.begin, -8.0 * reach), min(turn.end, turn.length + 8.0 * reach)
+    middle, reach = turn.radii[0] * turn.angles[0], 8.0 * (2.2 * turn.turning_radius)
     return [
-        ((low, 0.0), BLUE, say("coil inwards", "盘入螺线")),
-        ((0.0, middle), VERMILION, say("first arc", "第一段圆弧")),
-        ((middle, turn.length), "#E69F00", say("second arc", "第二段圆弧")),
-        ((turn.length, high), "#009E73", say("coil outwards", "盘出螺线")),
+        (max(turn.begin, -reach), 0.0, BLUE, say("coil inwards", "盘入螺线")),
+        (0.0, middle, VERMILION, say("first arc", "第一段圆弧")),
+        (middle, turn.length, "#E69F00", say("second arc", "第二段圆弧")),
+        (turn.length, min(turn.end, turn.length + reach), "#009E73", say("coil outwards", "盘出螺线")),
     ]
 
 
@@ -266,21 +235,14 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     axes = figure.subplots()
     peak = fastest.time_at_unit_head_speed
     travel = np.unique(np.concatenate([np.linspace(-5.0, peak + 40.0, 2 * CURVE), [peak]]))
-    dance = Dance(solved.dragon, turn)
-    rates = core.trajectory(dance, travel).speed
+    rates = core.trajectory(Dance(solved.dragon, turn), travel).speed
     names = handle_names(solved.dragon.benches, say.language)
     for k, colour in zip((1, 2, 3, 8, 20), COLOURS[1:], strict=False):
         if k <= solved.dragon.benches:
             # Handles near the head are drawn on top: the handles behind repeat their motion later.
             axes.plot(travel, rates[:, k], color=colour, linewidth=1.0, label=names[k], zorder=2.0 + 1.0 / k)
-    axes.plot(
-        travel,
-        rates.max(axis=1),
-        color="black",
-        linewidth=1.8,
-        linestyle="dashed",
-        label=say("fastest handle", "最快的把手"),
-    )
+    label = say("fastest handle", "最快的把手")
+    axes.plot(travel, rates.max(axis=1), color="black", linewidth=1.8, linestyle="dashed", label=label)
     axes.plot(peak, fastest.speed_ratio, "o", color=VERMILION, markersize=7, label=f"{fastest.speed_ratio:.6f}")
     axes.axvspan(0.0, turn.length, color=PALE, alpha=0.5, label=say("head on the arcs", "龙头在圆弧上"))
     axes.set(xlabel=say("place of the head after the entry [m]", "龙头自入点起的路程 [m]"))

@@ -59,11 +59,7 @@ class Kit:
 
 
 def write_kit(
-    folder: Path,
-    asked: ContestRequest,
-    language: Language,
-    shot: films.Wanted,
-    progress: Callable[[str, float], None],
+    folder: Path, asked: ContestRequest, language: Language, shot: films.Wanted, progress: Callable[[str, float], None]
 ) -> Kit:
     """Write the kit; without matplotlib, or without a font for the language, it lacks figures and films.
 
@@ -75,35 +71,24 @@ def write_kit(
         raise InvalidValue.in_words(
             "folder", f"another run writes into {folder}: wait until it is done, or give another FOLDER"
         )
+    say, unfinished = Say(language), folder / UNFINISHED
     try:
-        return _written(folder, asked, Say(language), shot, progress)
-    finally:
-        lock.give_back()
-
-
-def _written(
-    folder: Path, asked: ContestRequest, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
-) -> Kit:
-    """The part of write_kit() that needs the lock."""
-    kit = Kit()
-    solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))
-    kit.given, kit.no_turn = answers(solved, say), solved.why_no_turn
-    unfinished = folder / UNFINISHED
-    shutil.rmtree(unfinished, ignore_errors=True)
-    try:
+        solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))
+        kit = Kit(given=answers(solved, say), no_turn=solved.why_no_turn)
+        shutil.rmtree(unfinished, ignore_errors=True)
         _write(unfinished, solved, kit, say, shot, progress)
         _take_over(folder, kit.files)
     finally:
         shutil.rmtree(unfinished, ignore_errors=True)
+        lock.give_back()
     return kit
 
 
 def _take_over(folder: Path, names: list[str]) -> None:
     """Put finished files into their places, and remove those of an earlier kit. names: the report is last"""
     (folder / REPORT).unlink(missing_ok=True)
-    for name in OPTIONAL:
-        if name not in names:
-            (folder / name).unlink(missing_ok=True)
+    for name in {*OPTIONAL} - {*names}:
+        (folder / name).unlink(missing_ok=True)
     for name in names:
         (folder / name).parent.mkdir(exist_ok=True)
         os.replace(folder / UNFINISHED / name, folder / name)
@@ -122,7 +107,7 @@ def _write(
 
     for name, data in _workbooks(solved, say.language):
         write(name, data)
-    write("answers.json", orjson.dumps([one.to_json() for one in kit.given], option=orjson.OPT_INDENT_2) + b"\n")
+    write("answers.json", orjson.dumps(kit.given, option=orjson.OPT_INDENT_2) + b"\n")
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
             write(f"{TABLES}/{table.name}.{ending}", text.encode("utf-8-sig" if ending == "csv" else "utf-8"))

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 from app.contest.answers import Given
 from app.contest.solved import Solved
-from app.contest.tables import Table
+from app.contest.tables import Table, in_markdown
 from app.files.words import Say
-from core import Turn
 from core.errors import said
 
 if TYPE_CHECKING:
@@ -21,11 +20,10 @@ DIGITS = 9
 def answer_table(given: Sequence[Given], say: Say) -> str:
     """The five answers as a table in Markdown."""
     heads = say("question|what|value|bracket|how it is known", "问题|量|数值|区间|依据").split("|")
-    lines = [heads, ["---", "---", "---:", "---", "---"]]
-    lines += [
-        [str(one.question), one.name, f"{one.value:.{DIGITS}f} {one.unit}", _bracket(one), one.how] for one in given
+    rows = [
+        [f"{one.question}", one.name, f"{one.value:.{DIGITS}f} {one.unit}", _bracket(one), one.how] for one in given
     ]
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    return in_markdown([heads, ["---", "---", "---:", "---", "---"], *rows])
 
 
 def _bracket(one: Given) -> str:
@@ -43,9 +41,8 @@ def report(
     say: Say,
 ) -> str:
     """The page. films: names of their files"""
-    books = [
-        f"[{name}]({name})" for name in ("result1.xlsx", "result2.xlsx", *(["result4.xlsx"] if solved.turned else []))
-    ]
+    names = ("result1.xlsx", "result2.xlsx", "result4.xlsx")[: 3 if solved.turned else 2]
+    books = [f"[{name}]({name})" for name in names]
     parts = [
         say("# The bench dragon: every answer", "# 板凳龙：全部答案"),
         _dragon(solved, say),
@@ -97,22 +94,7 @@ def _ratio(solved: Solved, say: Say) -> str:
             f"问题 4 和 5 没有答案：{solved.why_no_turn}。请改变调头圆直径、调头螺距或圆弧半径之比。",
         )
     turn, shortest, even = solved.turned.path, solved.turned.shortest.turn, solved.turned.even
-    return _shorter(turn, shortest, say) + (
-        _even(even.turn, say) if even and even.turn.length < shortest.length else ""
-    )
-
-
-def _even(turn: Turn, say: Say) -> str:
-    return say(
-        f" Both changes together make it even shorter: with equal arcs (ratio 1) the entry can be as deep as "
-        f"{turn.entry_radius:.6f} m, and the turn is {turn.length:.7f} m long.",
-        f"两者一起改变还能更短：两段圆弧半径相等（比例 1）时，可在半径 {turn.entry_radius:.6f} m 处进入，"
-        f"长度为 {turn.length:.7f} m。",
-    )
-
-
-def _shorter(turn: Turn, shortest: Turn, say: Say) -> str:
-    return say(
+    words = say(
         f"Question 4 asks for a shorter turn. Another ratio alone does not help: the length is {turn.length:.7f} m at "
         f"every ratio. A deeper entry inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn "
         f"is {shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter.",
@@ -120,3 +102,11 @@ def _shorter(turn: Turn, shortest: Turn, say: Say) -> str:
         f"在圆内更深处进入则可以：在半径 {shortest.entry_radius:.6f} m 处进入时长度为 {shortest.length:.7f} m，"
         f"缩短 {turn.length - shortest.length:.7f} m。",
     )
+    if even and even.turn.length < shortest.length:
+        words += say(
+            f" Both changes together make it even shorter: with equal arcs (ratio 1) the entry can be as deep as "
+            f"{even.turn.entry_radius:.6f} m, and the turn is {even.turn.length:.7f} m long.",
+            f"两者一起改变还能更短：两段圆弧半径相等（比例 1）时，可在半径 {even.turn.entry_radius:.6f} m 处进入，"
+            f"长度为 {even.turn.length:.7f} m。",
+        )
+    return words

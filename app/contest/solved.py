@@ -107,17 +107,8 @@ def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]
     except InvalidValue as error:
         why = error.message
     progress(1.0)
-    return Solved(
-        asked=asked,
-        spiral=spiral,
-        inwards=inwards,
-        contact=contact,
-        met_at=met_at,
-        meeting=core.trajectory(spiral, [met_at], budget=terms.budget),
-        pitch=least,
-        turned=turned,
-        why_no_turn=why,
-    )
+    meeting = core.trajectory(spiral, [met_at], budget=terms.budget)
+    return Solved(asked, spiral, inwards, contact, met_at, meeting, least, turned, why)
 
 
 def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
@@ -129,14 +120,9 @@ def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
     even = None
     with suppress(InvalidValue):  # Equal arcs may be too tight even with the entry on the circle.
         even = core.shortest_turn(dragon, asked.turn_pitch, radius, EVEN, **about, budget=terms.budget)
-    return Turned(
-        path=path,
-        dance=dance,
-        shortest=shortest,
-        even=even,
-        around=core.trajectory(dance, seconds(-asked.span, asked.span), budget=terms.budget),
-        fastest=core.maximum_head_speed(dance, asked.speed_limit, budget=terms.budget),
-    )
+    around = core.trajectory(dance, seconds(-asked.span, asked.span), budget=terms.budget)
+    fastest = core.maximum_head_speed(dance, asked.speed_limit, budget=terms.budget)
+    return Turned(path, dance, shortest, even, around, fastest)
 
 
 def seconds(start: float, stop: float) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,30 +32,25 @@ class Table:
     rows: Sequence[str]
     numbers: Floats
 
-    def entries(self) -> list[list[str]]:
-        """Every number in the contest's format."""
-        whole = rounded_away(self.numbers, XLSX_DECIMALS)
-        return [[f"{value:.{XLSX_DECIMALS}f}" for value in row] for row in whole.tolist()]
-
     def lines(self) -> list[list[str]]:
-        """Name and entries of every row."""
-        return [[name, *row] for name, row in zip(self.rows, self.entries(), strict=True)]
+        """The heads; below them name and numbers of every row, in the contest's format."""
+        rows = zip(self.rows, rounded_away(self.numbers, XLSX_DECIMALS).tolist(), strict=True)
+        numbered = [[name, *(f"{value:.{XLSX_DECIMALS}f}" for value in row)] for name, row in rows]
+        return [[self.corner, *self.columns], *numbered]
 
     def to_csv(self) -> str:
         sink = io.StringIO()
-        csv.writer(sink, lineterminator="\n").writerows([[self.corner, *self.columns], *self.lines()])
+        csv.writer(sink, lineterminator="\n").writerows(self.lines())
         return sink.getvalue()
 
     def to_markdown(self) -> str:
-        rule = ["---", *["---:"] * len(self.columns)]
-        lines = [[self.corner, *self.columns], rule, *self.lines()]
-        return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+        heads, *lines = self.lines()
+        return in_markdown([heads, ["---", *["---:"] * len(self.columns)], *lines])
 
     def to_latex(self) -> str:
         """A table for the packages booktabs and, in Chinese, ctex. Negative numbers have a minus sign, not a hyphen."""
         head, *lines = (
-            " & ".join(f"$-${cell[1:]}" if cell.startswith("-") else cell for cell in line)
-            for line in [[self.corner, *self.columns], *self.lines()]
+            " & ".join(f"$-${cell[1:]}" if cell.startswith("-") else cell for cell in line) for line in self.lines()
         )
         body = "".join(f"    {line} \\\\\n" for line in lines)
         return (
@@ -67,14 +62,17 @@ class Table:
         )
 
 
+def in_markdown(lines: Iterable[Sequence[str]]) -> str:
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
 def paper_tables(solved: Solved, say: Say) -> list[Table]:
     """Positions and speeds of questions 1 and 4 at the instants that the contest requires, and those of question 2."""
-    first, turning = say("Question 1", "问题 1"), say("Question 4", "问题 4")
-    return [
-        *_over_time(solved, solved.spiral, solved.shown_times, ("", first), say),
-        _at_contact(solved, say),
-        *(_over_time(solved, solved.turned.dance, solved.turn_times, ("turn-", turning), say) if solved.turned else []),
-    ]
+    first, turning = ("", say("Question 1", "问题 1")), ("turn-", say("Question 4", "问题 4"))
+    tables = [*_over_time(solved, solved.spiral, solved.shown_times, first, say), _at_contact(solved, say)]
+    if solved.turned:
+        tables += _over_time(solved, solved.turned.dance, solved.turn_times, turning, say)
+    return tables
 
 
 def _names(solved: Solved, say: Say) -> list[str]:
@@ -106,11 +104,8 @@ def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, st
 def _at_contact(solved: Solved, say: Say) -> Table:
     numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
     columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
-    what = (
-        say("", "")
-        if solved.contact.time is not None
-        else say(" (no contact, end of the run)", "（无碰撞，运动结束时）")
-    )
+    met = solved.contact.time is not None
+    what = "" if met else say(" (no contact, end of the run)", "（无碰撞，运动结束时）")
     caption = say(
         f"Question 2: positions and speeds at {solved.met_at:.6f} s{what}",
         f"问题 2：{solved.met_at:.6f} s 时的位置和速度{what}",

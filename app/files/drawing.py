@@ -37,11 +37,11 @@ def canvas(width: float, height: float) -> Figure:
     return figure
 
 
-def file_bytes(figure: Figure, format: str) -> bytes:
+def file_bytes(figure: Figure, format: str, dpi: int = PNG_DPI) -> bytes:
     """Bytes of the figure's file: equal for equal figures, as they hold no date, no version and no random names."""
     sink = io.BytesIO()
-    metadata = {"Date": None} if format == "svg" else {"Software": None}
-    figure.savefig(sink, format=format, dpi=PNG_DPI, metadata=metadata)
+    undated = {"pdf": {"CreationDate": None}, "svg": {"Date": None}, "png": {"Software": None}}[format]
+    figure.savefig(sink, format=format, dpi=dpi, metadata=undated)
     return sink.getvalue()
 
 

@@ -16,13 +16,7 @@ from core.errors import said
 from core.plots import GREY, VERMILION, draw_scan
 
 
-def trajectory_figure(
-    dance: Dance,
-    *,
-    venue: Venue | None = None,
-    time: float = 300.0,
-    format: str = "svg",
-) -> bytes:
+def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float = 300.0, format: str = "svg") -> bytes:
     """Figure 6: every handle at one instant, coloured by its speed, on any path and in any venue.
 
     time: [s]; raises: OutsideRun after the end of the run

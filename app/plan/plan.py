@@ -152,11 +152,7 @@ def _events(plan: Plan, say: Say) -> Table:
     timing, words = plan.ground.timing, plan.clock.words
     last = timing.handles[-1]
     rows = [
-        [
-            say("the dance begins, head at", "开始，龙头在"),
-            f"{timing.start_place:.1f} m",
-            words(timing.moments[0]),
-        ],
+        [say("the dance begins, head at", "开始，龙头在"), f"{timing.start_place:.1f} m", words(timing.moments[0])],
         [say("the tail enters, at", "龙尾进入"), f"{timing.start_place:.1f} m", words(timing.tail_leaves)],
         *_speeds(plan, say),
         [say("the dance ends, head at", "结束，龙头在"), f"{last[0]:.1f} m", words(timing.moments[-1])],
