@@ -61,8 +61,8 @@ def write_whole(file: Path, data: bytes) -> None:
     try:
         if target.exists() and not target.is_file():
             target.write_bytes(data)
-            return
-        _replace(target, data)
+        else:
+            _replace(target, data)
     except OSError as error:
         raise _refused(error.errno, file) from error
 
@@ -137,9 +137,11 @@ def read_dance(file: Path) -> dict[str, Any]:
     if isinstance(asked.get("dragon"), str):
         place = file.parent / asked["dragon"]
         try:
-            asked["dragon"] = _read_benches(place)
+            asked["dragon"] = {"csv": place.read_text(encoding="utf-8")}
         except OSError as error:
             raise InvalidValue("dragon", f"of {file}: {place}: {error.strerror}") from error
+        except UnicodeDecodeError as error:
+            raise InvalidValue.in_words("dragon", f"{place} must be text in UTF-8: {error}") from error
     if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
         asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked
@@ -164,14 +166,6 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
     if part is None:
         raise InvalidValue(name, f"of {file}: {drawing} holds no {name}")
     return part
-
-
-def _read_benches(file: Path) -> dict[str, Any]:
-    """A dragon as a table of benches. raises: InvalidValue, OSError"""
-    try:
-        return {"csv": file.read_text(encoding="utf-8")}
-    except UnicodeDecodeError as error:
-        raise InvalidValue.in_words("dragon", f"{file} must be text in UTF-8: {error}") from error
 
 
 def object_words(file: Path) -> str:

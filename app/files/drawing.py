@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import threading
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -48,17 +49,9 @@ def file_bytes(figure: Figure, format: str, dpi: int = PNG_DPI) -> bytes:
 def draw_venue(axes: Axes, venue: Venue | None) -> None:
     """Draw the square as an outline and the obstacles hatched, each with its name."""
     for area in venue.areas if venue else ():
-        obstacle = area is not venue.square if venue else False
-        axes.add_collection(
-            PolyCollection(
-                [np.array(ring) for ring in area.rings],
-                facecolor=PALE if obstacle else "none",
-                edgecolor="black",
-                hatch="xx" if obstacle else None,
-                linewidth=1.0,
-                zorder=1.5,
-            )
-        )
+        is_square, rings = venue is not None and area is venue.square, [np.array(ring) for ring in area.rings]
+        look: dict[str, Any] = {"facecolor": "none"} if is_square else {"facecolor": PALE, "hatch": "xx"}
+        axes.add_collection(PolyCollection(rings, edgecolor="black", linewidth=1.0, zorder=1.5, **look))
         x, y = max(area.rings[0], key=lambda point: point[0] + point[1])
         axes.text(x, y, f" {area.name}", fontsize=8, zorder=6, ha="left", va="bottom", clip_on=True, parse_math=False)
     axes.autoscale_view()

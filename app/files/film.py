@@ -82,13 +82,11 @@ def film(
     progress: called with the share of finished frames
     raises: OutsideRun; TooMuchWork where the budget is stopped; MissingPackage without a font for the language
     """
-    budget = budget or Budget()
-    encode = encoded_mp4 if form == MP4_TYPE else encoded_gif
-    sink = io.BytesIO()
+    encode, sink = encoded_mp4 if form == MP4_TYPE else encoded_gif, io.BytesIO()
     with encode(sink, spec) as take:
-        for k, frame in enumerate(frames(dance, spec, venue, title, budget)):
+        for k, frame in enumerate(frames(dance, spec, venue, title, budget or Budget()), start=1):
             take(frame)
-            progress((k + 1) / spec.times.size)
+            progress(k / spec.times.size)
     return sink.getvalue()
 
 
@@ -96,8 +94,7 @@ def frames(
     dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget
 ) -> Iterator[NDArray[np.uint8]]:
     """Pictures (height, width, 4) in red, green, blue, alpha, each its own copy."""
-    times = spec.times
-    stage = Stage(dance, spec, venue, title)
+    times, stage = spec.times, Stage(dance, spec, venue, title)
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
         outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
@@ -110,11 +107,10 @@ class Stage:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
-        size = (spec.width / DPI, spec.height / DPI)
         points = TYPE_SHARE * spec.height * 72.0 / DPI
         self.language, self.start_clock = spec.language, spec.start_clock
         with matplotlib.rc_context({"font.family": families(spec.language), "font.size": points}):
-            figure = Figure(figsize=size, dpi=DPI)
+            figure = Figure(figsize=(spec.width / DPI, spec.height / DPI), dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)
             self.axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
             sampled = np.linspace(spec.start, spec.stop, EXTENT_INSTANTS)
@@ -125,9 +121,8 @@ class Stage:
             place: dict[str, Any] = {"transform": self.axes.transAxes, "zorder": 9, "parse_math": False}
             self.axes.text(0.985, 0.97, title, ha="right", va="top", **place)
             self.time = self.axes.text(0.985, 0.03, "", ha="right", va="bottom", animated=True, **place)
-        count = dance.dragon.benches
         self.head = self._benches(1, VERMILION, "black")
-        self.body = self._benches(count - 1, BLUE, BODY_EDGE)
+        self.body = self._benches(dance.dragon.benches - 1, BLUE, BODY_EDGE)
         self.touching = self._benches(2, VERMILION, "black", TOUCHING_SHARE * spec.height * 72.0 / DPI)
         self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(figure.bbox)
@@ -154,8 +149,8 @@ class Stage:
         closed = np.concatenate([outlines, outlines[:, :1]], axis=1)
         self.head.get_path().vertices = closed[0]
         self.body.get_path().vertices = closed[1:].reshape(-1, 2)
-        clock = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
-        words = clock + WORDS[self.language].format(time=time)
+        words = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
+        words += WORDS[self.language].format(time=time)
         artists: list[Artist] = [self.body, self.head, self.time]
         if touching:
             self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
@@ -166,12 +161,6 @@ class Stage:
         for artist in artists:
             self.axes.draw_artist(artist)
         return np.array(self.canvas.buffer_rgba())
-
-    def pixel(self, points: Floats) -> Floats:
-        """Columns and rows of points, (..., 2) [pixels]; points: (..., 2) [m]"""
-        found: Floats = self.axes.transData.transform(points.reshape(-1, 2)).reshape(points.shape)
-        found[..., 1] = self.canvas.get_width_height()[1] - found[..., 1]
-        return found
 
 
 def scale_bar(axes: Axes, corner: Floats, half: float) -> None:

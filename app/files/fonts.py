@@ -9,19 +9,10 @@ from app.files.tables import Language
 
 # Font families with the characters of simplified Chinese; those made for it come first.
 CHINESE = (
-    "Noto Sans CJK SC",
-    "Source Han Sans SC",
-    "Source Han Sans CN",
-    "WenQuanYi Micro Hei",
-    "WenQuanYi Zen Hei",
-    "Microsoft YaHei",
-    "PingFang SC",
-    "Hiragino Sans GB",
-    "SimHei",
-    "Heiti SC",
-    "Droid Sans Fallback",
+    "Noto Sans CJK SC", "Source Han Sans SC", "Source Han Sans CN", "WenQuanYi Micro Hei", "WenQuanYi Zen Hei",
+    "Microsoft YaHei", "PingFang SC", "Hiragino Sans GB", "SimHei", "Heiti SC", "Droid Sans Fallback",
     "Noto Sans CJK JP",
-)
+)  # fmt: skip
 # The font that comes with matplotlib: Latin letters, digits and mathematical signs.
 LATIN = "DejaVu Sans"
 # Characters that a Chinese font must have: some of those that our pictures use.
@@ -44,9 +35,8 @@ def families(language: Language) -> tuple[str, ...]:
         if file not in known:
             manager.addfont(file)
     installed = {font.name: font for font in reversed(manager.ttflist)}
-    for name in CHINESE:
-        if name in installed and _draws(installed[name]):
-            return (name, LATIN)
+    if name := next((name for name in CHINESE if name in installed and _draws(installed[name])), None):
+        return (name, LATIN)
     raise MissingPackage.in_words(
         "language",
         "--language zh needs a font with Chinese characters, which this machine does not have: install "

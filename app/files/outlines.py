@@ -6,8 +6,9 @@ The same envelope gives the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Iterable
 from importlib import import_module
+from typing import Any
 
 import orjson
 
@@ -29,26 +30,33 @@ def envelope_geojson(found: Envelope) -> bytes:
     return orjson.dumps({"type": "Feature", "properties": properties, "geometry": geometry_of(found)})
 
 
-def envelope_dxf(found: Envelope) -> bytes:
-    """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage"""
+def new_dxf(layers: Iterable[tuple[str, int]]) -> Any:
+    """An empty DXF drawing in metres with layers, each with its colour. raises: MissingPackage"""
     require("dxf", "output", "DXF")
     ezdxf = import_module("ezdxf")
     ezdxf.options.write_fixed_meta_data_for_testing = True  # no date and no random names
     drawing = ezdxf.new(VERSION, units=METRES)
-    for name, colour in LAYERS:
+    for name, colour in layers:
         drawing.layers.add(name, color=colour)
-    space = drawing.modelspace()
-    for rings in found.polygons:
-        for k, ring in enumerate(rings):
-            space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": LAYERS[k > 0][0]})
+    return drawing
+
+
+def dxf_bytes(drawing: Any) -> bytes:
+    """The file of a DXF drawing."""
     sink = io.StringIO()
     drawing.write(sink)
     return sink.getvalue().encode()
 
 
+def envelope_dxf(found: Envelope) -> bytes:
+    """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage"""
+    drawing = new_dxf(LAYERS)
+    space = drawing.modelspace()
+    for rings in found.polygons:
+        for k, ring in enumerate(rings):
+            space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": LAYERS[k > 0][0]})
+    return dxf_bytes(drawing)
+
+
 # Functions of an envelope by the ending of the file.
-WRITERS: dict[str, Callable[[Envelope], bytes]] = {
-    ".geojson": envelope_geojson,
-    ".json": envelope_geojson,
-    ".dxf": envelope_dxf,
-}
+WRITERS = {".geojson": envelope_geojson, ".json": envelope_geojson, ".dxf": envelope_dxf}

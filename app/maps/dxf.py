@@ -12,13 +12,12 @@ from typing import Any
 import orjson
 
 from app.extras import require
+from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.features import Counted, Drawing, Feature, area_of, drawn_as, holds, inner_point, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
 from core.venue import Ring
 
-# $INSUNITS of metres, and the version of the format that programs have read since the year 2000.
-METRES, VERSION = 6, "R2000"
 # Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, yard, decimetre.
 UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 10: 0.9144, 14: 0.1}
 # Largest width of a drawing without a unit, which is taken as metres: 2 km. The same number in millimetres would be a
@@ -160,7 +159,7 @@ class _Reader:
             if text and around:  # Text inside a well is inside the court around it too.
                 words.setdefault(min(around, key=lambda k: area_of(features[k])), text)
         for k, feature in enumerate(features):
-            name, layer = feature.name or words.get(k), str(feature.properties.get("layer", ""))
+            name, layer = feature.name or words.get(k), _layer_of(feature)
             own = layer if layer not in ("", "0") and role_of(layer) is None else None
             yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
 
@@ -173,17 +172,17 @@ def _is_in(feature: Feature, place: tuple[float, float]) -> bool:
 
 def _with_holes(features: list[Feature]) -> Iterator[Feature]:
     """The features; a ring on a layer of holes becomes a hole of the polygon around it."""
-    holes = [one for one in features if str(one.properties.get("layer", "")).endswith("_HOLES")]
+    holes = [one for one in features if _layer_of(one).endswith("_HOLES")]
     for feature in features:
         if feature in holes:
             continue
-        own = [one for one in holes if feature.shape == "polygon" and holds(feature.rings[:1], one.rings[0][0])]
-        layer = str(feature.properties.get("layer", ""))
-        yield feature.placed((*feature.rings, *(one.rings[0] for one in own if _is_of(one, layer))))
+        near = [one for one in holes if feature.shape == "polygon" and holds(feature.rings[:1], one.rings[0][0])]
+        own = (one.rings[0] for one in near if _layer_of(one).removesuffix("_HOLES") == _layer_of(feature))
+        yield replace(feature, rings=(*feature.rings, *own))
 
 
-def _is_of(hole: Feature, layer: str) -> bool:
-    return str(hole.properties.get("layer", "")).removesuffix("_HOLES") == layer
+def _layer_of(feature: Feature) -> str:
+    return str(feature.properties.get("layer", ""))
 
 
 def written(drawing: Drawing) -> bytes:
@@ -192,13 +191,7 @@ def written(drawing: Drawing) -> bytes:
 
     raises: MissingPackage
     """
-    require("dxf", "output", "DXF")
-    ezdxf = import_module("ezdxf")
-    ezdxf.options.write_fixed_meta_data_for_testing = True  # no date and no random names
-    document = ezdxf.new(VERSION, units=METRES)
-    for name, colour in LAYERS.values():
-        document.layers.add(name, color=colour)
-        document.layers.add(f"{name}_HOLES", color=colour)
+    document = new_dxf((f"{name}{holes}", colour) for name, colour in LAYERS.values() for holes in ("", "_HOLES"))
     space, names, radii = document.modelspace(), {}, {}
     told: dict[str, object] = {}
     for feature in drawing.features:
@@ -212,20 +205,17 @@ def written(drawing: Drawing) -> bytes:
         if feature.role in ("obstacle", "mark") and feature.name:
             point = inner_point(feature.rings) if feature.shape == "polygon" else feature.rings[0][0]
             x, y = point if feature.role == "obstacle" else (point[0] + CROSS, point[1] + CROSS)
-            words = {"layer": layer, "height": WORDS, "insert": (x, y)}
-            space.add_text(feature.name, dxfattribs=words)
+            space.add_text(feature.name, dxfattribs={"layer": layer, "height": WORDS, "insert": (x, y)})
         if feature.role == "path":
             told["path"] = feature.properties["path"]
     if drawing.origin is not None:
-        told["origin"] = {"longitude": drawing.origin.longitude, "latitude": drawing.origin.latitude}
+        told["origin"] = drawing.origin
     text = orjson.dumps(told | {"names": names, "radii": radii}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
     record = document.rootdict.add_xrecord(RECORD)
     record.reset([(1, text[k : k + CHUNK]) for k in range(0, len(text), CHUNK)])
-    sink = io.StringIO()
-    document.write(sink)
-    return sink.getvalue().encode()
+    return dxf_bytes(document)
 
 
 def _drawn(space: Any, feature: Feature, ring: Ring, layer: str) -> Any:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Literal
 
+import numpy as np
+
 from app.wire.degrees import Origin
 from app.wire.geojson import Thing
 from core import InvalidValue
+from core.values import Floats
 from core.venue import Ring
 
 Shape = Literal["point", "line", "polygon"]
@@ -53,9 +56,9 @@ class Feature:
     radius: float | None = None
     properties: Mapping[str, object] = field(default_factory=dict)
 
-    def placed(self, rings: tuple[Ring, ...]) -> Feature:
-        """The same feature elsewhere."""
-        return replace(self, rings=rings)
+    def moved(self, move: Callable[[Floats], Floats]) -> Feature:
+        """The same feature elsewhere. move: function of points (N, 2)"""
+        return replace(self, rings=tuple(tuple(map(tuple, move(np.array(ring)).tolist())) for ring in self.rings))
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeGuard
 
 import orjson
 
@@ -32,13 +32,12 @@ def read(told: Mapping[str, Any]) -> Drawing:
     for feature in _features("file", told, Feature("point", ())):
         counted.add(feature)
     system = named_system(told)
-    origin = told.get("origin")
     path = next((one.properties["path"] for one in counted.features if "path" in one.properties), None)
     return Drawing(
         tuple(counted.features),
         # A map in metres has an origin only if this program wrote it.
         None if system is None else GEOGRAPHIC.search(system) is not None,
-        _origin(origin),
+        _origin(told.get("origin")),
         path if isinstance(path, Mapping) else None,
         counted.left_out,
     )
@@ -55,9 +54,11 @@ def is_of_polygons(told: object) -> bool:
 
 def _origin(told: object) -> Origin | None:
     values = [told.get(name) for name in ("longitude", "latitude")] if isinstance(told, Mapping) else [None]
-    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values):
-        return Origin(*map(float, values))  # type: ignore[arg-type]
-    return None
+    return Origin(*map(float, values)) if all(map(_is_number, values)) else None  # type: ignore[arg-type]
+
+
+def _is_number(value: object) -> TypeGuard[float]:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterator[Feature]:
@@ -73,19 +74,9 @@ def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterat
         given = told.get("properties")
         properties = {str(name): value for name, value in given.items()} if isinstance(given, Mapping) else {}
         name, radius = properties.get("name"), properties.get("radius")
-        yield from _features(
-            f"{field}.geometry",
-            told.get("geometry"),
-            Feature(
-                "point",
-                (),
-                name if isinstance(name, str) and name else None,
-                role_of(properties.get("role"), name),
-                float(radius) if isinstance(radius, (int, float)) and not isinstance(radius, bool) else None,
-                properties,
-            ),
-            depth + 1,
-        )
+        own, role = name if isinstance(name, str) and name else None, role_of(properties.get("role"), name)
+        around = Feature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
+        yield from _features(f"{field}.geometry", told.get("geometry"), around, depth + 1)
     elif kind in COLLECTIONS:
         member = COLLECTIONS[kind]
         for k, one in enumerate(_listed(f"{field}.{member}", told.get(member))):
@@ -120,7 +111,7 @@ def _ring(field: str, value: object) -> Ring:
 
 def _point(field: str, value: object) -> tuple[float, float]:
     numbers = _listed(field, value)
-    if len(numbers) < 2 or not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in numbers[:2]):
+    if len(numbers) < 2 or not all(map(_is_number, numbers[:2])):
         raise InvalidValue(field, f"must be a position of two numbers, got {value!r:.60}")
     return float(numbers[0]), float(numbers[1])
 
@@ -136,10 +127,8 @@ def written(drawing: Drawing) -> bytes:
     features = [
         {"type": "Feature", "properties": _properties(one), "geometry": geometry_of(one)} for one in drawing.features
     ]
-    told: dict[str, object] = {"type": "FeatureCollection"}
-    if drawing.origin is not None:
-        told["origin"] = {"longitude": drawing.origin.longitude, "latitude": drawing.origin.latitude}
-    return orjson.dumps(told | {"features": features})
+    origin = {} if drawing.origin is None else {"origin": drawing.origin}
+    return orjson.dumps({"type": "FeatureCollection", **origin, "features": features})
 
 
 def _properties(feature: Feature) -> dict[str, object]:
@@ -150,8 +139,7 @@ def _properties(feature: Feature) -> dict[str, object]:
 def geometry_of(feature: Feature) -> dict[str, object]:
     """Geometry of a feature, in the unit of its points."""
     rings = [[list(point) for point in ring] for ring in feature.rings]
-    if feature.shape == "point":
-        return {"type": "Point", "coordinates": rings[0][0]}
-    if feature.shape == "line":
-        return {"type": "LineString", "coordinates": rings[0]}
-    return {"type": "Polygon", "coordinates": rings}
+    if feature.shape == "polygon":
+        return {"type": "Polygon", "coordinates": rings}
+    is_point = feature.shape == "point"
+    return {"type": "Point" if is_point else "LineString", "coordinates": rings[0][0] if is_point else rings[0]}

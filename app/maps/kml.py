@@ -54,21 +54,17 @@ def read(data: bytes) -> Drawing:
     reader = _Reader()
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.buffer_text = True
-    parser.StartDoctypeDeclHandler = _refuse
-    parser.EntityDeclHandler = _refuse
-    parser.StartElementHandler = reader.start
-    parser.EndElementHandler = reader.end
+    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = _refuse
+    parser.StartElementHandler, parser.EndElementHandler = reader.start, reader.end
     parser.CharacterDataHandler = reader.take
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
-        raise InvalidValue(
-            "file", f"must be KML, got {expat.ErrorString(error.code)} in line {error.lineno}"
-        ) from error
+        words = f"{expat.ErrorString(error.code)} in line {error.lineno}"
+        raise InvalidValue("file", f"must be KML, got {words}") from error
     if not reader.is_kml:
         raise InvalidValue("file", "must be KML, got XML of another kind")
-    told = reader.told
-    counted = reader.counted
+    told, counted = reader.told, reader.counted
     return Drawing(tuple(counted.features), True, told.get("origin"), told.get("path"), counted.left_out)  # type: ignore[arg-type]
 
 
@@ -194,15 +190,16 @@ def written(drawing: Drawing) -> bytes:
             f"<PolyStyle><color>40{colour[2:]}</color></PolyStyle></Style>\n"
         )
     for feature in drawing.features:
-        told: dict[str, object] = {"role": feature.role}
-        if feature.radius is not None:
-            told["radius"] = feature.radius
+        told: dict[str, object] = {"role": feature.role} | (
+            {} if feature.radius is None else {"radius": feature.radius}
+        )
         told |= {name: value for name, value in feature.properties.items() if name != "path"}
         if feature.role == "path":
-            told |= {name: orjson.dumps(value).decode() for name, value in _origin_and_path(drawing, feature).items()}
-        data = "".join(
-            f'<Data name="{name}"><value>{_words(str(value))}</value></Data>' for name, value in told.items()
-        )
+            origin = {} if drawing.origin is None else {"origin": drawing.origin}
+            told |= {
+                one: orjson.dumps(it).decode() for one, it in (origin | {"path": feature.properties["path"]}).items()
+            }
+        data = "".join(f'<Data name="{one}"><value>{_words(str(it))}</value></Data>' for one, it in told.items())
         parts.append(
             f"<Placemark><name>{_words(feature.name or '')}</name><styleUrl>#{feature.role}</styleUrl>"
             f"<ExtendedData>{data}</ExtendedData>{_geometry(feature)}</Placemark>\n"
@@ -215,17 +212,10 @@ def _words(text: str) -> str:
     return escape(re.sub("[\ufffe\uffff]", "", text), quote=False)
 
 
-def _origin_and_path(drawing: Drawing, feature: Feature) -> dict[str, object]:
-    origin = drawing.origin
-    told = {} if origin is None else {"origin": {"longitude": origin.longitude, "latitude": origin.latitude}}
-    return told | {"path": feature.properties["path"]}
-
-
 def _geometry(feature: Feature) -> str:
     lists = [" ".join(f"{x!r},{y!r}" for x, y in ring) for ring in feature.rings]
     if feature.shape == "polygon":
-        rings = (f"<LinearRing><coordinates>{one}</coordinates></LinearRing>" for one in lists)
-        outer, *inner = rings
+        outer, *inner = (f"<LinearRing><coordinates>{one}</coordinates></LinearRing>" for one in lists)
         holes = "".join(f"<innerBoundaryIs>{one}</innerBoundaryIs>" for one in inner)
         return f"<Polygon><outerBoundaryIs>{outer}</outerBoundaryIs>{holes}</Polygon>"
     kind = "Point" if feature.shape == "point" else "LineString"

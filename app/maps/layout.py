@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from typing import Any
 from unicodedata import category
@@ -61,10 +61,8 @@ class Found:
         """The venue as GeoJSON in metres, in the form of a request."""
         if self.venue is None:
             return None
-        told: dict[str, Any] = {"type": "FeatureCollection"}
-        if self.origin is not None:
-            told["origin"] = {"longitude": self.origin.longitude, "latitude": self.origin.latitude}
-        return told | {"features": [_told(one) for one in self.things]}
+        origin = {} if self.origin is None else {"origin": asdict(self.origin)}
+        return {"type": "FeatureCollection", **origin, "features": [_told(one) for one in self.things]}
 
 
 def _told(one: Feature) -> dict[str, Any]:
@@ -122,11 +120,9 @@ class Reading:
     def _walls(self, free: list[Feature]) -> bool:
         """True if lines without a role are walls: there are several, so none of them is clearly the path."""
         if len(free) > 1:
-            self.notes.append(
-                self.say(
-                    f"{len(free)} lines have no role, so they are walls. Give the line of the dance the name `path`.",
-                    f"有 {len(free)} 条线没有说明用途，均作为墙：请将要走的那条命名为 path。",
-                )
+            self._note(
+                f"{len(free)} lines have no role, so they are walls. Give the line of the dance the name `path`.",
+                f"有 {len(free)} 条线没有说明用途，均作为墙：请将要走的那条命名为 path。",
             )
         return len(free) > 1
 
@@ -139,39 +135,37 @@ class Reading:
         if degrees is None:
             degrees = bool(np.ptp(points, axis=0).max() < DEGREES_ACROSS and (np.abs(points) <= 180.0).all())
         if not degrees:
-            self.notes.append(self.say("Coordinates are in metres.", "坐标以米为单位。"))
+            self._note("Coordinates are in metres.", "坐标以米为单位。")
             return
         if (np.abs(points) > (180.0, 90.0)).any():
             seems = ", but longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
             raise InvalidValue("file", f"must have longitudes within 180 and latitudes within 90 degrees{seems}")
         near = float(points[0, 0])
-        self.features = [one.placed(tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features]
+        self.features = [
+            replace(one, rings=tuple(unwrapped(ring, near) for ring in one.rings)) for one in self.features
+        ]
         middle = next((one.rings for one in self.features if one.role == SQUARE), None)
         rings = [ring for one in self.features for ring in one.rings]
         self.origin = self.origin or middle_of(list(middle[:1]) if middle else rings)
         refuse_wide("file", rings, self.origin)
         plane = Plane(self.origin)
-        self.features = [
-            one.placed(tuple(tuple(map(tuple, plane.metres(np.array(ring)).tolist())) for ring in one.rings))
-            for one in self.features
-        ]
+        self.features = [one.moved(plane.metres) for one in self.features]
         east, north = self.origin.longitude, self.origin.latitude
-        self.notes.append(
-            self.say(
-                f"Longitude and latitude became metres about {east:.6f}, {north:.6f}: x to the east, y to the north.",
-                f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
-            )
+        self._note(
+            f"Longitude and latitude became metres about {east:.6f}, {north:.6f}: x to the east, y to the north.",
+            f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
         )
+
+    def _note(self, english: str, chinese: str) -> None:
+        self.notes.append(self.say(english, chinese))
 
     def _square(self) -> Feature | None:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
         polygons = [one for one in self.features if one.shape == "polygon"]
-        told = [one for one in polygons if one.role == SQUARE]
-        if told:
-            return told[0]
+        told = next((one for one in polygons if one.role == SQUARE), None)
         free = [one for one in polygons if one.role is None]
-        if not free:
-            return None
+        if told or not free:
+            return told
         largest = max(free, key=area_of)
         others = (one for one in self.features if one is not largest)
         return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
@@ -182,25 +176,22 @@ class Reading:
         for radius, without in self.assumed.items():
             listed = ", ".join(without[:NAMED]) + (", …" if len(without) > NAMED else "")
             english = f"{counted(len(without), 'thing')} without a radius, taken as {radius:g} m: {listed}."
-            self.notes.append(self.say(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。"))
-        if square is None and not obstacles:
-            return []
+            self._note(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。")
         if square is None:
+            if not obstacles:
+                return []
             points = np.array([point for one in self.features for ring in one.rings for point in ring])
             (left, low), (right, high) = (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
             outline = ((left, low), (right, low), (right, high), (left, high), (left, low))
             square = Feature("polygon", (outline,), "square")
-            self.notes.append(
-                self.say(
-                    f"No polygon is the square, so it ends {AROUND:g} m beyond everything. Name one `square`.",
-                    f"没有多边形是广场：取所有图形外 {AROUND:g} m 为界。请将其中一个命名为 square。",
-                )
+            self._note(
+                f"No polygon is the square, so it ends {AROUND:g} m beyond everything. Name one `square`.",
+                f"没有多边形是广场：取所有图形外 {AROUND:g} m 为界。请将其中一个命名为 square。",
             )
         names = _Names()
-        things = [replace(square, name=names.new(square.name or "square"), radius=None)]
-        for k, one in enumerate(obstacles, start=1):
-            things.append(replace(one, name=names.new(one.name or f"obstacle {k}")))
-        return things
+        square = replace(square, name=names.new(square.name or "square"), radius=None)
+        named = (replace(one, name=names.new(one.name or f"obstacle {k}")) for k, one in enumerate(obstacles, start=1))
+        return [square, *named]
 
     def _obstacle(self, one: Feature) -> Feature:
         """An obstacle, with a radius if it is a point or a line."""
@@ -219,20 +210,16 @@ class Reading:
         if told is not None:
             if _is_along(told, points):
                 return told
-            self.notes.append(
-                self.say(
-                    "The line of the path was edited, so the new path goes through the points of the line.",
-                    "路径的线已被移动，因此路径改为通过其各点。",
-                )
+            self._note(
+                "The line of the path was edited, so the new path goes through the points of the line.",
+                "路径的线已被移动，因此路径改为通过其各点。",
             )
         kept, name = _thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
             raise InvalidValue("file", f"must hold a path with at least two points {said(POINTS_APART)} m apart")
-        self.notes.append(
-            self.say(
-                f"The path is a smooth curve through {len(kept)} points: {name}.",
-                f"路径是通过 {len(kept)} 个点的光滑曲线：{name}。",
-            )
+        self._note(
+            f"The path is a smooth curve through {len(kept)} points: {name}.",
+            f"路径是通过 {len(kept)} 个点的光滑曲线：{name}。",
         )
         path = {"kind": "waypoints", "points": kept.tolist()}
         checked_path(path)
@@ -258,7 +245,8 @@ def _closed(feature: Feature) -> Feature:
     """The same feature with closed rings, because some programs leave out the last point of a polygon."""
     if feature.shape != "polygon":
         return feature
-    return feature.placed(tuple(ring if ring[0] == ring[-1] else (*ring, ring[0]) for ring in feature.rings if ring))
+    rings = tuple(ring if ring[0] == ring[-1] else (*ring, ring[0]) for ring in feature.rings if ring)
+    return replace(feature, rings=rings)
 
 
 def _length(line: Feature) -> float:

@@ -89,8 +89,4 @@ def in_degrees(drawing: Drawing) -> Drawing:
     """The map in longitude and latitude. It must be in metres and have an origin."""
     assert drawing.origin is not None
     plane = Plane(drawing.origin)
-    features = tuple(
-        one.placed(tuple(tuple(map(tuple, plane.degrees(np.array(ring)).tolist())) for ring in one.rings))
-        for one in drawing.features
-    )
-    return Drawing(features, True, drawing.origin)
+    return Drawing(tuple(one.moved(plane.degrees) for one in drawing.features), True, drawing.origin)

@@ -35,7 +35,8 @@ def is_like(pixel: np.ndarray, colour: tuple[int, int, int]) -> bool:
 def centres(stage: Stage, dance: Dance, instant: float) -> np.ndarray:
     """Rows and columns of the middle of every bench at one instant."""
     middle = bench_poses(trajectory(dance, [instant]).position[0])[:, :2]
-    return np.rint(stage.pixel(middle)[:, ::-1]).astype(int)
+    columns, rows = stage.axes.transData.transform(middle).T
+    return np.rint(np.stack([stage.canvas.get_width_height()[1] - rows, columns], axis=1)).astype(int)
 
 
 @pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
