@@ -190,16 +190,14 @@ def written(drawing: Drawing) -> bytes:
             f"<PolyStyle><color>40{colour[2:]}</color></PolyStyle></Style>\n"
         )
     for feature in drawing.features:
-        told: dict[str, object] = {"role": feature.role} | (
-            {} if feature.radius is None else {"radius": feature.radius}
-        )
+        told: dict[str, object] = {"role": feature.role}
+        if feature.radius is not None:
+            told["radius"] = feature.radius
         told |= {name: value for name, value in feature.properties.items() if name != "path"}
         if feature.role == "path":
-            origin = {} if drawing.origin is None else {"origin": drawing.origin}
-            told |= {
-                one: orjson.dumps(it).decode() for one, it in (origin | {"path": feature.properties["path"]}).items()
-            }
-        data = "".join(f'<Data name="{one}"><value>{_words(str(it))}</value></Data>' for one, it in told.items())
+            kept = ({} if drawing.origin is None else {"origin": drawing.origin}) | {"path": feature.properties["path"]}
+            told |= {name: orjson.dumps(value).decode() for name, value in kept.items()}
+        data = "".join(f'<Data name="{name}"><value>{_words(str(one))}</value></Data>' for name, one in told.items())
         parts.append(
             f"<Placemark><name>{_words(feature.name or '')}</name><styleUrl>#{feature.role}</styleUrl>"
             f"<ExtendedData>{data}</ExtendedData>{_geometry(feature)}</Placemark>\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,14 @@ from core.plots import BLUE, VERMILION
 from core.shapes.engines import Polygons
 from core.values import Floats
 
-SWEPT, CLEAR, EDGE, STONE, BENCH = "#FFE3B3", "#FFF6E5", "#B8860B", "#D9D9D9", "#9CC7E5"
+EDGE, STONE = "#B8860B", "#D9D9D9"
+# Looks of the ground that benches sweep, of the zone to keep clear, of the head and of the other benches.
+IN_SWEPT: dict[str, Any] = {"facecolor": "#FFE3B3", "edgecolor": EDGE, "linewidth": 0.3}
+IN_CLEAR: dict[str, Any] = {"facecolor": "#FFF6E5", "edgecolor": EDGE, "linestyle": (0, (4, 2)), "linewidth": 0.5}
+IN_HEAD: dict[str, Any] = {"facecolor": VERMILION, "edgecolor": "black", "linewidth": 0.3}
+IN_BENCH = IN_HEAD | {"facecolor": "#9CC7E5"}
+# Text turned about its middle.
+CENTRED: dict[str, Any] = {"ha": "center", "va": "center_baseline", "rotation_mode": "anchor"}
 # Distance of two points of an outline [mm].
 SEEN = 0.12
 # Half the length of a mark, distance of its number from the path, and spacing of the arrows along the path [mm].
@@ -32,7 +40,7 @@ MARK_TYPE, NAME_TYPE, BENCH_TYPE, COORDINATE_TYPE = 5.5, 7.0, 5.0, 5.0
 ROUND = 4
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Ground:
     """The content of a map.
 
@@ -45,17 +53,13 @@ class Ground:
     clear: Polygons
     width: float
     timing: Timing
-    line: Floats
     geographic: bool
 
-
-def ground_of(
-    dance: Dance, venue: Venue | None, swept: tuple[Polygons, Polygons], width: float, timing: Timing, geographic: bool
-) -> Ground:
-    """The ground of a plan, with the line of its path."""
-    path, marks = dance.path, timing.marks
-    line = line_of(path, *path.drawn_between(float(marks.s[0]), float(marks.s[-1]) + marks.spacing))
-    return Ground(dance, venue, *swept, width, timing, line, geographic)
+    @cached_property
+    def line(self) -> Floats:
+        """Points of the path (N, 2) [m]."""
+        path, marks = self.dance.path, self.timing.marks
+        return line_of(path, *path.drawn_between(float(marks.s[0]), float(marks.s[-1]) + marks.spacing))
 
 
 def scale_for(ground: Ground, name: PaperName) -> Scale:
@@ -71,12 +75,9 @@ def draw_ground(sheet: Sheet, ground: Ground, scale: Scale, *, numbers: bool) ->
     frame = sheet.frame(room)
     _draw_coordinates(sheet, scale, room)
     north_arrow(sheet, room[2] - 7.0, room[3] - 16.0, ground.geographic)
-    for polygons, colour, look in (
-        (ground.clear, CLEAR, {"edgecolor": EDGE, "linestyle": (0, (4, 2)), "linewidth": 0.5, "zorder": 1}),
-        (ground.swept, SWEPT, {"edgecolor": EDGE, "linewidth": 0.3, "zorder": 2}),
-    ):
+    for order, (polygons, look) in enumerate(((ground.clear, IN_CLEAR), (ground.swept, IN_SWEPT)), start=1):
         for rings in polygons:
-            sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, facecolor=colour, **look)
+            sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, zorder=order, **look)
     _draw_venue(sheet, ground, scale, frame)
     line = scale.on_paper(ground.line)
     sheet.line(line, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4, clip_path=frame)
@@ -114,9 +115,12 @@ def _draw_coordinates(sheet: Sheet, scale: Scale, room: Box) -> None:
 
 
 def _draw_venue(sheet: Sheet, ground: Ground, scale: Scale, frame: Rectangle) -> None:
-    for area in ground.venue.areas if ground.venue else ():
+    if ground.venue is None:
+        return
+    square = ground.venue.square
+    for area in ground.venue.areas:
         rings = [scale.on_paper(np.array(ring)) for ring in area.rings]
-        if ground.venue and area is ground.venue.square:
+        if area is square:
             sheet.area(rings, frame, facecolor="none", edgecolor="black", linewidth=1.2, zorder=5)
             continue
         sheet.area(rings, frame, facecolor=STONE, edgecolor="black", hatch="////", linewidth=0.7, zorder=3)
@@ -128,10 +132,8 @@ def _draw_venue(sheet: Sheet, ground: Ground, scale: Scale, frame: Rectangle) ->
         look = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 0.6}} if wide else {}
         sheet.label(area.name, NAME_TYPE, [(x, y), *around] if wide else around, scale.paper.room, **look)
         sheet.take(np.array([left, low, right, high]))
-    if ground.venue:
-        square, beside = ground.venue.square, 0.5 * sheet.width(ground.venue.square.name, NAME_TYPE) + 1.5
-        places = _inside(scale.on_paper(np.array(square.rings[0])), beside)
-        sheet.label(square.name, NAME_TYPE, places, scale.paper.room)
+    places = _inside(scale.on_paper(np.array(square.rings[0])), 0.5 * sheet.width(square.name, NAME_TYPE) + 1.5)
+    sheet.label(square.name, NAME_TYPE, places, scale.paper.room)
 
 
 def _inside(ring: Floats, beside: float) -> list[tuple[float, float]]:
@@ -194,8 +196,7 @@ def draw_benches(
     room = scale.paper.room
     corners = scale.on_paper(outlines)
     for k, bench in enumerate(corners):
-        colour = VERMILION if k == 0 else BENCH
-        sheet.shape(bench, frame, facecolor=colour, edgecolor="black", linewidth=0.3, zorder=5)
+        sheet.shape(bench, frame, zorder=5, **(IN_BENCH if k else IN_HEAD))
     middles = corners.mean(axis=1)
     across = corners[:, 0] - corners[:, 1]
     wide = np.hypot(*across.T)
@@ -211,9 +212,8 @@ def draw_benches(
         long = np.hypot(*(corners[k, 0] - corners[k, 3]))
         if size >= SMALLEST and sheet.width(names[k], size) < 0.9 * long:
             turned = (np.degrees(np.arctan2(normals[k, 1], normals[k, 0])) - 90.0 + 90.0) % 180.0 - 90.0
-            centred: dict[str, Any] = {"ha": "center", "va": "center_baseline", "rotation_mode": "anchor"}
             x, y = middles[k].tolist()
-            sheet.words(x, y, names[k], size, rotation=turned, **centred)
+            sheet.words(x, y, names[k], size, rotation=turned, **CENTRED)
             continue
         size = NAME_TYPE if k == 0 else BENCH_TYPE
         # Text is wider than it is high.
@@ -227,34 +227,25 @@ def draw_legend(sheet: Sheet, ground: Ground, left: float, right: float, bottom:
     """Draw the meaning of colours and lines, in a cell of the title block."""
     say, wide = sheet.say, right - left - 14.0
     spacing = ground.timing.marks.spacing
-    rows: list[tuple[str, dict[str, Any], str]] = [
-        (
-            "area",
-            {"facecolor": SWEPT, "edgecolor": EDGE, "linewidth": 0.3},
-            say("ground swept by benches", "板凳扫过之地"),
-        ),
-        (
-            "area",
-            {"facecolor": CLEAR, "edgecolor": EDGE, "linestyle": (0, (4, 2)), "linewidth": 0.5},
-            say(f"keep clear, {ground.width:g} m", f"保持清空，{ground.width:g} m"),
-        ),
-        ("line", {"color": BLUE, "linewidth": 0.9}, say("path of the handles", "把手的路线")),
+    # Look of an area, and its words; {}: the line of the path; None: with a mark on it.
+    rows: list[tuple[dict[str, Any] | None, str]] = [
+        (IN_SWEPT, say("ground swept by benches", "板凳扫过之地")),
+        (IN_CLEAR, say(f"keep clear, {ground.width:g} m", f"保持清空，{ground.width:g} m")),
+        ({}, say("path of the handles", "把手的路线")),
     ]
     if benches:
-        rows.append(("area", {"facecolor": BENCH, "edgecolor": "black", "linewidth": 0.3}, say("bench", "板凳")))
-        rows.append(("area", {"facecolor": VERMILION, "edgecolor": "black", "linewidth": 0.3}, say("head", "龙头")))
+        rows += [(IN_BENCH, say("bench", "板凳")), (IN_HEAD, say("head", "龙头"))]
     else:
-        rows.append(("tick", {}, say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))
+        rows.append((None, say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))
     if ground.venue and ground.venue.obstacles:
-        look: dict[str, Any] = {"facecolor": STONE, "edgecolor": "black", "hatch": "////", "linewidth": 0.5}
-        rows.append(("area", look, say("obstacle", "障碍物")))
-    for k, (kind, look, words) in enumerate(rows):
+        stone = {"facecolor": STONE, "edgecolor": "black", "hatch": "////", "linewidth": 0.5}
+        rows.append((stone, say("obstacle", "障碍物")))
+    for k, (look, words) in enumerate(rows):
         x, y = left + 2.0, bottom + 30.0 - 5.6 - 4.3 * k
-        if kind == "area":
+        if look:
             sheet.shape(np.array([(x, y), (x + 8.0, y), (x + 8.0, y + 2.6), (x, y + 2.6)]), **look)
-        elif kind == "line":
-            sheet.line([(x, y + 1.3), (x + 8.0, y + 1.3)], **look)
         else:
             sheet.line([(x, y + 1.3), (x + 8.0, y + 1.3)], color=BLUE, linewidth=0.9)
+        if look is None:
             sheet.line([(x + 4.0, y + 0.2), (x + 4.0, y + 2.4)], linewidth=0.6)
         sheet.words(x + 10.0, y + 0.4, words, 6.5, within=wide)

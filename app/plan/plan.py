@@ -75,8 +75,7 @@ def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
     draw_ground(sheet, ground, scale, numbers=True)
     yield _Page(sheet, say("Plan of the ground", "场地平面图"), scale)
     dance = ground.dance
-    poses = core.trajectory(dance, timing.moments).position
-    for time, handles in zip(timing.moments, poses, strict=True):
+    for time, handles in zip(timing.moments, core.trajectory(dance, timing.moments).position, strict=True):
         sheet = Sheet(scale.paper, say, plan.family)
         frame = draw_ground(sheet, ground, scale, numbers=False)
         draw_benches(sheet, ground, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
@@ -111,10 +110,9 @@ def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
 
 
 def _points(plan: Plan, say: Say) -> Table:
-    ground = plan.ground
-    marks = ground.timing.marks
-    columns = [say("mark [m]", "标记 [m]"), "x [m]", "y [m]"]
-    columns += [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]  # on a spiral
+    ground, marks = plan.ground, plan.ground.timing.marks
+    spiral = [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]
+    columns = [say("mark [m]", "标记 [m]"), "x [m]", "y [m]", *spiral]
     rows = [
         [name, *(f"{value:.3f}" for value in values[:3]), *(f"{value:.2f}" for value in values[3:])]
         for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
@@ -124,27 +122,21 @@ def _points(plan: Plan, say: Say) -> Table:
 
 def _marks(plan: Plan, say: Say) -> Table:
     timing, words = plan.ground.timing, plan.clock.words
-    rows = [
-        [name, words(head), words(tail)]
-        for name, head, tail in zip(timing.marks.names, timing.head, timing.tail, strict=True)
-    ]
+    passed = zip(timing.marks.names, timing.head, timing.tail, strict=True)
+    rows = [[name, words(head), words(tail)] for name, head, tail in passed]
     columns = [say("mark [m]", "标记 [m]"), say("head", "龙头"), say("tail", "龙尾")]
     return Table(say("Head and tail at the marks", "龙头与龙尾经过标记的时间"), columns, rows)
 
 
 def _benches(plan: Plan, say: Say) -> Table:
     timing, words = plan.ground.timing, plan.clock.words
-    columns = [
-        say("bench", "板凳"),
-        say("enters", "进入"),
-        *(say(f"at {words(one)}", words(one)) for one in timing.moments),
-    ]
+    moments = (say(f"at {words(one)}", words(one)) for one in timing.moments)
+    columns = [say("bench", "板凳"), say("enters", "进入"), *moments]
     rows = [
         [name, words(passes), *(f"{place:.1f}" for place in places)]
         for name, passes, places in zip(plan.names, timing.passes, timing.handles[:, :-1].T.tolist(), strict=True)
     ]
-    heading = say("Front handles of benches [m]", "各节前把手 [m]")
-    return Table(heading, columns, rows, frozenset({0}))
+    return Table(say("Front handles of benches [m]", "各节前把手 [m]"), columns, rows, frozenset({0}))
 
 
 def _events(plan: Plan, say: Say) -> Table:
@@ -169,7 +161,6 @@ def _speeds(plan: Plan, say: Say) -> Iterator[list[str]]:
         return
     first = timing.marks.first
     for one in dance.clock.stretches(timing.moments[0], timing.moments[-1]):
-        words = say(f"from here at {one.speed:g} m/s", f"此后速度 {one.speed:g} m/s")
-        if one.speed == 0.0:
-            words = say("a pause begins", "开始停顿")
+        moves = say(f"from here at {one.speed:g} m/s", f"此后速度 {one.speed:g} m/s")
+        words = moves if one.speed else say("a pause begins", "开始停顿")
         yield [words, f"{one.first - first:.1f} m", plan.clock.words(one.begin)]

@@ -12,7 +12,7 @@ from matplotlib.artist import Artist
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
-from matplotlib.patches import PathPatch, Polygon, Rectangle
+from matplotlib.patches import Patch, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
 
 from app.files.words import Say
@@ -142,13 +142,12 @@ class Sheet:
         """Fill a polygon with its holes."""
         parts = list(rings)
         codes = [[Outline.MOVETO, *[Outline.LINETO] * (len(ring) - 2), Outline.CLOSEPOLY] for ring in parts]
-        patch = PathPatch(Outline(np.concatenate(parts), np.concatenate(codes)), **look)
-        self.axes.add_patch(patch)
-        if clip is not None:
-            patch.set_clip_path(clip)
+        self._add(PathPatch(Outline(np.concatenate(parts), np.concatenate(codes)), **look), clip)
 
     def shape(self, points: Floats, clip: Rectangle | None = None, **look: Any) -> None:
-        patch = Polygon(points, closed=True, **look)
+        self._add(Polygon(points, closed=True, **look), clip)
+
+    def _add(self, patch: Patch, clip: Rectangle | None) -> None:
         self.axes.add_patch(patch)
         if clip is not None:
             patch.set_clip_path(clip)
@@ -258,13 +257,8 @@ def _scale_bar(sheet: Sheet, scale: Scale, x: float, bottom: float, top: float) 
 
 def north_arrow(sheet: Sheet, x: float, y: float, geographic: bool) -> None:
     """Draw an arrow up: north if that is known, else the y axis."""
-    sheet.shape(np.array([(x, y + 9.0), (x - 2.0, y), (x, y + 2.0)]), facecolor="black", linewidth=0.0, zorder=9)
-    sheet.shape(
-        np.array([(x, y + 9.0), (x + 2.0, y), (x, y + 2.0)]),
-        facecolor="white",
-        edgecolor="black",
-        linewidth=0.4,
-        zorder=9,
-    )
+    left, right = (np.array([(x, y + 9.0), (x + side, y), (x, y + 2.0)]) for side in (-2.0, 2.0))
+    sheet.shape(left, facecolor="black", linewidth=0.0, zorder=9)
+    sheet.shape(right, facecolor="white", edgecolor="black", linewidth=0.4, zorder=9)
     sheet.words(x, y + 10.0, "N" if geographic else "y", 9.0, ha="center", fontweight="bold")
     sheet.take(np.array([x - 3.0, y - 1.0, x + 3.0, y + 14.0]))

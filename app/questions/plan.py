@@ -54,7 +54,7 @@ class PlanRequest(Marked):
 def plan(asked: PlanRequest, terms: Terms) -> bytes:
     """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
     from app.files.fonts import families
-    from app.plan.ground import ground_of
+    from app.plan.ground import Ground
     from app.plan.plan import Plan, plan_pdf
     from app.plan.sheet import Title
     from app.plan.timing import Clock, timing_of
@@ -85,7 +85,7 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
         judged.verdict is Judgement.PASSES,
         geographic,
     )
-    ground = ground_of(dance, place.venue, (swept, clear), width, timing, geographic)
+    ground = Ground(dance, place.venue, swept, clear, width, timing, geographic)
     numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
     names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
     told = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
