@@ -45,6 +45,5 @@ def require(extra: str, field: str, what: str) -> None:
     for module in MODULES[extra]:
         if find_spec(module) is None:
             raise MissingPackage.in_words(
-                field,
-                f"{what} needs the package {module}, which is not installed: pip install 'bench-dragon[{extra}]'",
+                field, f"{what} needs the package {module}, which is not installed: pip install 'bench-dragon[{extra}]'"
             )

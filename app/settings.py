@@ -131,9 +131,7 @@ class Settings(BaseModel):
         1_000_000, ge=0, description="Shortest answer sent as gzip to clients that accept it [bytes]; 0: never gzip"
     )
     kept_bytes_max: int = Field(
-        32_000_000,
-        ge=0,
-        description="Memory for the latest answers in one process [bytes]; 0: none",
+        32_000_000, ge=0, description="Memory for the latest answers in one process [bytes]; 0: none"
     )
     cache_seconds: int = Field(86_400, ge=0, description="Cache-Control max-age of an answer [s]")
     data: Path | None = Field(

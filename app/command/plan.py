@@ -26,8 +26,7 @@ def plan(
     title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     clear: Annotated[
-        float | None,
-        typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m"),
+        float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
     ] = None,
     language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
 ) -> None:

@@ -242,8 +242,7 @@ def tolerance(
 @prove.command()
 @asks(TurnClaim)
 def turn(
-    asked: TurnClaim,
-    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("turn.proof.json"),
+    asked: TurnClaim, output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("turn.proof.json")
 ) -> None:
     """Prove that the contest's turn between two spirals is clear from start to stop, or its first contact."""
     checked_output("output", output, (".json",))

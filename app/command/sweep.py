@@ -105,8 +105,7 @@ def show(
 
 @sweep.command()
 def compact(
-    folder: Folder,
-    csv: Annotated[Path | None, typer.Option(help="Write the table as CSV too.")] = None,
+    folder: Folder, csv: Annotated[Path | None, typer.Option(help="Write the table as CSV too.")] = None
 ) -> None:
     """Join the parts of a complete sweep into one Parquet file."""
     require("sweep", "sweep", "sweep")

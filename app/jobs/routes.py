@@ -222,9 +222,7 @@ def format_of(value: Any, formats: type[FileFormat]) -> str:
 
 
 @router.get(
-    "",
-    dependencies=[TOKEN, Depends(guard), no_query],
-    **told("list_jobs", 401, 403, 422, 500, 503, model=JobList),
+    "", dependencies=[TOKEN, Depends(guard), no_query], **told("list_jobs", 401, 403, 422, 500, 503, model=JobList)
 )
 def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
     """All jobs, for clients with the token; a service without a token lists none."""
@@ -241,11 +239,7 @@ def job(request: Request, found: Found) -> Response:
     return Response(status(found, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
 
 
-@router.delete(
-    "/{job_id}",
-    dependencies=[no_query],
-    **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus),
-)
+@router.delete("/{job_id}", dependencies=[no_query], **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus))
 def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
     """Dismisses an unfinished job, or removes a finished one with all its data (204)."""
     if keeper.store.dismiss(found.id):
@@ -255,9 +249,7 @@ def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
 
 
 @router.get(
-    "/{job_id}/result",
-    dependencies=[no_query],
-    **told("job_result", 404, 409, 410, 422, 500, 503, content=RESULT),
+    "/{job_id}/result", dependencies=[no_query], **told("job_result", 404, 409, 410, 422, 500, 503, content=RESULT)
 )
 def result(keeper: KeptKeeper, found: Found) -> Response:
     """The answer of the call, with the same bytes as a direct answer; for a failed job its problem."""

@@ -45,10 +45,7 @@ def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Pat
         spec = Spec.of(task.request)
         _renew(folder, spec)
         engine = engine_of(
-            settings.dask or None,
-            settings.sweep_processes,
-            patience=settings.sweep_seconds_max,
-            first=FIRST_SECONDS,
+            settings.dask or None, settings.sweep_processes, patience=settings.sweep_seconds_max, first=FIRST_SECONDS
         )
         teller = _Teller(folder, settings.sweep_bytes_max, reports)
         run(spec, folder, question=spec.asks, engine=engine, progress=teller)

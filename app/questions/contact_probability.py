@@ -28,9 +28,7 @@ class Wobbling(Wire):
     lateral: Spread = measure("m", "Standard deviation of where a person wants to stand, across the path", 0.01)
     forward: Spread = measure("m", "Standard deviation along the path", 0.01)
     correlation_time: Correlation = measure(
-        "s",
-        "Time after which 1 / e of a person's displacement is left; at two steps a second 5 s are ten steps",
-        5.0,
+        "s", "Time after which 1 / e of a person's displacement is left; at two steps a second 5 s are ten steps", 5.0
     )
     step: Correlation | None = measure(
         "s", "Time between two instants, at most a fifth of the correlation time; null: that fifth", None

@@ -82,10 +82,7 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
     operation_id="grade",
     response_class=Response,
     dependencies=[TOKEN],
-    responses={
-        200: {"description": "The answer", "model": GradeAnswer, "content": {JSON: {}}},
-        **refusals(STATUSES),
-    },
+    responses={200: {"description": "The answer", "model": GradeAnswer, "content": {JSON: {}}}, **refusals(STATUSES)},
     openapi_extra={"security": WITHOUT, "requestBody": {"required": False, "content": {FILE_TYPE: FILE}}},
 )
 def grade(

@@ -61,10 +61,7 @@ router = APIRouter(tags=["Maps"], route_class=MapRoute)
     operation_id="places",
     response_class=Response,
     dependencies=[TOKEN],
-    responses={
-        200: {"description": "The answer", "model": Places, "content": {JSON: {}}},
-        **refusals(STATUSES),
-    },
+    responses={200: {"description": "The answer", "model": Places, "content": {JSON: {}}}, **refusals(STATUSES)},
     openapi_extra={"security": WITHOUT, "requestBody": {"required": True, "content": {FILE_TYPE: FILE}}},
 )
 def places(

@@ -142,8 +142,7 @@ def begin(folder: Path, spec: Spec) -> None:
         shards.write_durably(kept, spec.canonical())
     elif kept.read_bytes() != spec.canonical():
         raise InvalidValue.in_words(
-            "output",
-            f"{folder} has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder",
+            "output", f"{folder} has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder"
         )
 
 

@@ -106,8 +106,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     if named is not None and coordinates == ("metres" if geographic else "degrees"):
         meant = "longitude and latitude" if geographic else "something else"
         raise InvalidValue(
-            "coordinates",
-            f"must agree with venue.crs, which is {named!r:.60}: {meant}, got {coordinates!r}",
+            "coordinates", f"must agree with venue.crs, which is {named!r:.60}: {meant}, got {coordinates!r}"
         )
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))

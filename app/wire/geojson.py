@@ -112,8 +112,7 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
         raise InvalidValue(
-            f"{field}.type",
-            f"must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}",
+            f"{field}.type", f"must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}"
         )
     items = _listed(f"{field}.{members}", geometry.get(members))
     each = (_polygons(f"{field}.{members}.{k}", item, depth + 1) for k, item in enumerate(items))

@@ -31,10 +31,7 @@ PIECES_MAX = 1_000
 Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Leg = Annotated[int, Field(ge=0, lt=POINTS_MAX)]
-Start = Annotated[
-    float,
-    measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6),
-]
+Start = Annotated[float, measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6)]
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[
     float | None,
@@ -63,11 +60,7 @@ class Circle(WayToCircle):
     margin: Margin = 0.0
 
     def to_circle(self) -> CoreCircle:
-        return {
-            "turning_radius": self.turning_diameter / 2,
-            "start_turns": self.start_turns,
-            "margin": self.margin,
-        }
+        return {"turning_radius": self.turning_diameter / 2, "start_turns": self.start_turns, "margin": self.margin}
 
 
 class TurnCircle(Wire):
