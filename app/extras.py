@@ -7,6 +7,7 @@ from importlib.util import find_spec
 from core import BenchDragonError
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
+_SERVICE = ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn")
 # Modules that each extra of pyproject.toml installs, as far as this program imports them.
 MODULES = {
     "arrow": ("pyarrow",),
@@ -17,18 +18,7 @@ MODULES = {
     "figures": _FIGURES,
     "film": ("av", *_FIGURES),
     "proof": ("flint",),
-    "service": (
-        "fastapi",
-        "fastapi_swagger",
-        "prometheus_client",
-        "uplot",
-        "uvicorn",
-        "av",
-        *_DXF,
-        *_FIGURES,
-        *_SWEEP,
-        *_XLSX,
-    ),
+    "service": (*_SERVICE, "av", *_DXF, *_FIGURES, *_SWEEP, *_XLSX),
     "sweep": _SWEEP,
     "xlsx": _XLSX,
 }

@@ -37,16 +37,12 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _variable(name: str) -> str:
-    return PREFIX + name.upper()
-
-
 def unknown_variables() -> list[str]:
     """A message for each BENCH_DRAGON_* environment variable that is no setting, such as a misspelt one.
 
     Such a variable is no error: Kubernetes gives a program variables that begin with the name of its service.
     """
-    known = [_variable(name) for name in Settings.model_fields]
+    known = [PREFIX + name.upper() for name in Settings.model_fields]
     said = []
     for name in sorted(set(os.environ) - set(known)):
         if name.startswith(PREFIX):
@@ -79,7 +75,7 @@ class Settings(BaseModel):
     def __init__(self, **given: Any) -> None:
         """raises: InvalidValue naming the variable"""
         # pydantic-settings does the same, but its import takes a fifth of a cold command (measured 2026-11-22).
-        variables = {name: _variable(name) for name in type(self).model_fields}
+        variables = {name: PREFIX + name.upper() for name in type(self).model_fields}
         # An empty variable counts as unset, because compose.yaml passes an unset variable on as an empty one.
         told = {name: os.environ[key] for name, key in variables.items() if os.environ.get(key)}
         try:

@@ -226,7 +226,6 @@ ORDER = (
     "app.contest.films",
     "app.contest.report",
     "app.contest.kit",
-    "app.sweeps.rows",
     "app.sweeps.questions",
     "app.sweeps.columns",
     "app.sweeps.spec",

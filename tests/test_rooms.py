@@ -44,7 +44,7 @@ TOGETHER = {
     "sweeps/test_command.py": "command/sweep",
     "sweeps/test_maps.py": "sweeps/summary",
     "sweeps/test_run.py": "sweeps/engines sweeps/processes sweeps/worker",
-    "sweeps/test_shards.py": "sweeps/questions sweeps/rows",
+    "sweeps/test_shards.py": "sweeps/questions",
     "test_answers.py": "wire/answers",
     "test_any_path.py": "questions/check questions/turn wire/dances wire/paths",
     "test_api.py": "service/main service/reply service/routes service/version",

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Any, Self
 
 from pydantic import Field
 
 import core
 from app.questions.collision_time import CollisionTime, Contact
-from app.wire import degrees
 from app.wire.answers import Head, Pair, Point
 from app.wire.clocks import time_of_day
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
-from core import Outcome
+from core import Dance, Outcome, Venue
 
 
 class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
@@ -80,10 +79,6 @@ class VenueClearance(Answer):
     misplaced: Misplaced | None = Field(description="The first bench that starts outside the square or in an obstacle")
     stray: Misplaced | None = Field(description="The same as misplaced, under its first name")
     areas: list[AreaClearance] = Field(description="The square, then the obstacles")
-
-    @classmethod
-    def of(cls, found: core.VenueClearance | None) -> Self | None:
-        return None if found is None else cls.known(found, stray=found.misplaced)
 
 
 class HighestSpeed(Answer):
@@ -171,37 +166,29 @@ class Report(Answer):
     sharpest_bend: SharpestBend | None = Field(
         description="Sharpest bend between two consecutive benches; null for a single bench, or without details"
     )
-
     origin: Origin | None = Field(
         description="Place of x = y = 0; null unless the venue was given in degrees or tells it"
     )
-
-    @classmethod
-    def of(
-        cls, found: core.Report, dance: core.Dance, asked: CheckRequest, terms: Terms, origin: degrees.Origin | None
-    ) -> Self:
-        contact = CollisionTime.of(found.first_contact, dance, asked, terms)
-        failures = [Failure.of(failure, dance.dragon, asked.start_clock) for failure in found.failures]
-        venue = VenueClearance.of(found.venue)
-        return cls.known(found, failures=failures, first_contact=contact, venue=venue, origin=origin)
 
 
 def check(asked: CheckRequest, terms: Terms) -> Report:
     """Verdict on a dance in its venue: first contact, least clearance, venue, speed, sharpest bend."""
     dance = asked.to_dance(terms.settings.checked_benches_max)
     place = asked.to_place(dance.dragon)
-    ask = core.check if asked.details else core.quick_check
-    found = ask(
-        dance,
-        venue=place.venue,
-        margin=asked.margin,
-        stray=asked.to_stray(),
-        speed_limit=asked.speed_limit,
-        start=asked.start,
-        stop=asked.stop,
-        budget=terms.budget,
-    )
-    return Report.of(found, dance, asked, terms, place.origin)
+    found = judged(asked, dance, place.venue, asked.start, terms, details=asked.details)
+    contact = CollisionTime.of(found.first_contact, dance, asked, terms)
+    failures = [Failure.of(failure, dance.dragon, asked.start_clock) for failure in found.failures]
+    venue = None if found.venue is None else VenueClearance.known(found.venue, stray=found.venue.misplaced)
+    return Report.known(found, failures=failures, first_contact=contact, venue=venue, origin=place.origin)
+
+
+def judged(
+    asked: CheckRequest, dance: Dance, venue: Venue | None, start: float | None, terms: Terms, *, details: bool = True
+) -> core.Report:
+    """The verdict as an object of core. start: of the time checked [s]; raises: InvalidValue"""
+    limits: dict[str, Any] = {"margin": asked.margin, "stray": asked.to_stray(), "speed_limit": asked.speed_limit}
+    ask = core.check if details else core.quick_check
+    return ask(dance, venue=venue, start=start, stop=asked.stop, budget=terms.budget, **limits)
 
 
 def _cost(asked: CheckRequest) -> float:

@@ -6,7 +6,7 @@ from pydantic import Field
 
 import core
 from app.wire.answers import Columns, Graze, Pair
-from app.wire.dances import TimedDance, TimeRange, TimeSteps
+from app.wire.dances import TimedDance, TimeRange
 from app.wire.question import Answer, DanceQuery, Question, Terms, measure
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
@@ -45,9 +45,7 @@ def profile(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> core.Clea
 
 
 def _cost(asked: ClearanceQuery | ClearanceRequest) -> float:
-    times = (asked if isinstance(asked, ClearanceQuery) else asked.times) or TimeSteps()
-    instants = len(times) if isinstance(times, list) else times.instants()
-    return instants * asked.benches * SECONDS_PER_CELL
+    return asked.instants() * asked.benches * SECONDS_PER_CELL
 
 
 QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost)

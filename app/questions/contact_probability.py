@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated
 
 import numpy as np
 from pydantic import Field
@@ -89,15 +89,6 @@ class ContactProbability(Answer):
     seed: int = Field(description="Seed of the random numbers")
     method: str = Field(description="The model and its evidence, in sentences")
 
-    @classmethod
-    def of(cls, found: core.ContactProbability) -> Self:
-        quantiles = benches = None
-        if found.contacts:
-            quantiles = tuple(np.quantile(found.time, QUANTILES).tolist())
-            pairs, counts = np.unique(found.benches, axis=0, return_counts=True)
-            benches = tuple(pairs[counts.argmax()].tolist())
-        return cls.known(found, confidence=CONFIDENCE, time_quantiles=quantiles, benches=benches)
-
 
 def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, terms: Terms) -> ContactProbability:
     """Probability that two benches touch when people wobble, from dances drawn at random, with its limits."""
@@ -108,7 +99,12 @@ def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityReque
     found = core.contact_probability(
         dance, model, asked.samples, asked.seed, start=start, stop=stop, budget=terms.budget, progress=terms.progress
     )
-    return ContactProbability.of(found)
+    quantiles = benches = None
+    if found.contacts:
+        quantiles = tuple(np.quantile(found.time, QUANTILES).tolist())
+        pairs, counts = np.unique(found.benches, axis=0, return_counts=True)
+        benches = tuple(pairs[counts.argmax()].tolist())
+    return ContactProbability.known(found, confidence=CONFIDENCE, time_quantiles=quantiles, benches=benches)
 
 
 QUESTION = Question(contact_probability, ContactProbability, body=ContactProbabilityRequest)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Self
-
 from pydantic import Field
 
 import core
 from app.wire.answers import Point
 from app.wire.dances import DragonFields
-from app.wire.paths import BY_KIND, AnyPath, SpiralPath
+from app.wire.paths import AnyPath, SpiralPath
 from app.wire.question import Answer, Question, Terms, measure
 
 # A route of 1,000 points, measured 2026-11-22 [s].
@@ -19,9 +17,7 @@ SECONDS = 0.02
 class CourseRequest(DragonFields, strict=True):
     """Points of a path, and its bends that are too tight for a dragon."""
 
-    path: AnyPath = Field(
-        default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}
-    )
+    path: AnyPath = Field(default_factory=SpiralPath, description="The path")
 
 
 class TightBend(Answer):
@@ -33,10 +29,6 @@ class TightBend(Answer):
     radius: float = measure("m", "Least radius there; of a curve through waypoints, at least this")
     least_radius: float = measure("m", "Least radius that the bench can follow")
     bench: int = Field(description="The bench with the longest chord")
-
-    @classmethod
-    def of(cls, found: core.TightBend) -> Self:
-        return cls.known(found, points=found.points.tolist())
 
 
 class Course(Answer):
@@ -51,16 +43,13 @@ class Course(Answer):
     )
     bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
 
-    @classmethod
-    def of(cls, found: core.Course) -> Self:
-        x, y = found.points.T.tolist()
-        bends = [TightBend.of(bend) for bend in found.bends]
-        return cls(s=found.s.tolist(), x=x, y=y, length=found.length, knots=found.knots.tolist(), bends=bends)
-
 
 def course(asked: CourseRequest, terms: Terms) -> Course:
     """The path from its beginning to its end, and its bends that are too tight for the dragon."""
-    return Course.of(core.course(asked.path.to_path(), asked.to_dragon(terms.settings.benches_max)))
+    found = core.course(asked.path.to_path(), asked.to_dragon(terms.settings.benches_max))
+    x, y = found.points.T.tolist()
+    bends = [TightBend.known(bend, points=bend.points.tolist()) for bend in found.bends]
+    return Course(s=found.s.tolist(), x=x, y=y, length=found.length, knots=found.knots.tolist(), bends=bends)
 
 
 QUESTION = Question(course, Course, body=CourseRequest, cost=lambda asked: SECONDS)

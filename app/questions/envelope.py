@@ -93,8 +93,4 @@ def envelope(asked: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope
     return FORMS[form](found) if form in FORMS else Envelope.of(found, asked)
 
 
-def _cost(asked: EnvelopeRequest, form: str = JSON) -> float:
-    return SECONDS
-
-
-QUESTION = Question(envelope, Envelope, body=EnvelopeRequest, forms=(JSON, *FORMS), cost=_cost)
+QUESTION = Question(envelope, Envelope, None, EnvelopeRequest, (JSON, *FORMS), lambda asked, *form: SECONDS)

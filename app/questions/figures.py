@@ -13,12 +13,8 @@ from core.design.pitch_scan import scan_near_minimum
 class Format(FileFormat):
     """File format of a figure."""
 
-    SVG = "svg"
-    PNG = "png"
-
-    @classmethod
-    def media_types(cls) -> tuple[str, ...]:
-        return ("image/svg+xml", "image/png")
+    SVG = "svg", "image/svg+xml"
+    PNG = "png", "image/png"
 
 
 FORMATS = {one.media_type: one.value for one in Format}
@@ -81,20 +77,13 @@ def contact_figure(asked: ContactQuery | ContactFigureRequest, terms: Terms, for
     """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
     from app.files import figures
 
+    placed: dict[str, Any] = {}
     if isinstance(asked, ContactQuery):
         dance = asked.to_dance(terms.settings.drawn_benches_max)
-        return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form], budget=terms.budget)
-    dance = asked.to_dance(terms.settings.checked_benches_max)
-    venue = asked.to_place(dance.dragon).venue
-    return figures.contact_figure(
-        dance,
-        venue=venue,
-        margin=asked.margin,
-        start=asked.start,
-        stop=asked.stop,
-        format=FORMATS[form],
-        budget=terms.budget,
-    )
+    else:
+        dance = asked.to_dance(terms.settings.checked_benches_max)
+        placed = {"venue": asked.to_place(dance.dragon).venue, "start": asked.start, "stop": asked.stop}
+    return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form], budget=terms.budget, **placed)
 
 
 def pitch_scan_figure(asked: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:

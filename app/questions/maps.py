@@ -22,13 +22,12 @@ SECONDS = 0.2
 class MapFormat(FileFormat):
     """File format of a map."""
 
-    GEOJSON = "geojson"
-    KML = "kml"
-    DXF = "dxf"
+    GEOJSON = "geojson", GEOJSON_TYPE
+    KML = "kml", KML_TYPE
+    DXF = "dxf", DXF_TYPE
 
-    @classmethod
-    def media_types(cls) -> tuple[str, ...]:
-        return (GEOJSON_TYPE, KML_TYPE, DXF_TYPE)
+
+FORMS = tuple(one.media_type for one in MapFormat)
 
 
 class OriginFields(Wire, strict=True):
@@ -49,9 +48,8 @@ class Marked(CheckRequest, strict=True):
 
     def told_origin(self, place: degrees.Place) -> degrees.Origin | None:
         """The origin in the request, else that of the venue."""
-        if self.origin is None:
-            return place.origin
-        return degrees.Origin(self.origin.longitude, self.origin.latitude)
+        own = self.origin
+        return degrees.Origin(own.longitude, own.latitude) if own else place.origin
 
 
 class MapsRequest(Marked, strict=True):
@@ -75,10 +73,6 @@ def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
     return kml.written(in_degrees(drawing))
 
 
-def _cost(asked: MapsRequest, form: str) -> float:
-    return SECONDS
-
-
 QUESTION = Question(
-    maps, None, body=MapsRequest, forms=MapFormat.media_types(), cost=_cost, at="/maps.{format}", formats=MapFormat
+    maps, None, None, MapsRequest, FORMS, lambda asked, form: SECONDS, at="/maps.{format}", formats=MapFormat
 )

@@ -6,7 +6,7 @@ from pydantic import Field
 
 import core
 from app.wire.dances import DanceFields
-from app.wire.paths import BY_KIND, AnyPath, TurnFields, TurnPath
+from app.wire.paths import AnyPath, TurnFields, TurnPath
 from app.wire.question import Answer, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
 
 
@@ -27,11 +27,7 @@ class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
 class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
     """Highest head speed that keeps a limit, on any path."""
 
-    path: AnyPath = Field(
-        default_factory=lambda: TurnPath(kind="turn"),
-        description="The path; a turn by default",
-        json_schema_extra={"discriminator": BY_KIND},
-    )
+    path: AnyPath = Field(default_factory=lambda: TurnPath(kind="turn"), description="The path; a turn by default")
     start: Instant | None = measure("s", "Start time, at head_speed; null: when the whole dragon is on the path", None)
     stop: Instant | None = measure(
         "s", "End time, at head_speed, before any bench folds; null: the end of the path", None

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Self
-
 from pydantic import Field
 
 import core
@@ -78,14 +76,6 @@ class MinimumPitch(Answer):
         "requested"
     )
 
-    @classmethod
-    def of(cls, found: core.MinimumPitch, dragon: Dragon, asked: PitchFields, terms: Terms) -> Self:
-        check = None
-        if asked.cross_check != "none":
-            whole, stray = asked.cross_check == "dragon", asked.to_stray()
-            check = core.pitch_check(found, dragon, margin=asked.margin, stray=stray, whole=whole, budget=terms.budget)
-        return cls.known(found, stray=asked.total_stray, cross_check=check)
-
 
 def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> core.MinimumPitch:
     """The minimum pitch, if other questions accept it. raises: InvalidValue naming what makes it too large"""
@@ -101,10 +91,8 @@ def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> cor
     # The benches are hardly apart even on a straight line.
     if isinstance(asked, Circle) and asked.margin:
         raise InvalidValue.of("margin", f"must be smaller: {why}", asked.margin, "m")
-    bench = found.benches[0]
-    field = (
-        f"dragon.overhangs.{bench}" if isinstance(getattr(asked, "dragon", None), BenchByBench) else "dragon.overhang"
-    )
+    bench, one_by_one = found.benches[0], isinstance(getattr(asked, "dragon", None), BenchByBench)
+    field = f"dragon.overhangs.{bench}" if one_by_one else "dragon.overhang"
     narrower = f"must be smaller, or the benches narrower: {why}"
     raise InvalidValue.of(field, narrower, float(dragon.overhangs[bench]), "m")
 
@@ -112,8 +100,13 @@ def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> cor
 def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, terms: Terms) -> MinimumPitch:
     """The smallest pitch such that at every larger one the head reaches the circle without a contact."""
     dragon = asked.to_dragon(asked.most_benches(terms.settings))
-    found = core.minimum_pitch(dragon, **asked.to_circle(), stray=asked.to_stray(), budget=terms.budget)
-    return MinimumPitch.of(allowed(found, asked, dragon), dragon, asked, terms)
+    stray, check = asked.to_stray(), None
+    least = core.minimum_pitch(dragon, **asked.to_circle(), stray=stray, budget=terms.budget)
+    found = allowed(least, asked, dragon)
+    if asked.cross_check != "none":
+        whole = asked.cross_check == "dragon"
+        check = core.pitch_check(found, dragon, margin=asked.margin, stray=stray, whole=whole, budget=terms.budget)
+    return MinimumPitch.known(found, stray=asked.total_stray, cross_check=check)
 
 
 def _cost(asked: MinimumPitchQuery | MinimumPitchRequest) -> float:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Self
-
 import numpy as np
 from pydantic import Field
 
@@ -63,22 +61,6 @@ class OverlapsAnswer(Answer):
     overlaps: list[Overlap] = Field(description="The pairs, sorted")
     cross_check: OverlapsCheck = Field(description="Independent engines side by side")
 
-    @classmethod
-    def of(cls, found: core.Overlaps, check: core.CrossCheck) -> Self:
-        contact = found.contact
-        columns = (contact.separation, contact.witness_a, contact.witness_b, contact.normal)
-        # Adding 0.0 turns -0.0 into 0.0.
-        rows = zip(found.pairs.tolist(), *((column + 0.0).tolist() for column in columns), strict=True)
-        names = tuple(Overlap.model_fields)
-        return cls(
-            overlaps=[Overlap(**dict(zip(names, row, strict=True))) for row in rows],
-            cross_check=OverlapsCheck(
-                agree=check.agree,
-                engines={engine: pairs.tolist() for engine, pairs in check.pairs.items()},
-                left_out=check.left_out,
-            ),
-        )
-
 
 def overlaps(asked: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
     """Benches that overlap or are nearer than a margin, with depth and place, according to four engines."""
@@ -101,7 +83,13 @@ def _judged(
     found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
     check_limit("benches", "overlapping pairs", len(found.pairs), terms.settings.pairs_max, "move them apart")
     check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
-    return OverlapsAnswer.of(found, check)
+    names, contact = tuple(Overlap.model_fields), found.contact
+    columns = (contact.separation, contact.witness_a, contact.witness_b, contact.normal)
+    # Adding 0.0 turns -0.0 into 0.0.
+    rows = zip(found.pairs.tolist(), *((column + 0.0).tolist() for column in columns), strict=True)
+    pairs = [Overlap(**dict(zip(names, row, strict=True))) for row in rows]
+    engines = {engine: known.tolist() for engine, known in check.pairs.items()}
+    return OverlapsAnswer(overlaps=pairs, cross_check=OverlapsCheck.known(check, engines=engines))
 
 
 def _cost(asked: OverlapsRequest) -> float:

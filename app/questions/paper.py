@@ -137,21 +137,18 @@ def _numbers() -> tuple[_Number, ...]:
 @cache
 def literature(language: Language = Language.ENGLISH) -> tuple[PublishedNumber, ...]:
     """The numbers of other publications, each with the shortcut that gives it where one is known."""
-    found = []
-    for source, name, text in PUBLISHED:
-        one = typed(name, text, language)
-        found.append(
-            PublishedNumber(
-                quantity=say(name, language),
-                unit=one.unit,
-                source=source,
-                published=one.found,
-                ours=one.expected,
-                difference=one.expected - one.found,
-                diagnosis=one.diagnosis,
-            )
+    return tuple(
+        PublishedNumber(
+            quantity=say(name, language),
+            unit=one.unit,
+            source=source,
+            published=one.found,
+            ours=one.expected,
+            difference=one.expected - one.found,
+            diagnosis=one.diagnosis,
         )
-    return tuple(found)
+        for source, name, one in ((place, name, typed(name, text, language)) for place, name, text in PUBLISHED)
+    )
 
 
 def _collision_time(found: FirstContact) -> _Number:
@@ -184,7 +181,8 @@ def _collision_radius(found: FirstContact) -> _Number:
 
 def _minimum_pitch() -> _Number:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
-    just_below, jump = _bisected_radius()
+    # The bisection of section 3.3, for a head that stops at the circle.
+    just_below, jump = bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
     below, above = _contact_radius(just_below), _contact_radius(jump)
     head = first_contact(Dance(Dragon(), Spiral(PAPER_PITCH))).head
     reached = head.radius if head else 0.0
@@ -203,11 +201,6 @@ def _minimum_pitch() -> _Number:
 def _contact_radius(pitch: float) -> float:
     """Radius of the default dragon's head at first contact, as a scan finds it [m]; 0 without a contact."""
     return stop_radius(Dragon(), Spiral(pitch)) or 0.0
-
-
-def _bisected_radius() -> tuple[float, float]:
-    """The two pitches at which the bisection of section 3.3 ends, for a head that stops at the circle."""
-    return bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
 
 
 def paper(asked: PaperQuery, terms: Terms) -> PaperTable:

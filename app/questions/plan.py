@@ -12,6 +12,7 @@ import core
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps.marks import marks_of
+from app.questions.check import judged
 from app.questions.maps import Marked
 from app.wire.question import Question, Terms, measure
 from core import Dance, FailureKind, Judgement
@@ -68,21 +69,12 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     width = asked.clear if asked.clear is not None else asked.margin or CLEAR
     clear = widened(swept, width) if width else swept
     geographic = asked.told_origin(place) is not None
-    judged = core.check(
-        dance,
-        venue=place.venue,
-        margin=asked.margin,
-        stray=asked.to_stray(),
-        speed_limit=asked.speed_limit,
-        start=start,
-        stop=asked.stop,
-        budget=budget,
-    )
+    report = judged(asked, dance, place.venue, start, terms)
     title = Title(
         asked.title or say("Bench dragon", "板凳龙"),
         _facts(dance, asked.margin, start, stop, clock.words, say),
-        _verdict(judged, clock.words, say),
-        judged.verdict is Judgement.PASSES,
+        _verdict(report, clock.words, say),
+        report.verdict is Judgement.PASSES,
         geographic,
     )
     ground = Ground(dance, place.venue, swept, clear, width, timing, geographic)
@@ -102,31 +94,24 @@ def _facts(
     length = float(dragon.chords.sum())
     moving = sorted({one.speed for one in dance.passages if one.speed > 0.0} | {dance.head_speed})
     english, chinese = (to.join(said(one) for one in sorted({moving[0], moving[-1]})) for to in (" to ", " 至 "))
-    pauses = sum(one.speed == 0.0 for one in dance.passages)
-    if pauses:
-        english, chinese = f"{english} m/s with {counted(pauses, 'pause')}", f"{chinese} m/s，停顿 {pauses} 次"
-    else:
-        english, chinese = f"{english} m/s", f"{chinese} m/s"
+    pauses, n = sum(one.speed == 0.0 for one in dance.passages), dragon.benches
+    paused, stopped = (f" with {counted(pauses, 'pause')}", f"，停顿 {pauses} 次") if pauses else ("", "")
     return [
+        say(f"{n} benches, {length:.1f} m from head to tail", f"{n} 节板凳，全长 {length:.1f} m"),
         say(
-            f"{dragon.benches} benches, {length:.1f} m from head to tail",
-            f"{dragon.benches} 节板凳，全长 {length:.1f} m",
+            f"head at {english} m/s{paused}, margin {said(margin)} m",
+            f"龙头速度 {chinese} m/s{stopped}，间距 {said(margin)} m",
         ),
-        say(f"head at {english}, margin {said(margin)} m", f"龙头速度 {chinese}，间距 {said(margin)} m"),
         say(f"from {words(start)} to {words(stop)}", f"时间 {words(start)} 至 {words(stop)}"),
     ]
 
 
-def _verdict(judged: core.Report, words: Callable[[float], str], say: Say) -> str:
-    if not judged.failures:
+def _verdict(report: core.Report, words: Callable[[float], str], say: Say) -> str:
+    if not report.failures:
         return say("Checked: passes", "检查：通过")
-    first = judged.failures[0]
+    first = report.failures[0]
     told = say(*FAILURES[first.kind])
     return say(f"Checked: {told} at {words(first.time)}", f"检查：{words(first.time)} {told}")
 
 
-def _cost(asked: PlanRequest) -> float:
-    return SECONDS
-
-
-QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=_cost, at="/plan")
+QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=lambda asked: SECONDS, at="/plan")

@@ -56,5 +56,3 @@ _ALL = (
 )
 QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}
 CALLS: dict[str, Call] = {call.name: call for question in _ALL for call in calls_of(question)}
-
-__all__ = ["CALLS", "QUESTIONS", "Call", "Question"]

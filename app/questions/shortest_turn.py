@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Self
-
 from pydantic import Field
 
 import core
@@ -46,10 +44,6 @@ class ShortestTurn(Turn):
     evaluations: int = Field(description="Number of entries tried")
     stray: float | None = TOTAL_STRAY
 
-    @classmethod
-    def of_shortest(cls, found: core.ShortestTurn, asked: ShortestTurnFields) -> Self:
-        return cls.known(found, stray=asked.total_stray, **Turn.of(found.turn).model_dump())
-
 
 def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
     """The turn that begins as deep inside its circle as the dragon can dance, and what prevents a deeper one."""
@@ -63,7 +57,7 @@ def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) 
         stray=asked.to_stray(),
         budget=terms.budget,
     )
-    return ShortestTurn.of_shortest(found, asked)
+    return ShortestTurn.known(found, stray=asked.total_stray, **Turn.of(found.turn).model_dump())
 
 
 QUESTION = Question(shortest_turn, ShortestTurn, flat=ShortestTurnQuery, body=ShortestTurnRequest)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated
 
 from pydantic import Field
 
@@ -10,7 +10,7 @@ import core
 from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.question import Answer, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
-from core import Exhibit, InvalidValue, Limit
+from core import InvalidValue, Limit
 from core.tolerance.curve import time_on_circle
 
 SizeError = Annotated[float, Field(ge=0, le=5)]
@@ -52,10 +52,6 @@ class Shown(Answer):
     depth: float = measure("m", "Depth of the overlap")
     stray: float = measure("m", "Largest distance of a handle from its place")
 
-    @classmethod
-    def of(cls, found: Exhibit | None) -> Self | None:
-        return None if found is None else cls.known(found, handles=found.handles.tolist())
-
 
 class StrayProof(Answer):
     """Evidence for the safe stray."""
@@ -95,10 +91,6 @@ class Tolerance(Answer):
     stop: float = measure("s", "End of the time asked about")
     certificate: StrayProof = Field(description="Proof of the safe stray")
 
-    @classmethod
-    def of(cls, found: core.Tolerance, with_errors: float | None) -> Self:
-        return cls.known(found, exhibit=Shown.of(found.exhibit), stray_with_errors=with_errors)
-
 
 def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
     """Largest proven stray of people without a contact, and a pose that touches with a slightly larger one."""
@@ -106,7 +98,9 @@ def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Toleran
     venue = asked.to_place(dance.dragon).venue if isinstance(asked, ToleranceRequest) else None
     start, stop = span_asked(asked, dance)
     with_errors = _with_errors(asked, dance, budget, placed=venue is not None)
-    return Tolerance.of(core.tolerance(dance, venue, start=start, stop=stop, budget=budget), with_errors)
+    found = core.tolerance(dance, venue, start=start, stop=stop, budget=budget)
+    pose = None if found.exhibit is None else Shown.known(found.exhibit, handles=found.exhibit.handles.tolist())
+    return Tolerance.known(found, exhibit=pose, stray_with_errors=with_errors)
 
 
 def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[float | None, float | None]:

@@ -9,7 +9,7 @@ from pydantic import Field
 
 import core
 from app.files import tables
-from app.wire.dances import TimedDance, TimeSteps
+from app.wire.dances import TimedDance
 from app.wire.question import JSON, Answer, Question, Terms, measure
 
 
@@ -51,9 +51,7 @@ def trajectory(asked: TrajectoryRequest, terms: Terms, form: str = JSON) -> byte
 
 
 def _cost(asked: TrajectoryRequest, form: str = JSON) -> float:
-    times = asked.times or TimeSteps()
-    instants = len(times) if isinstance(times, list) else times.instants()
-    return instants * (asked.benches + 1) * SECONDS_PER_CELL.get(form, 1e-7)
+    return asked.instants() * (asked.benches + 1) * SECONDS_PER_CELL.get(form, 1e-7)
 
 
 QUESTION = Question(trajectory, TrajectoryTable, body=TrajectoryRequest, forms=tuple(FORMS), cost=_cost)

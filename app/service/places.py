@@ -9,7 +9,7 @@ from pydantic import Field
 
 from app.files.tables import Language
 from app.maps.places import Places, read_places
-from app.questions.maps import MapFormat
+from app.questions.maps import FORMS
 from app.service.graders import Graders
 from app.service.grading import COST, FILE_TYPE, STATUSES, UploadRoute, file_body
 from app.service.middleware import Lanes, client_of
@@ -25,7 +25,7 @@ from core.kernels import Halted
 # Accepted media types; the form of a map follows from its first bytes, whichever of these is given.
 TYPES = (
     FILE_TYPE,
-    *MapFormat.media_types(),
+    *FORMS,
     JSON,
     "application/vnd.google-earth.kmz",
     "application/toml",

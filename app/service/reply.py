@@ -27,13 +27,13 @@ from starlette.datastructures import Headers
 from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
-from app.questions.registry import CALLS, Call
+from app.questions.registry import CALLS
 from app.service.middleware import Handler, Lanes, client_of, watched
 from app.service.problems import Refused
 from app.service.version import build
 from app.settings import Settings
 from app.wire.problem import ERRORS_MAX, ErrorItem
-from app.wire.question import UNKNOWN_COST, FileFormat, Terms, Wire
+from app.wire.question import UNKNOWN_COST, Call, FileFormat, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget, TooMuchWork
 

@@ -13,12 +13,12 @@ from pydantic import ValidationError
 
 from app.files.outlines import GEOJSON_TYPE
 from app.files.tables import CSV_TYPE
-from app.questions.registry import CALLS, Call
+from app.questions.registry import CALLS
 from app.service.bodies import BodyReply, BodyRoute
 from app.service.examples import EXAMPLES
 from app.service.reply import QueryReply, QueryRoute, Reply
 from app.wire.problem import PROBLEM_TYPE
-from app.wire.question import JSON, FileFormat, Wire
+from app.wire.question import JSON, Call, FileFormat, Wire
 
 # The status of a job holds a problem, which brings the schema of problems into the description of the service.
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
@@ -65,7 +65,7 @@ def _default(body: type[Wire]) -> tuple[Wire, ...]:
 def _add(router: APIRouter, call: Call) -> None:
     question, method = call.question, call.method
     statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
-    if question.format_in_path:
+    if question.formats:
         statuses = (404, *statuses)
     unchanged = {"description": "The client already has this answer (If-None-Match)"}
     content = {form: SCHEMAS.get(form, FILE) for form in question.forms}
@@ -82,7 +82,7 @@ def _add(router: APIRouter, call: Call) -> None:
         response_class=Response,
         responses={200: answer, 304: unchanged, **refusals(statuses)},
         openapi_extra={"security": []},
-        route_class_override=BodyRoute if method == "POST" else None if question.format_in_path else QueryRoute,
+        route_class_override=BodyRoute if method == "POST" else None if question.formats else QueryRoute,
     )
 
 
@@ -102,7 +102,7 @@ def _endpoint(call: Call) -> Callable[..., Any]:
         return await reply.to_query(call, wanted, format)
 
     figure, answer = (figure_to_query, to_query) if call.method == "GET" else (figure_to_body, to_body)
-    endpoint: Callable[..., Any] = figure if call.question.format_in_path else answer
+    endpoint: Callable[..., Any] = figure if call.question.formats else answer
     wanted: Any
     if call.method == "GET":
         replying, wanted = QueryReply, Annotated[call.asked, Query()]

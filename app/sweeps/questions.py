@@ -10,23 +10,20 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from pydantic import BaseModel
+import numpy as np
+from pydantic import BaseModel, Field
 
-from app.questions import registry
+import core
+from app.questions import clearance, overlaps
 from app.questions.check import LeastClearance
+from app.questions.registry import CALLS
+from app.questions.registry import QUESTIONS as KNOWN
+from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
-from app.sweeps.rows import (
-    ClearanceRow,
-    OverlapsRow,
-    TrajectoryRow,
-    clearance_row,
-    least_clearance,
-    overlaps_row,
-    trajectory_row,
-)
+from app.wire.answers import Pair
 from app.wire.dances import DanceFields
 from app.wire.messages import checked
-from app.wire.question import Answer, DanceQuery, Terms
+from app.wire.question import Answer, DanceQuery, Terms, measure
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 
@@ -60,40 +57,114 @@ class Question:
             return self.ask(request)
 
 
-def _ways(question: registry.Question, seconds: float, shown: str, *left_out: str) -> tuple[Question, ...]:
-    """A question of the registry in both forms: with flat parameters and with a body."""
+def _ways(name: str, seconds: float, shown: str, *left_out: str, **own: Any) -> tuple[Question, ...]:
+    """A question of the registry in both forms: with flat parameters and with a body. own: what differs for a row"""
+    question = replace(KNOWN[name], **own)
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
     known = (question.model, ask, seconds, shown, frozenset(left_out))
     return tuple(Question(question.name, request, *known) for request in requests if request)
 
 
-def _known(name: str) -> registry.Question:
-    return registry.QUESTIONS[name]
+# Questions with lists as answers, answered with the numbers that a table of many designs has.
 
 
-def _row(answer: Callable[..., Answer], model: type[Answer], name: str) -> registry.Question:
-    """A question of the registry with lists as its answer, changed to answer with a row."""
-    return replace(_known(name), answer=answer, model=model)
+class ClearanceRow(Answer):
+    """The smallest clearance between the first and the last instant of the request."""
+
+    clearance: float = measure("m", "Smallest separation of two benches that are not neighbours")
+    time: float = measure("s", "Time of that clearance")
+    benches: Pair = Field(description="The pair with that separation")
 
 
-_LEAST = registry.Question(least_clearance, LeastClearance, flat=DanceQuery, body=DanceFields)
+class TrajectoryRow(Answer):
+    """The two ends of the dragon at the last instant of the request, and the speeds at all instants."""
+
+    time: float = measure("s", "Last instant")
+    head_x: float = measure("m", "Of the first handle, at the last instant")
+    head_y: float = measure("m", "As head_x")
+    tail_x: float = measure("m", "Of the last handle, at the last instant")
+    tail_y: float = measure("m", "As tail_x")
+    tail_speed: float = measure("m/s", "Of the last handle, at the last instant")
+    least_speed: float = measure("m/s", "Of any handle at any instant")
+    greatest_speed: float = measure("m/s", "Of any handle at any instant")
+
+
+class OverlapsRow(Answer):
+    """The number of overlapping pairs, and the deepest overlap."""
+
+    pairs: int = Field(description="Pairs that overlap, or are nearer than the margin")
+    separation: float | None = measure("m", "Smallest separation of these pairs; null: there is no such pair")
+    benches: Pair | None = Field(description="The pair with that separation")
+    agree: bool = Field(description="True if all engines found the same pairs")
+
+
+def clearance_row(asked: clearance.ClearanceQuery | clearance.ClearanceRequest, terms: Terms) -> ClearanceRow:
+    """The smallest clearance of a dance, at the instants or at a local minimum between them."""
+    found = clearance.profile(asked, terms)
+    k = int(found.clearance.argmin())
+    at = core.Graze(float(found.time[k]), float(found.clearance[k]), tuple(found.benches[k].tolist()))
+    return ClearanceRow.known(min([at, *found.grazes], key=lambda graze: graze.clearance))
+
+
+def trajectory_row(asked: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
+    """The ends of the dragon at the last instant, and the speeds. raises: InvalidValue without an instant"""
+    dance = asked.to_dance(terms.settings.benches_max)
+    times = asked.times_of(dance, terms.settings.cells_max)
+    if not times.size:
+        raise InvalidValue("times", "must have at least one instant for a row, got none")
+    found = core.trajectory(dance, times, budget=terms.budget)
+    head, tail = found.position[-1, 0], found.position[-1, -1]
+    return TrajectoryRow(
+        time=times[-1],
+        head_x=head[0],
+        head_y=head[1],
+        tail_x=tail[0],
+        tail_y=tail[1],
+        tail_speed=found.speed[-1, -1],
+        least_speed=np.min(found.speed),
+        greatest_speed=np.max(found.speed),
+    )
+
+
+def overlaps_row(asked: overlaps.OverlapsRequest, terms: Terms) -> OverlapsRow:
+    """The number of overlapping pairs, and the pair with the deepest overlap."""
+    found = overlaps.overlaps(asked, terms)
+    deepest = min(found.overlaps, key=lambda pair: pair.separation, default=None)
+    return OverlapsRow(
+        pairs=len(found.overlaps),
+        separation=deepest and deepest.separation,
+        benches=deepest and deepest.benches,
+        agree=found.cross_check.agree,
+    )
+
+
+def least_clearance(asked: DanceQuery | DanceFields, terms: Terms) -> LeastClearance:
+    """The least separation of two benches that share no handle, over the whole dance."""
+    found = core.least_clearance(asked.to_dance(terms.settings.checked_benches_max), budget=terms.budget)
+    if found is None:
+        raise InvalidValue.of("dragon.benches", "must be at least 3 for two to share no handle", asked.benches, "")
+    return LeastClearance.model_validate(found)
+
+
 # The forms of each question, the flat one first. The seconds are for the defaults on one core of a small machine.
 _ALL = {
-    "collision_time": _ways(_known("collision_time"), 1e-3, "time", "certificate.method"),
-    "minimum_pitch": _ways(_known("minimum_pitch"), 2e-2, "pitch"),
-    "turn": _ways(_known("turn"), 1e-4, "length"),
-    "shortest_turn": _ways(_known("shortest_turn"), 0.5, "length"),
-    "maximum_head_speed": _ways(_known("maximum_head_speed"), 5e-2, "head_speed"),
-    "least_clearance": _ways(_LEAST, 2e-2, "distance"),
-    "check": _ways(_known("check"), 0.1, "least_clearance.distance", "first_contact.certificate.method"),
-    "tolerance": _ways(_known("tolerance"), 0.3, "stray", "certificate.method"),
-    "contact_probability": _ways(_known("contact_probability"), 3.0, "probability", "method"),
-    "clearance": _ways(_row(clearance_row, ClearanceRow, "clearance"), 0.2, "clearance"),
-    "trajectory": _ways(_row(trajectory_row, TrajectoryRow, "trajectory"), 2e-3, "greatest_speed"),
-    "overlaps": _ways(_row(overlaps_row, OverlapsRow, "overlaps"), 1e-2, "separation"),
+    "collision_time": _ways("collision_time", 1e-3, "time", "certificate.method"),
+    "minimum_pitch": _ways("minimum_pitch", 2e-2, "pitch"),
+    "turn": _ways("turn", 1e-4, "length"),
+    "shortest_turn": _ways("shortest_turn", 0.5, "length"),
+    "maximum_head_speed": _ways("maximum_head_speed", 5e-2, "head_speed"),
+    "least_clearance": _ways(
+        "check", 2e-2, "distance", answer=least_clearance, model=LeastClearance, flat=DanceQuery, body=DanceFields
+    ),
+    "check": _ways("check", 0.1, "least_clearance.distance", "first_contact.certificate.method"),
+    "tolerance": _ways("tolerance", 0.3, "stray", "certificate.method"),
+    "contact_probability": _ways("contact_probability", 3.0, "probability", "method"),
+    "clearance": _ways("clearance", 0.2, "clearance", answer=clearance_row, model=ClearanceRow),
+    "trajectory": _ways("trajectory", 2e-3, "greatest_speed", answer=trajectory_row, model=TrajectoryRow),
+    "overlaps": _ways("overlaps", 1e-2, "separation", answer=overlaps_row, model=OverlapsRow),
 }
-QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in registry.CALLS}
+QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in CALLS}
 # Questions of the service whose answers cannot be a row, with the reason.
 PICTURE = "its answer is a picture: sweep the question behind its numbers"
 NO_ROWS = {
@@ -102,7 +173,7 @@ NO_ROWS = {
     "envelope": "its answer is polygons: sweep check with a venue",
     "course": "its answer is a drawn path: sweep check",
     "paper": "it takes no parameters",
-    **{name: PICTURE for name, question in registry.QUESTIONS.items() if question.model is None},
+    **{name: PICTURE for name, question in KNOWN.items() if question.model is None},
 }
 
 

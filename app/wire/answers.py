@@ -22,8 +22,6 @@ LEFT_OUT = (
     "Engines that were not asked because they cannot judge this case: the angle sum sees only corners inside a "
     "bench, so it cannot judge a margin or, at the start, benches that cross without a corner inside the other"
 )
-
-
 # Field of an answer that allows for a stray.
 TOTAL_STRAY: Any = measure(
     "m", "Largest distance of a hole from its place, by people and by play, in this answer; null: none was asked for"
@@ -125,11 +123,8 @@ class Columns:
     decimals: int | None = None
 
     def to_json(self) -> bytes:
-        """One JSON object."""
-        return orjson.dumps(
-            {name: self._ready(name, column) for name, column in self.columns.items()},
-            option=orjson.OPT_SERIALIZE_NUMPY,
-        )
+        ready = {name: self._ready(name, column) for name, column in self.columns.items()}
+        return orjson.dumps(ready, option=orjson.OPT_SERIALIZE_NUMPY)
 
     def _ready(self, name: str, column: Any) -> Any:
         if not isinstance(column, np.ndarray):

@@ -140,12 +140,10 @@ class BenchCsv(Wire, strict=True):
 
     @cached_property
     def table(self) -> BenchTable:
-        """The benches."""
         return bench_table(self.csv)
 
     @property
     def benches(self) -> int:
-        """Number of benches."""
         return len(self.table.lines)
 
     def to_dragon(self, benches_max: int) -> Dragon:

@@ -55,5 +55,4 @@ class PassageBody(Wire, strict=True):
     until_time: Instant | None = measure("s", "Time at which the passage ends, in place of a place", None)
 
     def to_passage(self) -> Passage:
-        """Passage of core, which checks it among the others."""
         return Passage(self.speed, self.until_s, self.until_time)

@@ -16,7 +16,7 @@ from pydantic_core import PydanticCustomError
 from app.settings import Settings
 from app.wire.benches import BenchCsv
 from app.wire.clocks import PassageBody, StartClock
-from app.wire.paths import BY_KIND, KINDS, AnyPath, SpiralPath
+from app.wire.paths import KINDS, AnyPath, SpiralPath
 from app.wire.question import (
     Coordinates,
     HeadSpeed,
@@ -29,7 +29,7 @@ from app.wire.question import (
     check_limit,
     measure,
 )
-from core import Dance, Dragon, InvalidValue, Passage
+from core import Dance, Dragon, InvalidValue
 from core.errors import said
 from core.passages import PASSAGES_MAX
 from core.values import Floats
@@ -65,7 +65,6 @@ class BenchByBench(Wire, strict=True):
 
     @property
     def benches(self) -> int:
-        """Number of benches."""
         return len(self.lengths)
 
     def to_dragon(self, benches_max: int) -> Dragon:
@@ -92,16 +91,10 @@ class TimeRange(Wire):
     step: float = measure("s", "Time between two instants", 1.0, ge=1e-6, le=1e6)
 
     def instants(self) -> int:
-        """Number of instants, computed before any is allocated.
-
-        raises: InvalidValue when stop lies before start
-        """
+        """Number of instants, computed before any is allocated. raises: InvalidValue when stop lies before start"""
         if self.stop < self.start:
-            raise InvalidValue(
-                "times.stop",
-                f"must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s",
-                start="times.start",
-            )
+            rule = f"must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s"
+            raise InvalidValue("times.stop", rule, start="times.start")
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
 
     def times_of(self, dance: Dance, cells_max: int) -> Floats:
@@ -122,10 +115,6 @@ def _shape_of_dragon(value: Any) -> str:
     return "bench_by_bench" if listed or isinstance(value, BenchByBench) else "uniform"
 
 
-def _shape_of_times(value: Any) -> str:
-    return "list" if isinstance(value, list) else "range"
-
-
 # Shape of the values over which a sweep varies a parameter; they have the unit of that parameter.
 AXIS = "axis"
 # Names of shapes, which pydantic puts into the place of an error although no body contains them.
@@ -140,7 +129,7 @@ AnyDragon = Annotated[
 ]
 AnyTimes = Annotated[
     Annotated[TimeSteps, Tag("range")] | Annotated[list[Instant], Field(min_length=1, fail_fast=True), Tag("list")],
-    Discriminator(_shape_of_times),
+    Discriminator(lambda value: "list" if isinstance(value, list) else "range"),
 ]
 
 
@@ -151,7 +140,6 @@ class DragonFields(Wire, strict=True):
 
     @property
     def benches(self) -> int:
-        """Number of benches."""
         return self.dragon.benches
 
     def to_dragon(self, benches_max: int) -> Dragon:
@@ -174,9 +162,7 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
         "other; after the last one, head_speed holds. Contacts depend only on the place of the head; the time of a "
         "contact is the first time at which the head is there",
     )
-    path: AnyPath = Field(
-        default_factory=SpiralPath, description="The path", json_schema_extra={"discriminator": BY_KIND}
-    )
+    path: AnyPath = Field(default_factory=SpiralPath, description="The path")
     start_clock: StartClock = None
 
     def most_benches(self, settings: Settings) -> int:
@@ -184,11 +170,8 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
 
     def to_dance(self, benches_max: int) -> Dance:
         """raises: TooLarge, InvalidValue"""
-        return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed, self.to_passages())
-
-    def to_passages(self) -> list[Passage]:
-        """Passages, each checked by itself."""
-        return [one.to_passage() for one in self.passages]
+        passages = [one.to_passage() for one in self.passages]
+        return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed, passages)
 
 
 class SpanFields(Wire):
@@ -211,17 +194,23 @@ class TimedDance(DanceFields):
         None,
     )
 
+    def instants(self) -> int:
+        """Number of instants; an estimate for those that are left to the path. raises: InvalidValue"""
+        times = self.times or TimeSteps()
+        return len(times) if isinstance(times, list) else times.instants()
+
     def times_of(self, dance: Dance, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
-        handles = dance.dragon.benches + 1
-        if self.times is None and self.path.kind != "spiral":
+        times: list[float] | Floats
+        if isinstance(self.times, list):
+            times = self.times
+        elif self.times is None and self.path.kind != "spiral":
             times = dance.default_times
-            check_limit("times", "instants x handles", len(times) * handles, cells_max, FEWER_CELLS)
-            return times
-        if not isinstance(self.times, list):
+        else:
             return (self.times or TimeSteps()).times_of(dance, cells_max)
-        check_limit("times", "instants x handles", len(self.times) * handles, cells_max, FEWER_CELLS)
-        return np.array(self.times, dtype=np.float64)
+        cells = len(times) * (dance.dragon.benches + 1)
+        check_limit("times", "instants x handles", cells, cells_max, FEWER_CELLS)
+        return np.asarray(times, dtype=np.float64)
 
 
 def _shallow(value: dict[str, Any] | None) -> dict[str, Any] | None:

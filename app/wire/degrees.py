@@ -54,12 +54,9 @@ class Plane:
         self.origin = origin
         l0, p0 = math.radians(origin.longitude), math.radians(origin.latitude)
         self.middle = _from_centre(np.array([[origin.longitude, origin.latitude]]))
-        self.axes = np.array(
-            [
-                [-math.sin(l0), math.cos(l0), 0.0],
-                [-math.sin(p0) * math.cos(l0), -math.sin(p0) * math.sin(l0), math.cos(p0)],
-            ]
-        )
+        east = [-math.sin(l0), math.cos(l0), 0.0]
+        north = [-math.sin(p0) * math.cos(l0), -math.sin(p0) * math.sin(l0), math.cos(p0)]
+        self.axes = np.array([east, north])
 
     def metres(self, places: Floats) -> Floats:
         """Points (N, 2) [m] of places (N, 2), longitude and latitude [degrees]."""

@@ -89,7 +89,8 @@ def fault_of(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> Fault
     unit = "" if AXIS in names else units.get(f"{told_apart}.{name}", units.get(name, ""))
     if error["type"] == "extra_forbidden":
         return Fault(names[-1], shown(names[-1]), _stranger(names[-1], units, place, asked))
-    subject = name + "".join(f"[{part}]" for part in _last_indices(place))
+    indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
+    subject = name + "".join(f"[{index}]" for index in reversed(indices))
     if AXIS in names:
         thing += " or a list of values"
     elif subject == "times":
@@ -210,12 +211,6 @@ def _homes(name: str, asked: Any, place: Sequence[Any]) -> list[str]:
         for home in names_at(asked, place)
         if any(name in names_at(asked, (*place, home, *shape)) for shape in inner)
     ]
-
-
-def _last_indices(place: Sequence[Any]) -> list[int]:
-    """List indices at the end of a place."""
-    indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
-    return indices[::-1]
 
 
 def _number(value: Any, *, text: bool) -> float | None:

@@ -5,7 +5,7 @@ A refusal of core is renamed to its place in the body, because core does not put
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypedDict
+from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
@@ -39,14 +39,6 @@ EntryRadius = Annotated[
 ]
 
 
-class CoreCircle(TypedDict):
-    """Arguments of core for a circle."""
-
-    turning_radius: float
-    start_turns: float
-    margin: float
-
-
 class WayToCircle(Wire):
     """A circle that the head must reach from a start on a spiral of any pitch."""
 
@@ -59,7 +51,8 @@ class Circle(WayToCircle):
 
     margin: Margin = 0.0
 
-    def to_circle(self) -> CoreCircle:
+    def to_circle(self) -> dict[str, Any]:
+        """Arguments of core."""
         return {"turning_radius": self.turning_diameter / 2, "start_turns": self.start_turns, "margin": self.margin}
 
 
@@ -229,25 +222,17 @@ class RoutePath(Wire, strict=True):
 
 def _kind(value: Any) -> str:
     """Kind of a path; spiral if none is given or the value is not an object."""
-    kind = value.get("kind", "spiral") if isinstance(value, dict) else getattr(value, "kind", "spiral")
-    return kind if isinstance(kind, str) else str(kind)
+    return str(value.get("kind", "spiral") if isinstance(value, dict) else getattr(value, "kind", "spiral"))
 
 
+# Schema of each kind of path: OpenAPI's discriminator, because pydantic leaves the choice to a function.
+BY_KIND = {kind: f"#/components/schemas/{kind.title()}Path" for kind in ("spiral", "turn", "route", "waypoints")}
 AnyPath = Annotated[
     Annotated[SpiralPath, Tag("spiral")]
     | Annotated[TurnPath, Tag("turn")]
     | Annotated[RoutePath, Tag("route")]
     | Annotated[WaypointsPath, Tag("waypoints")],
     Discriminator(_kind),
+    Field(json_schema_extra={"discriminator": {"propertyName": "kind", "mapping": BY_KIND}}),
 ]
-# Discriminator of AnyPath for OpenAPI, because pydantic leaves the choice to a function.
-BY_KIND: dict[str, Any] = {
-    "propertyName": "kind",
-    "mapping": {
-        "spiral": "#/components/schemas/SpiralPath",
-        "turn": "#/components/schemas/TurnPath",
-        "route": "#/components/schemas/RoutePath",
-        "waypoints": "#/components/schemas/WaypointsPath",
-    },
-}
-KINDS = frozenset({"spiral", "turn", "route", "waypoints", "line", "arc", "coil"})
+KINDS = frozenset({*BY_KIND, "line", "arc", "coil"})

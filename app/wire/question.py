@@ -190,24 +190,19 @@ class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
 UNKNOWN_COST = 1.0
 
 
-def unknown_cost(asked: Wire, *form: str) -> float:
-    return UNKNOWN_COST
-
-
 def unheard(share: float) -> None:
     """Listener that ignores progress."""
 
 
 class FileFormat(StrEnum):
-    """Formats of a file, each the ending of an address; their media types are those of `media_types`, in order."""
+    """Formats of a file: endings of an address, each with its media type."""
 
-    @classmethod
-    def media_types(cls) -> tuple[str, ...]:
-        raise NotImplementedError
+    media_type: str
 
-    @property
-    def media_type(self) -> str:
-        return self.media_types()[list(type(self)).index(self)]
+    def __new__(cls, ending: str, media_type: str = "") -> Self:
+        one = str.__new__(cls, ending)
+        one._value_, one.media_type = ending, media_type
+        return one
 
 
 @dataclass(frozen=True)
@@ -243,7 +238,7 @@ class Question:
     flat: type[Wire] | None = None
     body: type[Wire] | None = None
     forms: tuple[str, ...] = (JSON,)
-    cost: Callable[..., float] = unknown_cost
+    cost: Callable[..., float] = lambda asked, *form: UNKNOWN_COST
     at: str = ""
     formats: type[FileFormat] | None = None
 
@@ -258,11 +253,6 @@ class Question:
             return self.at
         words = self.name.replace("_", "-")
         return f"/{words}" if self.model else f"/figures/{words.removesuffix('-figure')}.{{format}}"
-
-    @property
-    def format_in_path(self) -> bool:
-        """Whether its address names the form of the answer."""
-        return self.formats is not None
 
     @property
     def summary(self) -> str:

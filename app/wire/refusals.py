@@ -88,11 +88,8 @@ def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
     default = TurnFields.model_fields[name].default
     if getattr(fields, name) == default:
         return False
+    told = fields.model_dump(include=set(TurnFields.model_fields)) | {name: default}
     try:
-        return follows(dragon, TurnFields.model_validate(_turn_values(fields) | {name: default}).to_turn())
+        return follows(dragon, TurnFields.model_validate(told).to_turn())
     except BenchDragonError:
         return False
-
-
-def _turn_values(fields: TurnFields) -> dict[str, Any]:
-    return {name: getattr(fields, name) for name in TurnFields.model_fields}

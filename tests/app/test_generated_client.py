@@ -84,7 +84,7 @@ def test_every_question_is_answered(own: Any, client: httpx.Client, name: str, m
     assert answer.to_dict() == plain.raise_for_status().json()
 
 
-DRAWN = [c for c in CALLS if c[2].format_in_path]
+DRAWN = [c for c in CALLS if c[2].formats]
 
 
 @pytest.mark.parametrize(
