@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import core
-from app.questions.check import CheckRequest, Report
+from app.questions.check import CheckRequest, check
 from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.sweeps.columns import Column, answer_columns, value_type
 from app.sweeps.questions import QUESTIONS, question_of
@@ -51,7 +51,6 @@ def test_a_list_of_values_has_one_type(values: list[Any], kind: type) -> None:
 
 
 def test_a_column_of_a_list_of_models_is_their_json() -> None:
-    dance = core.Dance(core.Dragon(5), core.Spiral())
-    answer = Report.of(core.check(dance, speed_limit=0.5), dance, CheckRequest(cross_check="none"), Terms(), None)
+    answer = check(CheckRequest(dragon={"benches": 5}, speed_limit=0.5, cross_check="none"), Terms())
     column = Column("failures", ("failures",), str, as_json=True)
     assert '"kind":"speed"' in column.value(answer)
