@@ -18,7 +18,7 @@ TESTS = ROOT / "tests"
 TOGETHER = {
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
     " contest/sensitivity contest/solved contest/tables",
-    "files/test_film.py": "command/film files/film_spec questions/films",
+    "files/test_film.py": "files/film_spec questions/films",
     "grade/test_command.py": "command/grade grade/contacts grade/shortcuts",
     "grade/test_diagnosis.py": "grade/chains grade/geometry grade/rings grade/rubric",
     "grade/test_layout.py": "grade/labels grade/report grade/verdict",
@@ -34,7 +34,7 @@ TOGETHER = {
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
     " maps/marks maps/places questions/maps service/places",
-    "plan/test_plan.py": "command/plan files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
+    "plan/test_plan.py": "files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
     "questions/test_envelope.py": "command/envelope files/outlines",
     "questions/test_paper.py": "grade/paper",
     "questions/test_registry.py": "questions/clearance questions/course questions/maximum_head_speed questions/overlaps"
@@ -50,7 +50,7 @@ TOGETHER = {
     "test_api.py": "service/main service/reply service/routes service/version",
     "test_api_limits.py": "settings",
     "test_api_reference.py": "questions/collision_time questions/minimum_pitch questions/trajectory",
-    "test_cli.py": "command/contacts command/entry command/main command/options command/overlaps command/paper"
+    "test_cli.py": "command/contacts command/entry command/main command/options command/paper"
     " command/paths command/serve command/show command/trajectory command/usage",
     "test_cli_check.py": "command/check command/designs",
     "test_cli_file.py": "command/figures files/drawing questions/figures",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
@@ -14,7 +13,7 @@ import core
 from app.command import show
 from app.command.options import Json
 from app.extras import require
-from app.files.disk import checked_output, object_words, read_dance, write_whole
+from app.files.disk import checked_output, object_words, read_dance
 from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
 from app.questions import check as checks
 from app.questions import figures
@@ -69,15 +68,10 @@ def check(
         write = trajectory_writer(suffix, None, Language.ENGLISH, asked.start_clock) if suffix else None
         table = write(_danced(asked, answer)) if write else b""
     if figure:
-        write_whole(figure, drawn)
-        print(figure, file=sys.stderr)
+        show.write(figure, drawn)
     if output:
-        write_whole(output, table)
-        print(output, file=sys.stderr)
-    if json:
-        show.print_json(answer.to_json())
-    else:
-        show.print_parts(*report_tables(answer, margin=asked.margin, benches=asked.benches))
+        show.write(output, table)
+    show.print_found(answer, json, _report_parts(answer, asked.margin, asked.benches))
 
 
 def _danced(asked: CheckRequest, answer: Report) -> core.Trajectory:
@@ -107,17 +101,17 @@ VERDICTS = {
 }
 
 
-def report_tables(report: Report, *, margin: float, benches: int) -> list[show.Part]:
+def _report_parts(report: Report, margin: float, benches: int) -> Iterator[show.Part]:
     """The verdict, the failures in order of time, and the measured values. margin: [m]; benches: of the dragon"""
-    verdict = VERDICTS[report.verdict]
+    yield Text(VERDICTS[report.verdict], style="bold")
+    yield from (f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures)
+    yield ""
     facts = show.new_table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
     for name, value, time, who in _measured(report, margin, benches):
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
-    origin = report.origin
-    words = "x = y = 0 is longitude {:.6f}, latitude {:.6f}: the middle of the square."
-    where = [words.format(origin.longitude, origin.latitude)] if origin else []
-    failures = [f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures]
-    return [Text(verdict, style="bold"), *failures, "", facts, *where]
+    yield facts
+    if at := report.origin:
+        yield f"x = y = 0 is longitude {at.longitude:.6f}, latitude {at.latitude:.6f}: the middle of the square."
 
 
 def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
@@ -129,27 +123,17 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
         what += f" with strays up to {said(contact.stray)} m"
     yield what, show.near(contact.outcome.value, margin), contact.time, pair
     if check := contact.cross_check:
-        yield (
-            "cross-check",
-            f"engines {'agree' if check.agree else 'DISAGREE'}",
-            None,
-            show.judged_words(check.judged, benches),
-        )
+        engines = f"engines {'agree' if check.agree else 'DISAGREE'}"
+        yield "cross-check", engines, None, show.judged_words(check.judged, benches)
     if least := report.least_clearance:
-        least_words = (
-            _distance(least) if least.distance >= 0.0 else show.separation(least.distance, " m", show.SHOWN_DECIMALS)
-        )
-        yield "least clearance", least_words, least.time, f"benches {show.shown(least.benches)}"
+        overlap = show.separation(least.distance, " m", show.SHOWN_DECIMALS) if least.distance < 0.0 else ""
+        yield "least clearance", overlap or _distance(least), least.time, f"benches {show.shown(least.benches)}"
     for area in report.venue.areas if report.venue else ():
         if near := area.nearest:
             yield f"nearest to {area.name}", _distance(near), near.time, f"bench {near.bench}"
     if speed := report.highest_speed:
-        yield (
-            "highest speed",
-            f"{speed.speed:.6f} m/s",
-            speed.time,
-            f"{'handle' if len(speed.handles) == 1 else 'handles'} {show.shown(speed.handles)}",
-        )
+        who = f"{'handle' if len(speed.handles) == 1 else 'handles'} {show.shown(speed.handles)}"
+        yield "highest speed", f"{speed.speed:.6f} m/s", speed.time, who
     elif any(one.kind is FailureKind.FOLDS for one in report.failures):
         yield "highest speed", "grows without bound", report.stop, "towards the fold"
     if bend := report.sharpest_bend:

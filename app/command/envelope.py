@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -11,7 +10,7 @@ import typer
 from app.command import show
 from app.command.options import Json, asks
 from app.extras import require
-from app.files.disk import checked_output, write_whole
+from app.files.disk import checked_output
 from app.files.outlines import WRITERS
 from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, swept
 from app.wire.question import Terms
@@ -33,6 +32,5 @@ def envelope(
         found = swept(asked, Terms())
         answer, data = Envelope.of(found, asked), write(found) if write else b""
     if output:
-        write_whole(output, data)
-        print(output, file=sys.stderr)
+        show.write(output, data)
     show.print_answer("Ground that benches sweep", answer, json)

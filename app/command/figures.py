@@ -1,8 +1,7 @@
-"""The command bench-dragon figures: the figures as files."""
+"""The commands bench-dragon figures and film: pictures of a dance as files."""
 
 from __future__ import annotations
 
-import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -11,11 +10,15 @@ import typer
 
 from app.command import show
 from app.command.options import asks, of_file, unused
+from app.command.paths import PathOptions, dance_of
 from app.command.usage import path
 from app.extras import require
-from app.files.disk import DANCE_ENDINGS, checked_output, write_whole
+from app.files.disk import DANCE_ENDINGS, checked_output
+from app.files.film_spec import ENDINGS, GIF_TYPE
 from app.questions import figures as drawn
+from app.questions import films
 from app.questions.figures import Format
+from app.questions.films import FilmFields, FilmRequest
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
@@ -81,5 +84,24 @@ def figures(
     for one, request in requests.items():
         with refusing(request), show.waiting(f"figure {one.value}") as progress:
             data = ASKED[one].whole(request, Terms(progress=progress), format.media_type)
-        write_whole(files[one], data)
-        print(files[one], file=sys.stderr)
+        show.write(files[one], data)
+
+
+class FilmOptions(FilmFields, PathOptions):
+    """The fields of POST /films as options."""
+
+
+@asks(FilmOptions, FilmRequest)
+def film(
+    asked: FilmOptions | FilmRequest,
+    context: typer.Context,
+    output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
+) -> None:
+    """A film of the dance; with a FILE, of any dragon on any path and in any venue."""
+    gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
+    require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif does not need it)")
+    form = GIF_TYPE if gif else films.FORM
+    with show.waiting(f"film {output}") as progress:
+        terms = Terms(progress=progress)
+        data = films.filmed(asked, dance_of(asked, context, terms.settings.drawn_benches_max), terms, form)
+    show.write(output, data)

@@ -76,10 +76,7 @@ def grade(
     answer = GradeAnswer(files=found, answers=answers)
     if summary:
         write_whole(summary, _summary(found).encode("utf-8-sig"))
-    if json:
-        show.print_json(answer.to_json())
-    else:
-        show.print_parts(*_parts(answer, language))
+    show.print_found(answer, json, _parts(answer, language))
 
 
 def _named(files: list[Path]) -> Iterator[Path]:
@@ -89,9 +86,8 @@ def _named(files: list[Path]) -> Iterator[Path]:
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
             shown = [path for path in inside if not path.name.startswith(("~$", "."))]
             if not shown:
-                raise InvalidValue.in_words(
-                    "files", f"{file} must hold a file that ends in {', '.join(ENDINGS)}, got a folder without any"
-                )
+                rule = f"must hold a file that ends in {', '.join(ENDINGS)}, got a folder without any"
+                raise InvalidValue.in_words("files", f"{file} {rule}")
             yield from shown
         else:
             yield file
@@ -124,14 +120,11 @@ def _parts(answer: GradeAnswer, language: Language) -> Iterator[show.Part]:
     for file in answer.files:
         yield from _file(file, language)
     if len(answer.files) > 1:
-        columns = [say(f"column_{name}", language) for name in SUMMARY]
-        table = show.new_table(say("summary", language), *columns)
+        table = show.new_table(say("summary", language), *(say(f"column_{name}", language) for name in SUMMARY))
         for file in answer.files:
-            errors = ", ".join(one.error for one in file.diagnosis)
+            errors, verdict = ", ".join(one.error for one in file.diagnosis), say(file.verdict.value, language)
             counts = [f"{count:,}" for count in _counts(file)]
-            table.add_row(
-                file.file, file.workbook or "", say(file.verdict.value, language), *counts, errors, _decimals(file)
-            )
+            table.add_row(file.file, file.workbook or "", verdict, *counts, errors, _decimals(file))
         yield table
 
 
@@ -163,17 +156,14 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
     if sheet.decimals:
         verdict += say("to_decimals", language, decimals=sheet.decimals)
     title = sheet.sheet or say(SHEETS[Kind(sheet.holds)], language)
-    yield "  " + say(
-        "sheet_line", language, title=title, verdict=verdict, right=f"{sheet.right:,}", cells=f"{sheet.cells:,}"
-    )
+    counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
+    yield "  " + say("sheet_line", language, title=title, verdict=verdict, **counts)
     yield from (f"    {one}" for one in sheet.notes)
     for name, cell in (("worst", sheet.worst), ("first", sheet.first)):
         if cell and sheet.verdict in ("wrong", "rounded"):
             values = {"found": f"{cell.found:.6f}", "expected": f"{cell.expected:.6f}", "time": f"{cell.time:.9g}"}
-            quantity = say("quantity_speed", language) if cell.quantity == "speed" else cell.quantity
-            yield "    " + say(
-                f"{name}_cell", language, cell=cell.cell, handle=cell.handle, quantity=quantity, **values
-            )
+            values["quantity"] = say("quantity_speed", language) if cell.quantity == "speed" else cell.quantity
+            yield "    " + say(f"{name}_cell", language, cell=cell.cell, handle=cell.handle, **values)
     if sheet.verdict in ("wrong", "incomplete"):
         yield from (f"    {line}" for line in sheet.picture)
 

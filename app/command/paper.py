@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import Annotated
 
 import typer
@@ -13,7 +13,7 @@ from app.command.options import Json
 from app.files.tables import Language
 from app.grade.words import say
 from app.questions import paper as papers
-from app.questions.paper import PaperNumber, PublishedNumber
+from app.questions.paper import PaperTable
 from app.wire.question import Terms
 
 
@@ -23,34 +23,31 @@ def paper(
     """The paper's numbers beside those of this program, with the reason for each difference."""
     with show.waiting("recomputing the paper"):
         answer = papers.paper(papers.PaperQuery(language=language), Terms())
-    if json:
-        show.print_json(answer.to_json())
-    else:
-        show.print_parts(*paper_tables(answer.rows, answer.literature, language))
+    show.print_found(answer, json, _parts(answer, language))
 
 
-def paper_tables(
-    rows: Sequence[PaperNumber], literature: Sequence[PublishedNumber], language: Language
-) -> list[show.Part]:
+def _parts(answer: PaperTable, language: Language) -> Iterator[show.Part]:
     """The numbers side by side, then each reason with its evidence; then the numbers of other publications."""
 
     def words(code: str) -> str:
         return say(f"paper_{code}", language)
 
     table = show.new_table(words("title"), *map(words, ("quantity", "paper", "ours", "difference")))
-    for one in rows:
+    for one in answer.rows:
         name = f"{one.quantity} [{one.unit}], {one.source}"
         table.add_row(name, str(one.paper), show.shown(one.ours), f"{one.difference:+.6f}")
-    parts: list[show.Part] = [table]
-    for one in rows:
-        facts = [f"  {fact.what}: {show.shown(fact.value)} {fact.unit}" for fact in one.evidence]
-        parts += [Text(one.quantity, style="bold"), one.reason, *facts, ""]
+    yield table
+    for one in answer.rows:
+        yield Text(one.quantity, style="bold")
+        yield one.reason
+        yield from (f"  {fact.what}: {show.shown(fact.value)} {fact.unit}" for fact in one.evidence)
+        yield ""
     others = show.new_table(words("others"), *map(words, ("quantity", "published", "ours", "difference")))
-    for other in literature:
+    for other in answer.literature:
         difference = f"{other.difference:+.6f}"
         others.add_row(f"{other.quantity} [{other.unit}]", str(other.published), show.shown(other.ours), difference)
-    parts.append(others)
-    for other in literature:
-        known = [f"{found.words} {found.evidence}" for found in other.diagnosis] or [words("unknown")]
-        parts += [Text(f"{other.published} {other.unit}: {other.source}", style="bold"), *known, ""]
-    return parts
+    yield others
+    for other in answer.literature:
+        yield Text(f"{other.published} {other.unit}: {other.source}", style="bold")
+        yield from [f"{found.words} {found.evidence}" for found in other.diagnosis] or [words("unknown")]
+        yield ""

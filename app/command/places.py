@@ -1,4 +1,4 @@
-"""The commands bench-dragon places and maps: what a map holds, and a dance as a map."""
+"""The commands bench-dragon places, maps and plan: what a map holds, a dance as a map, and as a PDF to print."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ import typer
 from app.command import show
 from app.command.options import Json
 from app.extras import require
-from app.files.disk import checked_output, object_words, read_dance, write_whole
+from app.files.disk import checked_output, object_words, read_dance
 from app.files.tables import Language
 from app.maps.layout import Found
 from app.maps.places import Places, read_map
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
 from app.questions.maps import maps as maps_of
+from app.questions.plan import PlanRequest
+from app.questions.plan import plan as plan_of
 from app.wire.messages import checked
 from app.wire.question import Coordinates, Terms
 from app.wire.refusals import refusing
@@ -45,10 +47,8 @@ def places(
     found = read_map(file, told[units], language)
     answer = Places.of(found)
     if output:
-        described = answer.dance or {}
         parts = {name: part for name in ("path", "venue") if (part := getattr(answer, name)) is not None}
-        write_whole(output, orjson.dumps(described | parts, option=orjson.OPT_INDENT_2) + b"\n")
-        print(output, file=sys.stderr)
+        show.write(output, orjson.dumps((answer.dance or {}) | parts, option=orjson.OPT_INDENT_2) + b"\n")
     if json:
         show.print_json(answer.to_json())
         return
@@ -93,5 +93,26 @@ def maps(
     asked = checked(MapsRequest, told, object_words(file))
     with refusing(asked), show.waiting("map"):
         data = maps_of(asked, Terms(), MapFormat(ending[1:]).media_type)
-    write_whole(output, data)
-    print(output, file=sys.stderr)
+    show.write(output, data)
+
+
+def plan(
+    file: Annotated[Path, typer.Argument(help="Dragon, path, venue and limits as for check: .toml or .json.")],
+    output: Annotated[Path, typer.Option(help="Write a .pdf file.")] = Path("plan.pdf"),
+    paper: Annotated[str | None, typer.Option(metavar="A4|A3", help="Size of the paper; default: A4.")] = None,
+    title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,
+    spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
+    clear: Annotated[
+        float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
+    ] = None,
+    language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
+) -> None:
+    """A PDF to print, true to scale: map, place of each person, points to paint, times (extra figures)."""
+    checked_output("output", output, (".pdf",))
+    require("figures", "output", "A plan")
+    given = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}
+    told = read_dance(file) | {name: value for name, value in given.items() if value is not None}
+    asked = checked(PlanRequest, told, object_words(file))
+    with refusing(asked), show.waiting("plan") as progress:
+        data = plan_of(asked, Terms(progress=progress))
+    show.write(output, data)

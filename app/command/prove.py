@@ -31,7 +31,6 @@ from app.wire.messages import checked
 from app.wire.paths import Circle, TurnFields
 from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from core import InvalidValue, Outcome
-from core.dance import Dance
 from core.errors import ProofRefused, said
 from core.tolerance.curve import time_on_circle
 
@@ -39,9 +38,8 @@ if TYPE_CHECKING:
     from core.proof import Proof
 
 # Exit codes.
-REFUSED = 1
-WRONG_USAGE = 2
-INTERRUPTED = 130
+REFUSED, WRONG_USAGE, INTERRUPTED = 1, 2, 130
+Output = Annotated[Path, typer.Option(help="File for the certificate.")]
 
 
 class _Thorough(Wire):
@@ -83,11 +81,9 @@ class StrayClaim(_Thorough, CircleQuery):
     """Largest stray with which nothing touches until the head is on the circle."""
 
     stray: float | None = measure(
-        "m",
-        "Stray to prove safe; default: the answer of tolerance, and its pose in which two benches touch",
-        None,
+        "m", "Stray to prove safe; default: the answer of tolerance, and its pose in which two benches touch", None,
         gt=0,
-    )
+    )  # fmt: skip
 
 
 @contextmanager
@@ -140,34 +136,28 @@ def check_or_prove(
 
 @prove.command()
 @asks(CollisionClaim)
-def collision_time(
-    asked: CollisionClaim,
-    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("collision-time.proof.json"),
-) -> None:
+def collision_time(asked: CollisionClaim, output: Output = Path("collision-time.proof.json")) -> None:
     """Prove that nothing touches until 1e-10 s before a time, and that two benches overlap 1e-10 s after it.
 
     With a margin: no two benches come nearer than it before, and two are nearer after.
     """
     checked_output("output", output, (".json",))
-    dragon, path, time = asked.to_dragon(Settings().benches_max), asked.to_path(), asked.time
+    dance, time = asked.to_dance(Settings().benches_max), asked.time
     with _working("proof") as progress:
         from core.proof import prove_collision_time
 
         if time is None:
-            time = core.first_contact(core.Dance(dragon, path, asked.head_speed), margin=asked.margin).time
+            time = core.first_contact(dance, margin=asked.margin).time
         if time is None:
             near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
             raise ProofRefused.in_words("time", f"{near}, so there is no collision time to prove: prove clear")
-        certificate = prove_collision_time(Dance(dragon, path, asked.head_speed), time, **_terms(asked, progress))
+        certificate = prove_collision_time(dance, time, **_terms(asked, progress))
     _finish(certificate, output)
 
 
 @prove.command()
 @asks(PitchClaim)
-def minimum_pitch(
-    asked: PitchClaim,
-    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("minimum-pitch.proof.json"),
-) -> None:
+def minimum_pitch(asked: PitchClaim, output: Output = Path("minimum-pitch.proof.json")) -> None:
     """Prove that nothing touches on the way to the circle, and that two benches overlap or one folds with 1e-6 m less.
 
     With a margin: no two benches come nearer than it, and two are nearer with 1e-6 m less. Larger pitches are not part
@@ -179,10 +169,7 @@ def minimum_pitch(
         from core.proof import prove_minimum_pitch
 
         if pitch is None:
-            found = core.minimum_pitch(
-                dragon, turning_radius=radius, start_turns=asked.start_turns, margin=asked.margin
-            )
-            pitch = found.pitch_bracket[1]
+            pitch = core.minimum_pitch(dragon, **asked.to_circle()).pitch_bracket[1]
             if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # start within the circle
                 pitch = math.nextafter(pitch, math.inf)
         certificate = prove_minimum_pitch(
@@ -193,28 +180,20 @@ def minimum_pitch(
 
 @prove.command()
 @asks(ClearClaim)
-def clear(
-    asked: ClearClaim,
-    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("clear.proof.json"),
-) -> None:
+def clear(asked: ClearClaim, output: Output = Path("clear.proof.json")) -> None:
     """Prove that nothing touches, or comes nearer than the margin, on the spiral until a time or the end of the run."""
     checked_output("output", output, (".json",))
-    dragon, path = asked.to_dragon(Settings().benches_max), asked.to_path()
+    dance = asked.to_dance(Settings().benches_max)
     with _working("proof") as progress:
         from core.proof import prove_clear
 
-        certificate = prove_clear(
-            Dance(dragon, path, asked.head_speed), asked.stop, start=asked.start, **_terms(asked, progress)
-        )
+        certificate = prove_clear(dance, asked.stop, start=asked.start, **_terms(asked, progress))
     _finish(certificate, output)
 
 
 @prove.command()
 @asks(StrayClaim)
-def tolerance(
-    asked: StrayClaim,
-    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("tolerance.proof.json"),
-) -> None:
+def tolerance(asked: StrayClaim, output: Output = Path("tolerance.proof.json")) -> None:
     """Prove a tolerance: with strays up to it nothing touches until the head is on the circle.
 
     Without --stray a second proof is added: a pose of the whole dragon in which two benches overlap, with strays that
@@ -241,9 +220,7 @@ def tolerance(
 
 @prove.command()
 @asks(TurnClaim)
-def turn(
-    asked: TurnClaim, output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("turn.proof.json")
-) -> None:
+def turn(asked: TurnClaim, output: Output = Path("turn.proof.json")) -> None:
     """Prove that the contest's turn between two spirals is clear from start to stop, or its first contact."""
     checked_output("output", output, (".json",))
     dance = core.Dance(asked.to_dragon(Settings().benches_max), asked.to_turn(), asked.head_speed)
@@ -257,7 +234,7 @@ def dance(
         Path, typer.Argument(help="Dragon, path, margin and times as for check, as a .toml or .json file.")
     ],
     every_pair: Annotated[bool, typer.Option(help="Prove every pair separately, also those that repeat.")] = False,
-    output: Annotated[Path, typer.Option(help="File for the certificate.")] = Path("dance.proof.json"),
+    output: Output = Path("dance.proof.json"),
 ) -> None:
     """Prove that a dance on any path but waypoints is clear from its start to its stop or end, or its first contact."""
     checked_output("output", output, (".json",))
@@ -293,9 +270,8 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
             raise ProofRefused.in_words("time", f"the search did not decide whether two benches {near}")
         a, b = found.benches
         near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
-        raise ProofRefused.in_words(
-            "start", f"benches {a} and {b} {near} already at the start, {said(times['start'])} s"
-        )
+        words = f"benches {a} and {b} {near} already at the start, {said(times['start'])} s"
+        raise ProofRefused.in_words("start", words)
 
 
 def _checked(certificate: Any) -> Proof:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
@@ -15,6 +16,7 @@ from rich.progress import Progress
 from rich.table import Table
 from rich.text import Text
 
+from app.files.disk import write_whole
 from app.wire import answers
 from app.wire.question import Answer, unit_of
 from core.errors import said
@@ -96,6 +98,20 @@ def print_parts(*parts: Part) -> None:
     console = new_console()
     for part in parts:
         console.print(part)
+
+
+def print_found(found: Answer | answers.Columns, json: bool, parts: Iterable[Part]) -> None:
+    """Print an answer as JSON, or else its parts, which may be made only then."""
+    if json:
+        print_json(found.to_json())
+    else:
+        print_parts(*parts)
+
+
+def write(file: Path, data: bytes) -> None:
+    """Write a file as a whole, and name it on standard error. raises: OSError"""
+    write_whole(file, data)
+    print(file, file=sys.stderr)
 
 
 def print_answer(title: str, answer: Answer, json: bool, *, margin: float = 0.0, benches: int = 0) -> None:

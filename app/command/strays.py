@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from app.command import show
@@ -32,10 +33,7 @@ def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
     """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
     with show.waiting("tolerance curve") as progress:
         answer = curves.tolerance_curve(asked, Terms(progress=progress))
-    if json:
-        show.print_json(answer.to_json())
-    else:
-        show.print_parts(curve_table(answer.columns))
+    show.print_found(answer, json, _curve_parts(answer.columns))
 
 
 @asks(ContactProbabilityQuery, ContactProbabilityRequest, "people wobble as --lateral and --forward say")
@@ -49,9 +47,8 @@ def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityReque
     show.print_answer("Probability of a contact when people wobble", answer, json)
 
 
-def curve_table(columns: dict[str, Any]) -> show.Part:
-    """The tolerance at each pitch as a table."""
+def _curve_parts(columns: dict[str, Any]) -> Iterator[show.Part]:
     table = show.new_table("Tolerance to strays", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
     for pitch, stray, touching, limit in zip(*columns.values(), strict=True):
         table.add_row(said(pitch), said(stray), "unknown" if touching is None else said(touching), limit.value)
-    return table
+    yield table

@@ -13,9 +13,10 @@ from rich.console import Console
 from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 
+from app.command.show import write
 from app.command.usage import path
 from app.extras import require
-from app.files.disk import checked_output, write_whole
+from app.files.disk import checked_output
 from app.settings import WORKERS_MAX
 
 if TYPE_CHECKING:
@@ -94,8 +95,7 @@ def show(
         from app.files.drawing import file_bytes
         from app.sweeps.maps import value_map
 
-        write_whole(output, file_bytes(value_map(sweep, column), ending[1:]))
-        print(output, file=sys.stderr)
+        write(output, file_bytes(value_map(sweep, column), ending[1:]))
         return
     from app.sweeps.summary import summary
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -23,9 +23,8 @@ from app.settings import Settings
 from app.wire.dances import TimeRange
 from app.wire.messages import checked
 from app.wire.question import measure
-from core import Dance, Dragon, InvalidValue, RunEnd, Trajectory
+from core import Dragon, InvalidValue, RunEnd, Trajectory
 from core.shown import counted
-from core.values import Floats
 
 # Handles that a terminal shows, as the contest asks; and the largest number of instants, if that many fit.
 SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
@@ -85,7 +84,9 @@ def trajectory(
     if isinstance(times, str):
         asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
     instants = asked.times_of(dance, settings.cells_max)
-    _warn_before_start(dance, instants)
+    if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
+        words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
+        print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
     with show.waiting("trajectory"):
         result = core.trajectory(dance, instants)
         data = write(result) if write else b""
@@ -96,15 +97,7 @@ def trajectory(
         show.print_json(data)
     else:
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
-        shown = trajectory_tables(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold)
-        show.print_parts(*shown)
-
-
-def _warn_before_start(dance: Dance, instants: Floats) -> None:
-    """Warn of negative times on a spiral, where the dance begins at 0."""
-    if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
-        words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
-        print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
+        show.print_parts(*_parts(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold))
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
@@ -118,14 +111,9 @@ def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
     return found
 
 
-def trajectory_tables(
-    result: Trajectory,
-    handles: Sequence[int] | None = None,
-    *,
-    all_instants: bool = False,
-    decimals: int | None = None,
-    fold: RunEnd | None = None,
-) -> list[show.Part]:
+def _parts(
+    result: Trajectory, handles: Sequence[int] | None, *, all_instants: bool, decimals: int | None, fold: RunEnd | None
+) -> Iterator[show.Part]:
     """Tables of some handles at some instants.
 
     handles: those to show; None: those of the contest and the last
@@ -140,42 +128,32 @@ def trajectory_tables(
     x, y = result.position[..., 0], result.position[..., 1]
     places = show.SHOWN_DECIMALS if decimals is None else decimals
     instant_names = [_instant(result, t, fold) for t in range(instants)]
-    blocks = _blocks(result, rows, labels, instant_names, all_instants, places)
-    shown: list[show.Part] = []
+    widest = max(map(len, [*labels, "handle"]))
+    room = show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - widest
+    blocks = _blocks(result, rows, instant_names, room, all_instants, places)
     for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
         for block in blocks:
             table = show.new_table(title, "handle", *(instant_names[t] for t in block))
             for k, label in zip(rows, labels, strict=True):
                 table.add_row(label, *(_entry(value, places) for value in values[block, k]))
-            shown.append(table)
+            yield table
     count = sum(map(len, blocks))
     words = f"{len(rows)} of {counted(number, 'handle')}, {count} of {counted(instants, 'instant')}"
     choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
     verb = "choose" if len(choose) > 1 else "chooses"
     advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
-    shown.append(f"{words}: {', '.join(advice)}.")
+    yield f"{words}: {', '.join(advice)}."
     if fold and any(instant_names[t].endswith(NEAR_FOLD) for block in blocks for t in block):
         when = f"Just before bench {fold.bench} folds, at {fold.time:.9f} s"
-        shown.append(
-            f"{NEAR_FOLD.strip()} {when}: towards that instant the speeds of handles behind it grow without bound."
-        )
-    return shown
+        yield f"{NEAR_FOLD.strip()} {when}: towards that instant the speeds of handles behind it grow without bound."
 
 
 def _blocks(
-    result: Trajectory,
-    rows: Sequence[int],
-    labels: Sequence[str],
-    names: Sequence[str],
-    all_instants: bool,
-    decimals: int,
+    result: Trajectory, rows: Sequence[int], names: Sequence[str], room: int, all_instants: bool, decimals: int
 ) -> list[list[int]]:
-    """The instants of each table, as many as fit into the width. names: of the instants"""
+    """The instants of each table, as many as fit into the room [characters]. names: of the instants"""
     instants = len(result.time)
     values = np.concatenate([result.position[:, rows].reshape(instants, -1), result.speed[:, rows]], axis=1)
-    room = (
-        show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - max(map(len, [*labels, "handle"]), default=0)
-    )
 
     def width(t: int) -> int:
         return show.COLUMN_SPACE + max(map(len, [names[t], *(_entry(value, decimals) for value in values[t])]))
