@@ -53,7 +53,7 @@ $(VENV)/tools: requirements.lock
 $(VENV)/installed: $(VENV)/tools
 	@{ ! $(PIP) config list | grep -qE '\.(index-url|no-index)=' && \
 		$(PIP) install --no-compile --only-binary :all: "$$(grep '^uv==' requirements.lock)" && \
-		UV_HTTP_TIMEOUT=20 $(BIN)/uv pip install --quiet --native-tls --python $(BIN)/python --no-deps -r requirements.lock; \
+		UV_HTTP_TIMEOUT=20 $(BIN)/uv pip install --quiet --system-certs --python $(BIN)/python --no-deps -r requirements.lock; \
 	} 2>/dev/null || grep -v '^#' requirements.lock | xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile
 	@touch $@
 
