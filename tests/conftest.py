@@ -11,7 +11,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -59,14 +59,19 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = kept
 
 
-def pytest_collection_finish() -> None:
-    """Free the garbage collector from the modules and 8,000 tests.
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Free the garbage collector from the modules and 8,000 tests, all of which stay.
 
-    Going through them again and again takes a tenth of the processor time of the tests of core.
+    Going through them again and again takes a third of the processor time of the collection, and then a tenth of
+    that of the tests of core.
     """
-    gc.collect()
+    gc.disable()
+    collected = yield
     gc.freeze()
+    gc.enable()
     gc.set_threshold(20_000)
+    return collected
 
 
 def _needs_browser(item: pytest.Item) -> bool:

@@ -6,6 +6,7 @@ So does app, but for the modules that a file tests together, as users ask for th
 from __future__ import annotations
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -89,10 +90,16 @@ def test_no_module_is_said_to_be_tested_that_is_not_there() -> None:
 
 # -- names that tests use ------------------------------------------------------------------------------------
 
-TREES = {
-    path.relative_to(ROOT).as_posix(): list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-    for path in sorted((ROOT / "tests").rglob("*.py"))
-}
+
+@cache
+def trees() -> dict[str, list[ast.AST]]:
+    """The syntax of each file of tests."""
+    return {
+        path.relative_to(ROOT).as_posix(): list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+        for path in sorted((ROOT / "tests").rglob("*.py"))
+    }
+
+
 # Public in spite of their underscore.
 PUBLIC = {"_asdict", "_exit", "_fields", "_replace"}
 
@@ -111,7 +118,7 @@ def private_names(nodes: list[ast.AST]) -> list[str]:
 
 
 def test_no_test_uses_a_private_name() -> None:
-    assert {path: used for path, nodes in TREES.items() if (used := private_names(nodes))} == {}
+    assert {path: used for path, nodes in trees().items() if (used := private_names(nodes))} == {}
 
 
 # Arrays of the kernels, and the axis of their columns.
@@ -133,5 +140,5 @@ def numeric_columns(nodes: list[ast.AST]) -> list[str]:
 
 
 def test_columns_of_the_kernels_are_named() -> None:
-    core = {path: nodes for path, nodes in TREES.items() if path.startswith("tests/core/")}
+    core = {path: nodes for path, nodes in trees().items() if path.startswith("tests/core/")}
     assert {path: used for path, nodes in core.items() if (used := numeric_columns(nodes))} == {}
