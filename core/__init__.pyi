@@ -14,14 +14,7 @@ from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
 from .kernels import Budget
 from .motion.joints import SharpestBend, sharpest_bend
-from .motion.speed import (
-    FirstExcess,
-    HighestSpeed,
-    MaximumHeadSpeed,
-    first_excess,
-    highest_speed,
-    maximum_head_speed,
-)
+from .motion.speed import FirstExcess, HighestSpeed, MaximumHeadSpeed, first_excess, highest_speed, maximum_head_speed
 from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
 from .paths.legs import Legs

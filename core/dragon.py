@@ -113,12 +113,7 @@ class Dragon(Shown):
         chords = lengths - 2.0 * overhangs
         same = (lengths == lengths[-1]) & (widths == widths[-1]) & (overhangs == overhangs[-1])
         different = np.flatnonzero(~same)
-        for name, column in (
-            ("lengths", lengths),
-            ("widths", widths),
-            ("overhangs", overhangs),
-            ("chords", chords),
-        ):
+        for name, column in (("lengths", lengths), ("widths", widths), ("overhangs", overhangs), ("chords", chords)):
             column.flags.writeable = False
             object.__setattr__(self, name, column)
         object.__setattr__(self, "benches", lengths.size)

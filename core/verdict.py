@@ -24,12 +24,7 @@ from core.failures import (
 )
 from core.kernels import Budget
 from core.motion.joints import SharpestBend, sharpest_bend
-from core.motion.speed import (
-    HighestSpeed,
-    checked_limit,
-    first_excess,
-    highest_speed,
-)
+from core.motion.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.passages import TIME_MAX
 from core.shown import Shown, worded
 from core.venue import Venue

@@ -26,14 +26,7 @@ import numpy as np
 
 from core import kernels
 from core.dance import Dance
-from core.kernels.constants import (
-    CHAIN_COLUMNS,
-    CHORD,
-    PLACE,
-    SINE_LIMIT,
-    SIZE_COLUMNS,
-    SLIP,
-)
+from core.kernels.constants import CHAIN_COLUMNS, CHORD, PLACE, SINE_LIMIT, SIZE_COLUMNS, SLIP
 from core.paths.path import Path
 from core.values import Floats
 

@@ -40,12 +40,7 @@ class Proof:
 
 
 def prove_collision_time(
-    dance: Dance,
-    time: float,
-    *,
-    margin: float = 0.0,
-    every_pair: bool = False,
-    progress: Progress = lambda share: None,
+    dance: Dance, time: float, *, margin: float = 0.0, every_pair: bool = False, progress: Progress = lambda share: None
 ) -> Certificate:
     """A certificate that nothing touches in [0, time - 1e-10], and that a pair strictly overlaps at time + 1e-10 [s].
 
