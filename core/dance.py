@@ -260,9 +260,7 @@ class Dance(Shown):
         return time
 
     def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
-        """start and stop [s], checked to lie in the run and in this order.
-
-        None stands for `default_start`, and for the end of the run.
+        """start and stop [s], checked to lie in the run and in this order; None: `default_start`, the end of the run.
 
         raises: InvalidValue; OutsideRun
         """
@@ -329,11 +327,8 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
         return RunEnd(EndReason.END, clock.time(path.end), None, None)
     theta, bench = end_theta(dragon, spiral)
     if theta >= spiral.start_theta:
-        raise InvalidValue(
-            "path.start_turns",
-            f"must be more than {theta / (2 * math.pi):.6g} turns, where bench {bench} of this "
-            f"dragon folds, got {said(spiral.start_turns)} turns",
-        )
+        rule = f"must be more than {theta / math.tau:.6g} turns, where bench {bench} of this dragon folds"
+        raise InvalidValue("path.start_turns", f"{rule}, got {said(spiral.start_turns)} turns")
     time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 

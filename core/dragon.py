@@ -14,6 +14,8 @@ from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
 from core.values import Floats
 
 BENCHES_MAX = 10_000_000
+# The sizes that make a dragon.
+COLUMNS = ("lengths", "widths", "overhangs")
 # Decimals of a sum in metres [1], so that 1 cm and 0.5 cm give 0.015 m, not 0.015000000000000001 m.
 DECIMALS = 15
 
@@ -33,6 +35,10 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
         k = int(wrong[0])
         raise InvalidValue(f"{name}.{k}", f"must be from {low:g} to {SIZE_MAX:g} m, got {said(column[k])} m")
     return column
+
+
+def _compared(length: float, overhang: float) -> str:
+    return f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m"
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -75,12 +81,8 @@ class Dragon(Shown):
         overhang = checked_number("dragon.overhang", overhang, "m", 0.0, SIZE_MAX)
         for name, length in (("head_length", head_length), ("body_length", body_length)):
             if length - 2.0 * overhang < SIZE_MIN:
-                raise InvalidValue(
-                    "dragon.overhang",
-                    f"must be less than half of {{length}} "
-                    f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m",
-                    length=f"dragon.{name}",
-                )
+                rule = f"must be less than half of {{length}} {_compared(length, overhang)}"
+                raise InvalidValue("dragon.overhang", rule, length=f"dragon.{name}")
         lengths = np.full(int(benches), body_length)
         lengths[0] = head_length
         self._freeze(lengths, np.full(int(benches), width), np.full(int(benches), overhang))
@@ -94,19 +96,21 @@ class Dragon(Shown):
         lengths, widths, overhangs: (n,) [m], head first
         raises: InvalidValue naming the bench when sizes are missing, out of range or leave no chord
         """
-        length_column = _column("dragon.lengths", lengths, None)
-        width_column = _column("dragon.widths", widths, length_column.size)
-        overhang_column = _column("dragon.overhangs", overhangs, length_column.size)
-        wrong = np.flatnonzero(length_column - 2.0 * overhang_column < SIZE_MIN)
+        lengths = _column("dragon.lengths", lengths, None)
+        widths = _column("dragon.widths", widths, lengths.size)
+        overhangs = _column("dragon.overhangs", overhangs, lengths.size)
+        wrong = np.flatnonzero(lengths - 2.0 * overhangs < SIZE_MIN)
         if wrong.size:
             k = int(wrong[0])
-            raise InvalidValue(
-                f"dragon.overhangs.{k}",
-                f"must be less than half of dragon.lengths[{k}] "
-                f"({said(length_column[k])} m / 2 = {said(length_column[k] / 2)} m), got {said(overhang_column[k])} m",
-            )
+            rule = f"must be less than half of dragon.lengths[{k}] {_compared(lengths[k], overhangs[k])}"
+            raise InvalidValue(f"dragon.overhangs.{k}", rule)
+        return cls._made(lengths, widths, overhangs)
+
+    @classmethod
+    def _made(cls, lengths: Floats, widths: Floats, overhangs: Floats, names: tuple[str, ...] = ()) -> Dragon:
+        """A dragon of columns that are checked already."""
         dragon = cls.__new__(cls)
-        dragon._freeze(length_column, width_column, overhang_column)
+        dragon._freeze(lengths, widths, overhangs, names)
         return dragon
 
     def _freeze(self, lengths: Floats, widths: Floats, overhangs: Floats, names: tuple[str, ...] = ()) -> None:
@@ -135,9 +139,7 @@ class Dragon(Shown):
             raise InvalidValue("dragon.names", rule)
         for k, name in enumerate(names):
             checked_name(f"dragon.names.{k}", name)
-        dragon = Dragon.__new__(Dragon)
-        dragon._freeze(self.lengths, self.widths, self.overhangs, tuple(names))
-        return dragon
+        return self._made(self.lengths, self.widths, self.overhangs, tuple(names))
 
     def called(self, bench: int) -> str:
         """A bench in a sentence: its number, and its name if it has one."""
@@ -146,20 +148,17 @@ class Dragon(Shown):
 
     def leading(self, benches: int) -> Dragon:
         """The dragon of the first `benches` benches, from 1 to all of them."""
-        dragon = Dragon.__new__(Dragon)
-        dragon._freeze(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches], self.names[:benches])
-        return dragon
+        return self._made(self.lengths[:benches], self.widths[:benches], self.overhangs[:benches], self.names[:benches])
 
     def outlined(self, overhangs: Floats, widths: Floats) -> Dragon:
         """A dragon with the same chords, to the last bit, and other overhangs and widths (n,) [m]."""
-        dragon = Dragon.__new__(Dragon)
-        dragon._freeze(self.chords + 2.0 * overhangs, widths, overhangs, self.names)
+        dragon = self._made(self.chords + 2.0 * overhangs, widths, overhangs, self.names)
         object.__setattr__(dragon, "chords", self.chords)
         object.__setattr__(dragon, "uniform_from", self.uniform_from)
         return dragon
 
     def __repr__(self) -> str:
-        sizes = [self.lengths, self.widths, self.overhangs]
+        sizes = [getattr(self, name) for name in COLUMNS]
         if not self.names and self.uniform_from <= 1 and all((column[1:] == column[0]).all() for column in sizes[1:]):
             sizes_given = f"head_length={self.lengths[0]}, body_length={self.lengths[-1]}"
             numbers = f"{sizes_given}, width={self.widths[0]}, overhang={self.overhangs[0]}"
@@ -172,18 +171,16 @@ class Dragon(Shown):
         return f"{self.benches} benches, {extent(self.lengths, 'm')} long, {extent(self.widths, 'm')} wide"
 
     def _rows(self) -> list[tuple[str, str]]:
-        columns = {"lengths": self.lengths, "widths": self.widths, "overhangs": self.overhangs, "chords": self.chords}
-        rows = [(name, extent(column, "m", TABLE_DIGITS)) for name, column in columns.items()]
+        rows = [(name, extent(getattr(self, name), "m", TABLE_DIGITS)) for name in (*COLUMNS, "chords")]
         return [("benches", str(self.benches)), *rows]
 
     def __eq__(self, other: object) -> bool:
-        same = isinstance(other, Dragon) and self.names == other.names
-        return same and all(
-            np.array_equal(getattr(self, name), getattr(other, name)) for name in ("lengths", "widths", "overhangs")
-        )
+        if not isinstance(other, Dragon) or self.names != other.names:
+            return False
+        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in COLUMNS)
 
     def __hash__(self) -> int:
-        return hash((self.lengths.tobytes(), self.widths.tobytes(), self.overhangs.tobytes()))
+        return hash(tuple(getattr(self, name).tobytes() for name in COLUMNS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,10 +215,9 @@ class Stray(Shown):
 
 
 def checked_stray(stray: object, dragon: Dragon) -> float:
-    """The stray of every hole of a dragon [m], from 0 to half of its shortest chord.
+    """The stray of every hole of a dragon [m], from 0 to half of its shortest chord. raises: InvalidValue
 
     stray: a number [m] or a Stray
-    raises: InvalidValue
     """
     total = stray.total if isinstance(stray, Stray) else checked_number("stray", stray, "m", 0.0, SIZE_MAX)
     if total == 0.0:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import lru_cache
 
 from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import said
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, Side
-from core.proof.pairs import Benches, Limit, Size, Unproven, above, below, stays_above
+from core.proof.pairs import Benches, Limit, Size, Unproven, above, below
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
 GUESS_RADIUS = 1e-8
@@ -58,7 +59,8 @@ class Chain(Follower):
         self.start = 2 * arb.pi() * start_turns
         kinds = {size: (size.chord / self.growth) ** 2 for size in set(self.sizes)}
         self.needed = [kinds[size] for size in self.sizes]
-        self._poses: dict[tuple[int, float], Pose] = {}
+        # pose_at() a double, remembered: neighbouring stretches share one
+        self.pose: Callable[[int, float], Pose] = lru_cache(POSES_KEPT)(lambda k, theta: self.pose_at(k, arb(theta)))
 
     @staticmethod
     def named(theta: float) -> str:
@@ -68,14 +70,6 @@ class Chain(Follower):
     def pose_at(self, bench: int, theta: arb) -> Pose:
         """A bench and those behind it when its front handle is at theta [rad]."""
         return Pose(self, bench, theta)
-
-    def pose(self, bench: int, theta: float) -> Pose:
-        """The pose of pose_at(), remembered: neighbouring stretches share one."""
-        if (bench, theta) not in self._poses:
-            if len(self._poses) >= POSES_KEPT:
-                self._poses.clear()
-            self._poses[bench, theta] = Pose(self, bench, arb(theta))
-        return self._poses[bench, theta]
 
     def arc(self, theta: arb) -> arb:
         """Arc length from the centre [m]."""
@@ -185,13 +179,13 @@ def _curving(theta: arb, d: arb) -> arb:
 class Pose(Benches):
     """A bench and those behind it when its front handle is at theta, in the frame that turns with that handle.
 
-    thetas, turns [rad], points [m]: of the handles; deltas: of the benches, grown one by one
+    thetas, rotations from the first [rad], points [m]: of the handles; deltas: of the benches, grown one by one
     """
 
     def __init__(self, chain: Chain, bench: int, theta: arb) -> None:
         super().__init__(chain.sizes[bench:])
         self.chain, self.bench = chain, bench
-        self.thetas, self.turns, self.points = [theta], [arb(0)], [acb(chain.growth * theta)]
+        self.thetas, self.rotations, self.points = [theta], [arb(0)], [acb(chain.growth * theta)]
         self.deltas: list[arb] = []
 
     @property
@@ -213,8 +207,8 @@ class Pose(Benches):
         for k in range(first, min(first + benches, self.chain.count)):
             self.deltas.append(delta(self.thetas[-1], self.chain.needed[k]))
             self.thetas.append(self.thetas[-1] + self.deltas[-1])
-            self.turns.append(self.turns[-1] + self.deltas[-1])
-            sine, cosine = self.turns[-1].sin_cos()
+            self.rotations.append(self.rotations[-1] + self.deltas[-1])
+            sine, cosine = self.rotations[-1].sin_cos()
             radius = self.chain.growth * self.thetas[-1]
             self.points.append(acb(radius * cosine, radius * sine))
             self.centres.append((self.points[-1] + self.points[-2]) / 2)
@@ -259,32 +253,27 @@ class Stretch:
         self._hull = self._hull and bool(rise > 0)
         if self._hull:
             self.thetas.append(before.thetas[k + 1].union(after.thetas[k + 1]))
-            turn = before.turns[k + 1].union(after.turns[k + 1])
+            rotation = before.rotations[k + 1].union(after.rotations[k + 1])
         else:
             self.rising = self.rising and k > 0
             passed = arb(0).union(self.width)
             self.thetas.append(before.thetas[k + 1] + self.rates[-1] * passed)
-            turn = before.turns[k + 1] + (self.rates[-1] - 1) * passed
-        self._place(turn, size.chord)
-
-    def _place(self, turn: arb, chord: arb) -> None:
-        theta, rate = self.thetas[-1], self.rates[-1]
-        sine, cosine = turn.sin_cos()
+            rotation = before.rotations[k + 1] + (self.rates[-1] - 1) * passed
+        theta, rate, chord = self.thetas[-1], self.rates[-1], size.chord
+        sine, cosine = rotation.sin_cos()
         outwards = self.chain.growth * acb(cosine, sine)
         self.points.append(outwards * theta)
         self.moves.append(outwards * acb(rate, theta * (rate - 1)))
         front, rear, front_move, rear_move = *self.points[-2:], *self.moves[-2:]
-        self.placed.append(
-            ((front + rear) / 2, (front - rear) / chord, (front_move + rear_move) / 2, (front_move - rear_move) / chord)
-        )
+        moving = (front_move + rear_move) / 2, (front_move - rear_move) / chord
+        self.placed.append(((front + rear) / 2, (front - rear) / chord, *moving))
 
     @property
     def complete(self) -> bool:
         """Whether every bench that is not placed is either far (5.) or not needed in this stretch (6.)."""
         count = len(self.placed)
-        return self.bench + count >= self.last or (
-            count >= 2 and self.chain.far(self.bench, self.thetas[1], self.thetas[-1])
-        )
+        needed = self.bench + count < self.last
+        return not needed or (count >= 2 and self.chain.far(self.bench, self.thetas[1], self.thetas[-1]))
 
     @property
     def rear(self) -> tuple[float, float]:
@@ -318,19 +307,13 @@ class Stretch:
         both = self.grounds(partner)
         return all(self._beyond(partner, Side(number, pair, *both)) for number, pair in zip(sides, hulls, strict=True))
 
-    def _beyond(self, partner: int, limit: Limit | Side) -> bool:
+    def _beyond(self, partner: int, line: Limit) -> bool:
         """Whether one of the two is more than the margin beyond a line of the other, over the whole stretch (4.)."""
-        a, b = (partner, 0) if limit.by_partner else (0, partner)
+        a, b = (partner, 0) if line.by_partner else (0, partner)
         centre_a, along_a, centre_move_a, along_move_a = self.placed[a]
         centre_b, along_b, centre_move_b, along_move_b = self.placed[b]
-        turn, turning = limit.turn * along_a.conjugate(), limit.turn * along_move_a.conjugate()
-        to_move = turn * (centre_move_b - centre_move_a) + turning * (centre_b - centre_a)
-        axis_move = turn * along_move_b + turning * along_b
-        corners = limit.corners(turn * along_b)
-        gaps = []
-        for pose in self.ends:
-            to, axis = pose.seen(a, b)
-            to, axis = limit.turn * to, limit.turn * axis
-            gaps.append([(to + axis * corner).real - limit.support for corner in corners])
-        slopes = [(to_move + axis_move * corner).real for corner in corners]
-        return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)
+        back, back_move = line.rotation * along_a.conjugate(), line.rotation * along_move_a.conjugate()
+        to_move = back * (centre_move_b - centre_move_a) + back_move * (centre_b - centre_a)
+        axis_move = back * along_move_b + back_move * along_b
+        ends = (pose.seen(a, b) for pose in self.ends)
+        return line.clears(back * along_b, (to_move, axis_move), ends, self.width, self.chain.margin)

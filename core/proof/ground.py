@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from flint import acb, arb
 
-from core.proof.pairs import above, below
+from core.proof.pairs import Limit, above, below
 from core.values import Floats
 
 # Sides of each polygon, evenly spaced [1]: as many as in the search, so that grounds apart there are apart here too.
@@ -37,12 +37,11 @@ class Ground:
         self.outwards = [(acb(2 * k) / SIDES).exp_pi_i() for k in range(SIDES)]
         inner, outer = ([acb(x, half_width), acb(x, -half_width)] for x in (half_chord, half_length))
         motions = _motions(2 * half_chord, stray)
+        parts = (inner + outer, outer[0]), (inner + [-point for point in inner], inner[0])
+        spares = (_spare(2 * half_chord, stray, abs(furthest)) for _, furthest in parts)
         front, middle = (
             [_support(way, motions, stray, points) + spare for way in self.outwards]
-            for points, spare in (
-                (inner + outer, _spare(2 * half_chord, stray, abs(outer[0]))),
-                (inner + [-point for point in inner], _spare(2 * half_chord, stray, abs(inner[0]))),
-            )
+            for (points, _), spare in zip(parts, spares, strict=True)
         )
         rear = front[SIDES // 2 :] + front[: SIDES // 2]
         whole = [a.max(b).max(c) for a, b, c in zip(front, middle, rear, strict=True)]
@@ -52,22 +51,15 @@ class Ground:
         self.rough_corners = np.array([[complex(value) for value in row] for row in self.corners])
 
     def _corners(self, supports: Sequence[arb]) -> list[acb]:
-        step = self.outwards[1]
-        following = [*supports[1:], supports[0]]
-        return [
-            way * acb(here, (after - here * step.real) / step.imag)
-            for way, here, after in zip(self.outwards, supports, following, strict=True)
-        ]
+        step, sides = self.outwards[1], zip(self.outwards, supports, [*supports[1:], supports[0]], strict=True)
+        return [way * acb(here, (after - here * step.real) / step.imag) for way, here, after in sides]
 
 
 def _motions(chord: arb, stray: arb) -> list[tuple[arb, acb]]:
     """|q| / stray and exp(i phi / 2) at all samples of psi (15.)."""
-    found = []
-    for k in range(-SAMPLES, SAMPLES + 1):
-        sine = (arb(k) / (2 * SAMPLES)).sin_pi()
-        half = sine * stray / chord
-        found.append((abs(sine), acb((1 - half**2).sqrt(), half)))
-    return found
+    sines = [(arb(k) / (2 * SAMPLES)).sin_pi() for k in range(-SAMPLES, SAMPLES + 1)]
+    halves = [sine * stray / chord for sine in sines]
+    return [(abs(sine), acb((1 - half**2).sqrt(), half)) for sine, half in zip(sines, halves, strict=True)]
 
 
 def _support(way: acb, motions: Sequence[tuple[arb, acb]], stray: arb, points: Sequence[acb]) -> arb:
@@ -77,9 +69,9 @@ def _support(way: acb, motions: Sequence[tuple[arb, acb]], stray: arb, points: S
         leaning = back * half
         along, across = abs(leaning.real), abs(leaning.imag)
         lens = along * (1 - q**2).nonnegative_part().sqrt() if q > across else 1 - q * across
-        turned = leaning * half
+        rotation = leaning * half
         for point in points:
-            best = best.max(stray * lens + (turned * point).real)
+            best = best.max(stray * lens + (rotation * point).real)
     return best
 
 
@@ -91,26 +83,22 @@ def _spare(chord: arb, stray: arb, furthest: arb) -> arb:
     return second * (arb.pi() / (2 * SAMPLES)) ** 2 / 8
 
 
-class Side:
+class Side(Limit):
     """A side of a polygon of one of two grounds a, b; a polygon of the other is beyond if its corners are.
 
     number: 0 to SIDES - 1 for the first ground's sides, from SIDES on for the second's; hulls: a polygon of each
-    by_partner, turn, support: as of Limit
     """
 
     def __init__(self, number: int, hulls: tuple[int, int], first: Ground, second: Ground) -> None:
         self.by_partner, side = number >= SIDES, number % SIDES
         own, other = (second, first) if self.by_partner else (first, second)
         mine, beyond = reversed(hulls) if self.by_partner else hulls
-        self.turn = own.outwards[side].conjugate()
+        self.rotation = own.outwards[side].conjugate()
         self.support = own.supports[mine][side]
         self._outwards, self._corners = other.outwards, other.corners[beyond]
 
-    def corners(self, axis: acb) -> list[acb]:
-        """The corners that may be nearest to the line, in the other bench's frame (16.).
-
-        axis: of the other bench, seen along the line's normal
-        """
+    def corners(self, axis: acb) -> Sequence[acb]:
+        """As in Limit, but only those of 16. axis: of the other bench, seen along the line's normal"""
         towards = -axis.conjugate()
         guess = round(math.atan2(float(towards.imag), float(towards.real)) * SIDES / math.tau)
         off = towards * self._outwards[guess % SIDES].conjugate()

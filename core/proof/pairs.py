@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from flint import acb, arb
 
@@ -12,7 +12,7 @@ class Unproven(Exception):
     """The balls are too wide to decide; over a shorter stretch they may be narrow enough."""
 
 
-# Turns that bring the faces +x, +y, -x, -y of a bench's own frame to +x.
+# Rotations that bring the faces +x, +y, -x, -y of a bench's own frame to +x.
 FACES = (acb(1), acb(0, -1), acb(-1), acb(0, 1))
 # Proof that a pair is apart, one letter each: a face of the first bench (0 to 3) or of the second (4 to 7), a direction
 # fixed in the first bench (7.), or the circles around both (10.).
@@ -46,32 +46,43 @@ class Limit:
     """A line fixed in one of two benches a, b, that touches it; the other bench is beyond if all its corners are.
 
     face: of ALL_FACES or DIRECTION; direction: the angle of the line's normal in the first bench [rad]
-    by_partner: whether it is fixed in the second bench; turn: brings its normal to +x; support: distance from that
+    by_partner: whether it is fixed in the second bench; rotation: brings its normal to +x; support: distance from that
     bench's centre [m]
     """
 
     def __init__(self, face: str, direction: float, first: Size, second: Size) -> None:
         if face == DIRECTION:
             sine, cosine = arb(direction).sin_cos()
-            self.by_partner, self.turn, self.other = False, acb(cosine, -sine), second
+            self.by_partner, self.rotation, other = False, acb(cosine, -sine), second
             self.support = first.half_length * abs(cosine) + first.half_width * abs(sine)
         else:
             self.by_partner, side = int(face) >= 4, int(face) % 4
-            own, self.other = (second, first) if self.by_partner else (first, second)
-            self.turn = FACES[side]
+            own, other = (second, first) if self.by_partner else (first, second)
+            self.rotation = FACES[side]
             self.support = own.half_width if side % 2 else own.half_length
+        self._corners: Sequence[acb] = other.corners
 
     def corners(self, axis: acb) -> Sequence[acb]:
         """The corners that may be nearest to the line, in the other bench's frame: all, wherever its axis points."""
-        return self.other.corners
+        return self._corners
 
+    def clears(
+        self, axis: acb, moves: tuple[acb, acb], ends: Iterable[tuple[acb, acb]], width: arb, margin: arb
+    ) -> bool:
+        """Whether the other bench is more than the margin beyond the line over a whole stretch (4.).
 
-def stays_above(first: Sequence[arb], last: Sequence[arb], slopes: Sequence[arb], width: arb, least: arb) -> bool:
-    """Whether every g > least over a stretch, from g at its ends and an enclosure of g' (4.)."""
-    return all(
-        stays_positive(before - least, after - least, slope, width)
-        for before, after, slope in zip(first, last, slopes, strict=True)
-    )
+        axis, moves: its direction, and how its centre and direction move, over the stretch, as seen with the normal
+            along +x; ends: its centre and direction at both ends, in the frame of this one
+        """
+        first, last = ((self.rotation * to, self.rotation * along) for to, along in ends)
+
+        def gap(to: acb, along: acb, corner: acb) -> arb:
+            return (to + along * corner).real - self.support - margin
+
+        return all(
+            stays_positive(gap(*first, corner), gap(*last, corner), (moves[0] + moves[1] * corner).real, width)
+            for corner in self.corners(axis)
+        )
 
 
 def stays_positive(first: arb, last: arb, slope: arb, width: arb) -> bool:
@@ -98,8 +109,8 @@ class Benches:
 
     def seen(self, owner: int, other: int) -> tuple[acb, acb]:
         """Centre and direction of one bench in the frame of another."""
-        turn = self.along[owner].conjugate()
-        return turn * (self.centres[other] - self.centres[owner]), turn * self.along[other]
+        back = self.along[owner].conjugate()
+        return back * (self.centres[other] - self.centres[owner]), back * self.along[other]
 
     def gaps(self, partner: int) -> list[arb]:
         """Distance of each bench beyond each face of the other: four faces of the first, four of partner [m]."""

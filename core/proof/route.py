@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache, reduce
+from itertools import pairwise
 
 from flint import acb, arb
 
@@ -21,7 +23,7 @@ GUESS_STEPS = 40
 class Piece:
     """A line or an arc of one curvature [1/m], length [m]; its parameter is the place z = -s [m] itself.
 
-    high, low: places where it begins and ends [m]; shift, turn: its beginning in the world; index: in the route
+    high, low: places where it begins and ends [m]; shift, rotation: its beginning in the world; index: in the route
     A place falls as the dance goes on: the point is at high - z along the piece.
     """
 
@@ -30,7 +32,7 @@ class Piece:
     high: arb = field(default_factory=arb)
     low: arb = field(default_factory=arb)
     shift: acb = field(default_factory=acb)
-    turn: acb = field(default_factory=lambda: acb(1))
+    rotation: acb = field(default_factory=lambda: acb(1))
     index: int = 0
 
     def param(self, z: arb) -> arb:
@@ -45,13 +47,13 @@ class Piece:
         """The point at a parameter [m]."""
         way = self.high - t
         if self.curvature == 0:
-            return self.shift + self.turn * way
-        turned = (acb(0, 1) * self.curvature * way).exp() - 1
-        return self.shift + self.turn * turned / (acb(0, 1) * self.curvature)
+            return self.shift + self.rotation * way
+        change = (acb(0, 1) * self.curvature * way).exp() - 1
+        return self.shift + self.rotation * change / (acb(0, 1) * self.curvature)
 
     def tangent(self, t: arb) -> acb:
         """The direction of the dance at a parameter."""
-        return self.turn * (acb(0, 1) * self.curvature * (self.high - t)).exp()
+        return self.rotation * (acb(0, 1) * self.curvature * (self.high - t)).exp()
 
     def slope(self, t: arb) -> arb:
         """-ds / dt at a parameter [m]."""
@@ -116,12 +118,12 @@ class Coil(Piece):
 
     def point(self, t: arb) -> acb:
         theta = self._theta(t)
-        return self.shift + self.turn * self.growth * theta * (acb(0, 1) * theta).exp()
+        return self.shift + self.rotation * self.growth * theta * (acb(0, 1) * theta).exp()
 
     def tangent(self, t: arb) -> acb:
         theta = self._theta(t)
         along = acb(1, theta) * (acb(0, 1) * theta).exp() / (1 + t**2).sqrt()
-        return -self.turn * along if self.inwards else self.turn * along
+        return -self.rotation * along if self.inwards else self.rotation * along
 
     def slope(self, t: arb) -> arb:
         return self.growth * (1 + t**2).sqrt()
@@ -141,23 +143,20 @@ class Path:
     anchor: (piece, place where it begins [m]); the first piece continues backwards, and the last one forwards
     """
 
-    def __init__(self, pieces: Sequence[Piece], anchor: tuple[int, arb], shift: acb, turn: acb) -> None:
+    def __init__(self, pieces: Sequence[Piece], anchor: tuple[int, arb], shift: acb, rotation: acb) -> None:
         self.pieces = list(pieces)
         at, z = anchor
-        for k in range(at, len(self.pieces)):
-            self.pieces[k].high, self.pieces[k].low = z, z - self.pieces[k].length
-            z = self.pieces[k].low
+        for piece in self.pieces[at:]:
+            piece.high, piece.low = z, z - piece.length
+            z = piece.low
         z = anchor[1]
-        for k in range(at - 1, -1, -1):
-            self.pieces[k].low, self.pieces[k].high = z, z + self.pieces[k].length
-            z = self.pieces[k].high
-        for k, piece in enumerate(self.pieces):
-            piece.index = k
-            if k == 0:
-                piece.shift, piece.turn = shift, turn
-                continue
-            before, start, end = self.pieces[k - 1], *self.ends(k)
-            piece.turn = before.tangent(end) / piece.tangent(start)
+        for piece in reversed(self.pieces[:at]):
+            piece.low, piece.high = z, z + piece.length
+            z = piece.high
+        self.pieces[0].shift, self.pieces[0].rotation = shift, rotation
+        for k, (before, piece) in enumerate(pairwise(self.pieces), 1):
+            piece.index, (start, end) = k, self.ends(k)
+            piece.rotation = before.tangent(end) / piece.tangent(start)
             piece.shift = before.point(end) - piece.point(start)
 
     def ends(self, k: int) -> tuple[arb, arb]:
@@ -184,9 +183,7 @@ class Path:
         for k in range(rear[0].index + 1, front[0].index + 1):
             start, end = self.ends(k)
             found += [self.pieces[k].curvature_at(start), self.pieces[k - 1].curvature_at(end)]
-        hull = found[0]
-        for other in found[1:]:
-            hull = hull.union(other)
+        hull = reduce(arb.union, found)
         return hull.lower(), hull.upper()
 
     def behind(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
@@ -195,8 +192,7 @@ class Path:
         rear = piece, piece.behind(t, chord)
         if not self.holds(piece, piece.place(rear[1])):
             rear = self._on_earlier(front, chord)
-        z = piece.place(t)
-        length = rear[0].place(rear[1]) - z
+        length = rear[0].place(rear[1]) - piece.place(t)
         low, high = self.curvature(front, rear)
         sharpest = abs(low).max(abs(high))
         if not (length > 0 and sharpest * length < arb.pi()):
@@ -242,7 +238,8 @@ class RouteChain(Follower):
     def __init__(self, dragon: Dragon, path: Path, margin: float = 0.0) -> None:
         super().__init__(dragon, margin)
         self.path = path
-        self._poses: dict[tuple[int, float], RoutePose] = {}
+        # pose_at() a double, remembered: neighbouring stretches share one
+        self.pose: Callable[[int, float], RoutePose] = lru_cache(POSES_KEPT)(lambda k, z: self.pose_at(k, arb(z)))
 
     @staticmethod
     def named(place: float) -> str:
@@ -257,14 +254,6 @@ class RouteChain(Follower):
         """A bench and those behind it when its front handle is at a place [m]."""
         return RoutePose(self, bench, place)
 
-    def pose(self, bench: int, place: float) -> RoutePose:
-        """The pose of pose_at(), remembered: neighbouring stretches share one."""
-        if (bench, place) not in self._poses:
-            if len(self._poses) >= POSES_KEPT:
-                self._poses.clear()
-            self._poses[bench, place] = RoutePose(self, bench, arb(place))
-        return self._poses[bench, place]
-
     def outermost(self, bench: int, highest: float) -> list[float]:
         """P[bench], ..., P[n - 3] of 6., rounded up. highest: P[bench] [m]"""
         pose = RoutePose(self, bench, arb(highest))
@@ -278,19 +267,14 @@ class RouteChain(Follower):
         return first.shift if isinstance(first, Coil) and first.inwards else None
 
     def inner_circle(self, handle: tuple[Piece, arb]) -> arb | None:
-        """Radius around the first piece's centre outside which every bench from this handle on lies (11.) [m].
-
-        None if no such circle is known.
-        """
-        first, (piece, t) = self.path.pieces[0], handle
-        if not (
-            isinstance(first, Coil)
-            and first.inwards
-            and piece is first
-            and abs(first.curvature_at(t)) * self.longest < 2
-        ):
+        """Radius around the first piece's centre outside which every bench from this handle on lies (11.) [m], or None
+        if no such circle is known."""
+        piece, t = handle
+        if not (isinstance(piece, Coil) and piece.index == 0 and piece.inwards):
             return None
-        inner = (first.growth * t.lower()) ** 2 - arb(self.longest) ** 2 / 4
+        if not abs(piece.curvature_at(t)) * self.longest < 2:
+            return None
+        inner = (piece.growth * t.lower()) ** 2 - arb(self.longest) ** 2 / 4
         return inner.sqrt() - self.reach if inner > 0 else None
 
 
@@ -304,12 +288,9 @@ class RoutePose(Benches):
         super().__init__(chain.sizes[bench:])
         self.chain, self.bench = chain, bench
         self.handles = [chain.path.at(z)]
-        self.points, self.places = [self._point(0)], [z]
+        piece, t = self.handles[0]
+        self.points, self.places = [piece.point(t)], [z]
         self._tangents: list[acb] = []
-
-    def _point(self, k: int) -> acb:
-        piece, t = self.handles[k]
-        return piece.point(t)
 
     def grow_to(self, count: int) -> None:
         """Place at least this number of benches, if the dragon has as many."""
@@ -317,7 +298,7 @@ class RoutePose(Benches):
             k = len(self.centres)
             self.handles.append(self.chain.path.behind(self.handles[k], self.sizes[k].chord))
             piece, t = self.handles[-1]
-            self.points.append(self._point(k + 1))
+            self.points.append(piece.point(t))
             self.places.append(piece.place(t))
             self.centres.append((self.points[k] + self.points[k + 1]) / 2)
             self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
@@ -330,5 +311,5 @@ class RoutePose(Benches):
         """From bench k's direction to the path's at its front and its rear handle [rad]."""
         for piece, t in self.handles[len(self._tangents) : k + 2]:
             self._tangents.append(piece.tangent(t))
-        turned = self.along[k].conjugate()
-        return (turned * self._tangents[k]).arg(), (turned * self._tangents[k + 1]).arg()
+        back = self.along[k].conjugate()
+        return (back * self._tangents[k]).arg(), (back * self._tangents[k + 1]).arg()

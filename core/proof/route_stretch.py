@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from flint import acb, arb
 
-from core.proof.pairs import Limit, Unproven, above, below, stays_above
+from core.proof.pairs import Limit, Unproven, above, below
 from core.proof.route import Coil, RouteChain
 
 # Number of times that q of 9. is enclosed again from its own derivative: each time the excess is multiplied by the
-# angle turned in half a stretch.
+# angle of rotation in half a stretch.
 ROUNDS = 3
 TO_LEFT = acb(0, 1)
 
@@ -17,7 +17,7 @@ class RouteStretch:
     """A bench and those behind it while its front handle goes from the place high to low [m]: at both ends and between.
 
     speeds: of the handles, relative to the front handle; placed: of the benches, grown one by one: velocity of the
-    centre in the bench's own frame, and turning rate [rad/m]; all enclosed over the stretch (8.)
+    centre in the bench's own frame, and rate of rotation [rad/m]; all enclosed over the stretch (8.)
     last: one more than the last bench that counts
     """
 
@@ -29,7 +29,7 @@ class RouteStretch:
         self.width = arb(high) - arb(low)
         self.speeds = [arb(1)]
         self.placed: list[tuple[acb, arb]] = []
-        self._turned: tuple[int, acb, acb] | None = None
+        self._relative: tuple[int, acb, acb] | None = None
         self.grow()
         self._outermost = self._circle()
 
@@ -46,8 +46,7 @@ class RouteStretch:
             self.speeds.append(speed)
             return
         low, high = self.chain.path.curvature(front, rear)
-        alpha = half_turn(low, high, chord)
-        alpha, beta = self._from_ends(k, alpha, low.union(high))
+        alpha, beta = self._from_ends(k, half_angle(low, high, chord), low.union(high))
         (sine, cosine), (rear_sine, rear_cosine) = alpha.sin_cos(), beta.sin_cos()
         if not (cosine > 0 and rear_cosine > 0):
             raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
@@ -64,18 +63,15 @@ class RouteStretch:
         if not cosine > 0:
             raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
         ratio = cosine / (-alpha).cos()
-        turning = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
-        found = []
-        for last, first, wide, rate in zip(
-            after.angles(k),
-            before.angles(k),
-            (alpha, -alpha),
-            (curvature - turning, ratio * curvature - turning),
-            strict=True,
-        ):
-            near = first.union(last) + arb(0, 1) * abs(rate).upper() * half_way
-            found.append(near.intersection(wide))
-        return found[0], found[1]
+        rotating = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
+
+        rates = curvature - rotating, ratio * curvature - rotating
+        ends = zip(before.angles(k), after.angles(k), (alpha, -alpha), rates, strict=True)
+        alpha, beta = (
+            (first.union(last) + arb(0, 1) * abs(rate).upper() * half_way).intersection(wide)
+            for first, last, wide, rate in ends
+        )
+        return alpha, beta
 
     def _circle(self) -> arb | None:
         """Radius around the first piece's centre within which the first bench stays [m], if a tail may be beyond."""
@@ -119,14 +115,14 @@ class RouteStretch:
         return bool(abs(before) + abs(after) - passed > 2 * needed)
 
     def relative(self, partner: int) -> tuple[acb, acb]:
-        """e and v of 9.: partner's direction and velocity seen from the first bench, without its turning."""
-        if self._turned is None or self._turned[0] != partner:
+        """e and v of 9.: partner's direction and velocity seen from the first bench, without its rotation."""
+        if self._relative is None or self._relative[0] != partner:
             (velocity, rate), (velocity_b, rate_b) = self.placed[0], self.placed[partner]
-            turned = (TO_LEFT * (rate_b - rate) * arb(0).union(self.width / 2)).exp()
+            rotation = (TO_LEFT * (rate_b - rate) * arb(0).union(self.width / 2)).exp()
             (_, after), (_, before) = (pose.seen(0, partner) for pose in self.ends)
-            along = (before * turned).union(after * turned.conjugate())
-            self._turned = partner, along, along * velocity_b - velocity
-        return self._turned[1:]
+            along = (before * rotation).union(after * rotation.conjugate())
+            self._relative = partner, along, along * velocity_b - velocity
+        return self._relative[1:]
 
     def between(self, partner: int, along: acb, velocity: acb) -> acb:
         """q of 9.: partner's centre seen from the first bench."""
@@ -155,22 +151,15 @@ class RouteStretch:
             place, along = -along.conjugate() * place, along.conjugate()
             velocity = along * velocity_a - velocity_b
             rate_a, rate_b = rate_b, rate_a
-        to_move = limit.turn * (velocity - TO_LEFT * rate_a * place)
-        axis_move = limit.turn * TO_LEFT * (rate_b - rate_a) * along
-        slopes = [(to_move + axis_move * corner).real for corner in limit.other.corners]
-        gaps = []
-        for pose in reversed(self.ends):
-            to, axis = pose.seen(a, b)
-            to, axis = limit.turn * to, limit.turn * axis
-            gaps.append([(to + axis * corner).real - limit.support for corner in limit.other.corners])
-        return stays_above(gaps[0], gaps[1], slopes, self.width, self.chain.margin)
+        to_move = limit.rotation * (velocity - TO_LEFT * rate_a * place)
+        axis_move = limit.rotation * TO_LEFT * (rate_b - rate_a) * along
+        ends = (pose.seen(a, b) for pose in reversed(self.ends))
+        return limit.clears(along, (to_move, axis_move), ends, self.width, self.chain.margin)
 
 
-def half_turn(low: arb, high: arb, chord: arb) -> arb:
+def half_angle(low: arb, high: arb, chord: arb) -> arb:
     """Lower and upper bound of alpha and -beta of 8., for a curvature between low and high [1/m]. chord: [m]"""
-    gentlest = arb(0)
-    if low > 0 or high < 0:
-        gentlest = abs(low).min(abs(high))
+    gentlest = abs(low).min(abs(high)) if low > 0 or high < 0 else arb(0)
     sharpest = abs(low).max(abs(high))
     if not sharpest * chord < 2:
         raise Unproven("a bend is too tight for a bench")

@@ -12,7 +12,7 @@ from flint import acb, arb, ctx
 from core.proof.pairs import Benches
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
-from core.proof.route_stretch import RouteStretch, half_turn
+from core.proof.route_stretch import RouteStretch, half_angle
 from tests.core.proof.test_route import DOUBLES, ROUTES, SMALL
 
 # An integral over so many samples is this near to the true one [m], [rad].
@@ -68,13 +68,13 @@ def test_the_angles_of_a_chord_stay_within_those_that_the_curvature_allows() -> 
         chord = steps.sum()
         if np.abs(bends).max() * abs(chord) >= 2.0 - SAMPLED:
             continue
-        allowed = half_turn(arb(float(bends[0])), arb(float(bends[1])), arb(float(abs(chord))))
+        allowed = half_angle(arb(float(bends[0])), arb(float(bends[1])), arb(float(abs(chord))))
         heading = float(np.angle(chord))
         for angle in (turned[-1] - heading, heading):
             assert float(allowed.lower()) - SAMPLED <= angle <= float(allowed.upper()) + SAMPLED
 
 
 def test_on_a_circle_the_angles_are_exact() -> None:
-    angle = half_turn(arb("0.5"), arb("0.5"), arb("1.65"))
+    angle = half_angle(arb("0.5"), arb("0.5"), arb("1.65"))
     assert angle.contains((arb("0.5") * arb("1.65") / 2).asin())
     assert float(angle.rad()) < DOUBLES
