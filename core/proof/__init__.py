@@ -27,12 +27,12 @@ root of F(theta, d) = d^2 + 2 theta (theta + d) (1 - cos d) = (c / b)^2.
      reached (c / b)^2 at d(m): the first root lies in [d(M), d(m)]. Where F_d > 0 on that box it is the only
      one there, with the derivative d' = -F_theta / F_d < 0.
   3. So where 1 + d' > 0 on the box, the next handle rises with theta from f(m) to f(M): the chains at the two
-     ends enclose those between, link after link, without wrapping effect. Elsewhere (handle 1 turns back
+     ends enclose those between, link after link, without wrapping effect. Elsewhere (handle 1 reverses
      near the fold) the mean value theorem encloses the rest of the chain. The chain at one theta comes from one
      interval Newton step for each link.
 
 Pairs. A stretch is one bench a whose front handle goes through [m, M], and the benches behind it, in the frame
-that turns with that handle, because neighbouring rings move slowly there. Bench j >= a + 2 is apart from a if all
+that rotates with that handle, because neighbouring rings move slowly there. Bench j >= a + 2 is apart from a if all
 four corners of one lie beyond one face of the other. Let g(theta) be the distance of one corner beyond a
 face, w = M - m, and D1 <= g' <= D2 on the stretch, from the exact velocities of rigid links. Then
     g >= g(m) + D1 (theta - m)   and   g >= g(M) - D2 (M - theta).
@@ -86,7 +86,7 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
      do not change.
   9. Seen from the first bench a, in its own frame, bench b has its centre at q and the direction e. With v the
      velocity of a centre in its bench's own frame, (cos(alpha), (sin(alpha) + f' sin(beta)) / 2) times the speed
-     r of the front handle, and w = r psi' the turning rate,
+     r of the front handle, and w = r psi' the rate of rotation,
          e' = i (w_b - w_a) e,   q' = e v_b - v_a - i w_a q,   |q|' <= |e v_b - v_a|,
      and r of the next handle is f' r. Each encloses e and q from either end of the stretch through half of it. So
      4. applies with g' from e, e', q and q', and with a and b exchanged.
@@ -116,7 +116,7 @@ Strays. Let the two holes of every bench be within d of their places, and its ch
      with the largest of the three supports in each direction, holds the ground. A point of the segment between the
      displaced handles is within d of the point that divides the segment between their nominal places in the same
      ratio: so 5. holds with h + d in place of h.
- 15. Let the bench turn by phi, q = c sin(phi / 2): one hole moves by m + i q exp(i phi / 2), the other by m - i q
+ 15. Let the bench rotate by phi, q = c sin(phi / 2): one hole moves by m + i q exp(i phi / 2), the other by m - i q
      exp(i phi / 2); the point p of the bench, counted from the middle of the chord, moves to m + exp(i phi) p. So
      |q| <= d, and m is in the lens of two discs of radius d. In the direction e, with t the argument of
      exp(i phi / 2) / e, m comes as far as

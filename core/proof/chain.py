@@ -177,7 +177,7 @@ def _curving(theta: arb, d: arb) -> arb:
 
 
 class Pose(Benches):
-    """A bench and those behind it when its front handle is at theta, in the frame that turns with that handle.
+    """A bench and those behind it when its front handle is at theta, in the frame that rotates with that handle.
 
     thetas, rotations from the first [rad], points [m]: of the handles; deltas: of the benches, grown one by one
     """
@@ -234,7 +234,7 @@ class Stretch:
         self.grow()
 
     def grow(self) -> None:
-        """Place the next bench: between the ends by 3., or by the mean value once a handle may turn back."""
+        """Place the next bench: between the ends by 3., or by the mean value once a handle may reverse."""
         k = len(self.placed)
         size, theta = self.chain.sizes[self.bench + k], self.thetas[k]
         before, after = self.ends

@@ -31,20 +31,16 @@ Rule = Callable[[str, Any], None]
 
 
 def refuse_malformed(certificate: Any) -> None:
-    """Refuse a value without the members of a certificate.
-
-    raises: ProofRefused naming the member, what it must be and what it is
-    """
+    """Refuse a value without the members of a certificate. raises: ProofRefused naming the member, what it must be and
+    what it is"""
     claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
     kind: Any = claim.get("kind") if isinstance(claim, dict) else None
     strays = kind == ToleranceClaim.kind
     with_overlap = "shown" in claim if strays else kind != Clear.kind
     _object("", certificate, MEMBERS | ({"overlap": _any_object} if with_overlap else {}))
-    if not isinstance(kind, str) or kind not in CLAIMS:
-        names = list(CLAIMS)
-        raise _malformed("claim.kind", f"must be {', '.join(names[:-1])} or {names[-1]}", kind)
+    _one_of(*CLAIMS)("claim.kind", kind)
     optional = {name: _positive for name in ("shown" if strays else "margin",) if name in claim}
-    _object("claim", claim, CLAIM_MEMBERS[kind] | optional)
+    _object("claim", claim, {"kind": _text} | CLAIM_MEMBERS[kind] | optional)
     if with_overlap:
         _overlap(kind, certificate["overlap"])
     on_spiral = "path" not in claim or claim["path"]["kind"] == "spiral"
@@ -54,9 +50,8 @@ def refuse_malformed(certificate: Any) -> None:
 
 
 def _malformed(name: str, must: str, got: Any) -> ProofRefused:
-    return ProofRefused.in_words(
-        name, f"the certificate is malformed: {spoken(name) or 'it'} {must}, got {_shown(got)}"
-    )
+    told = f"{spoken(name) or 'it'} {must}, got {_shown(got)}"
+    return ProofRefused.in_words(name, f"the certificate is malformed: {told}")
 
 
 def _shown(value: Any) -> str:
@@ -70,14 +65,12 @@ def _shown(value: Any) -> str:
 
 
 def _object(name: str, value: Any, members: dict[str, Rule]) -> None:
-    if not isinstance(value, dict):
-        raise _malformed(name, "must be an object", value)
+    _any_object(name, value)
     inside = f"{name}." if name else ""
     for member in members:
         if member not in value:
-            raise ProofRefused.in_words(
-                f"{inside}{member}", f"the certificate is malformed: {spoken(inside + member)} is missing"
-            )
+            missing = f"{inside}{member}"
+            raise ProofRefused.in_words(missing, f"the certificate is malformed: {spoken(missing)} is missing")
     for member in value:
         if member not in members:
             unknown = f"{inside}{str(member)[:SHOWN_MOST]}"
@@ -113,11 +106,11 @@ def _true(name: str, value: Any) -> None:
         raise _malformed(name, "must be true", value)
 
 
-def _number(name: str, value: Any) -> None:
+def _number(name: str, value: Any, what: str = "a number", least: float = -NUMBER_MOST) -> None:
     if not isinstance(value, int | float) or isinstance(value, bool):
-        raise _malformed(name, "must be a number", value)
-    if not -NUMBER_MOST <= value <= NUMBER_MOST:  # also refuses NaN
-        raise _malformed(name, f"must be a number from {-NUMBER_MOST:g} to {NUMBER_MOST:g}", value)
+        raise _malformed(name, f"must be {what}", value)
+    if not least <= value <= NUMBER_MOST:  # also refuses NaN
+        raise _malformed(name, f"must be {what} from {least:g} to {NUMBER_MOST:g}", value)
 
 
 def _positive(name: str, value: Any) -> None:
@@ -127,10 +120,9 @@ def _positive(name: str, value: Any) -> None:
 
 
 def _whole(name: str, value: Any) -> None:
-    if not isinstance(value, int) or isinstance(value, bool):
+    if isinstance(value, float):
         raise _malformed(name, "must be a whole number", value)
-    if not 0 <= value <= NUMBER_MOST:
-        raise _malformed(name, f"must be a whole number from 0 to {NUMBER_MOST:g}", value)
+    _number(name, value, "a whole number", 0)
 
 
 def _precision(name: str, value: Any) -> None:
@@ -154,30 +146,27 @@ def _run(name: str, value: Any) -> None:
 
 
 def _overlap(kind: str, value: Mapping[str, Any]) -> None:
-    if kind == MinimumPitchClaim.kind and value.keys() == {"start_within_circle"}:
-        _object("overlap", value, {"start_within_circle": _true})
-        return
-    if kind == MinimumPitchClaim.kind and "folds" in value:
-        _object("overlap", value, {"folds": _whole, "head_theta": _each(_number, 2)})
-        return
-    theta: dict[str, Rule] = {"head_theta": _number} if kind == MinimumPitchClaim.kind else {}
-    pose = {"time": _number, "head": _each(_number, 2), "headings": _each(_number)}
-    _object("overlap", value, {"benches": _each(_whole, 2)} | theta | (pose if kind == ToleranceClaim.kind else {}))
+    members: dict[str, Rule] = {"benches": _each(_whole, 2)}
+    if kind == ToleranceClaim.kind:
+        members |= {"time": _number, "head": _each(_number, 2), "headings": _each(_number)}
+    elif kind == MinimumPitchClaim.kind:
+        members |= {"head_theta": _number}
+        if value.keys() == {"start_within_circle"}:
+            members = {"start_within_circle": _true}
+        elif "folds" in value:
+            members = {"folds": _whole, "head_theta": _each(_number, 2)}
+    _object("overlap", value, members)
 
 
-def _path(name: str, value: Any) -> None:
-    """A path as paths.py writes it."""
-    _any_object(name, value)
-    _one_of(*PATHS)(f"{name}.kind", value.get("kind"))
-    _object(name, value, {"kind": _text} | PATHS[value["kind"]])
+def _by_kind(members: Mapping[str, dict[str, Rule]]) -> Rule:
+    """An object whose kind tells its other members."""
 
+    def checked(name: str, value: Any) -> None:
+        _any_object(name, value)
+        _one_of(*members)(f"{name}.kind", value.get("kind"))
+        _object(name, value, {"kind": _text} | members[value["kind"]])
 
-def _piece(name: str, value: Any) -> None:
-    _any_object(name, value)
-    _one_of(*PIECES)(f"{name}.kind", value.get("kind"))
-    names = PIECES[value["kind"]][1]
-    members: dict[str, Rule] = {name: _each(_number, 2) if name in POINTS else _number for name in names}
-    _object(name, value, {"kind": _text} | members)
+    return checked
 
 
 def _sweep(stretch: Rule) -> Rule:
@@ -235,17 +224,21 @@ MEMBERS: dict[str, Rule] = {
     "sweeps": lambda name, value: None,  # once the claim is known
     "digest": _text,
 }
-PATHS: dict[str, dict[str, Rule]] = {
-    "spiral": dict.fromkeys(("pitch", "start_turns"), _number),
-    "turn": dict.fromkeys(TURN, _number),
-    "route": {"start": _number, "pieces": _each(_piece)},
+_PIECES: dict[str, dict[str, Rule]] = {
+    kind: {name: _each(_number, 2) if name in POINTS else _number for name in names}
+    for kind, (_, names) in PIECES.items()
 }
-_DANCE: dict[str, Rule] = {"kind": _text, "path": _path, "head_speed": _number, "start": _number}
+_SPIRAL: dict[str, Rule] = dict.fromkeys(("pitch", "start_turns"), _number)
+PATHS: dict[str, dict[str, Rule]] = {
+    "spiral": _SPIRAL,
+    "turn": dict.fromkeys(TURN, _number),
+    "route": {"start": _number, "pieces": _each(_by_kind(_PIECES))},
+}
+_DANCE: dict[str, Rule] = {"path": _by_kind(PATHS), "head_speed": _number, "start": _number}
 CLAIM_MEMBERS: dict[str, dict[str, Rule]] = {
-    CollisionTimeClaim.kind: {"kind": _text} | dict.fromkeys(("pitch", "start_turns", "head_speed", "time"), _number),
-    MinimumPitchClaim.kind: {"kind": _text} | dict.fromkeys(("pitch", "start_turns", "turning_radius"), _number),
+    CollisionTimeClaim.kind: _SPIRAL | dict.fromkeys(("head_speed", "time"), _number),
+    MinimumPitchClaim.kind: _SPIRAL | {"turning_radius": _number},
     Clear.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
     Contact.kind: _DANCE | {"time": _number},
-    ToleranceClaim.kind: {"kind": _text}
-    | dict.fromkeys(("pitch", "start_turns", "head_speed", "start", "stop", "stray"), _number),
+    ToleranceClaim.kind: _SPIRAL | dict.fromkeys(("head_speed", "start", "stop", "stray"), _number),
 }

@@ -2,7 +2,7 @@
 
 The numbers of a spiral and of the turn define them exactly: the turn's arcs are computed in balls. The pieces of a
 route meet to within 1e-9 m and 1e-9 rad only, so the route of a proof is joined exactly: each piece keeps its shape and
-is moved and turned so that it continues the one before it in place and direction. The first piece continues backwards
+is moved and rotated so that it continues the one before it in place and direction. The first piece continues backwards
 and the last one forwards.
 """
 
@@ -37,67 +37,49 @@ POINTS = frozenset({"start", "end", "centre"})
 
 
 def recorded_path(path: Spiral | Route) -> dict[str, Any]:
-    """A path as a certificate writes it.
-
-    raises: InvalidValue for waypoints
-    """
+    """A path as a certificate writes it. raises: InvalidValue for waypoints"""
     if path.spiral is not None:
         return {"kind": "spiral", "pitch": path.spiral.pitch, "start_turns": path.spiral.start_turns}
     path = path.as_route(path.end)
     if isinstance(path, Turn):  # its arcs are computed in balls from these numbers, not taken from its rounded pieces
-        values = {name: getattr(path, name) for name in TURN if name != "start_turns"}
-        return {"kind": "turn"} | values | {"start_turns": path.start_turns}
+        names = (*(name for name in TURN if name != "start_turns"), "start_turns")
+        return {"kind": "turn"} | {name: getattr(path, name) for name in names}
     recorded = []
     for k, piece in enumerate(path.pieces):
         if isinstance(piece, pieces.Waypoints):
-            must = "path must be a spiral, a turn or a route of lines, arcs and coils"
-            if len(path.pieces) > 1:
-                must = f"path.pieces[{k}] must be a line, an arc or a coil"
-            words = (
-                f"{must} for a proof in ball arithmetic, got waypoints: on a path with waypoints a dance can be "
-                "checked in double precision, with bounds on its rounding, not proven"
-            )
+            must = f"path.pieces[{k}] must be a line, an arc or a coil"
+            if len(path.pieces) == 1:
+                must = "path must be a spiral, a turn or a route of lines, arcs and coils"
+            got = "got waypoints: on a path with waypoints a dance can be checked in double precision, with bounds on"
+            words = f"{must} for a proof in ball arithmetic, {got} its rounding, not proven"
             raise InvalidValue.in_words(f"path.pieces.{k}", words)
-        recorded.append(_recorded_piece(piece))
+        kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
+        recorded.append({"kind": kind} | {name: _plain(name, getattr(piece, name)) for name in names})
     return {"kind": "route", "start": path.start, "pieces": recorded}
 
 
-def _recorded_piece(piece: pieces.Line | pieces.Arc | pieces.Coil) -> dict[str, Any]:
-    kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
-    values = {name: getattr(piece, name) for name in names}
-    return {"kind": kind} | {
-        name: [float(part) for part in value] if name in POINTS else float(value) for name, value in values.items()
-    }
+def _plain(name: str, value: Any) -> float | list[float]:
+    return [float(part) for part in value] if name in POINTS else float(value)
 
 
 def core_path(record: Record) -> Spiral | Route:
-    """The path as an object of core.
-
-    raises: InvalidValue
-    """
+    """The path as an object of core. raises: InvalidValue"""
     if record["kind"] == "spiral":
         return Spiral(record["pitch"], record["start_turns"])
     if record["kind"] == "turn":
         try:
-            return _turn(record)
+            return Turn(**{name: record[name] for name in TURN})
         except InvalidValue as error:  # Turn does not name the path around its fields
             raise error.named(f"path.{error.field}") from error
     given = []
     for k, piece in enumerate(record["pieces"]):
+        made, names = PIECES[piece["kind"]]
+        values: dict[str, Any] = {name: tuple(piece[name]) if name in POINTS else piece[name] for name in names}
         try:
-            given.append(PIECES[piece["kind"]][0](**_arguments(piece)))
+            given.append(made(**values))
         except InvalidValue as error:  # a piece does not name the route around its fields
             raise error.named(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
     return Route(given, record["start"])
-
-
-def _arguments(piece: Record) -> dict[str, Any]:
-    return {name: tuple(piece[name]) if name in POINTS else piece[name] for name in PIECES[piece["kind"]][1]}
-
-
-def _turn(record: Record) -> Turn:
-    values = {name: record[name] for name in ("pitch", "turning_radius", "ratio")}
-    return Turn(**values, start_turns=record["start_turns"], entry_radius=record["entry_radius"])
 
 
 def described(record: Record) -> str:
@@ -105,10 +87,9 @@ def described(record: Record) -> str:
     if record["kind"] == "spiral":
         return spiral_words(record["pitch"], record["start_turns"])
     if record["kind"] == "turn":
-        return (
-            f"the turn of ratio {said(record['ratio'])}, which it enters {said(record['entry_radius'])} m from the "
-            f"centre at 0 s, between spirals of pitch {said(record['pitch'])} m and {said(record['start_turns'])} turns"
-        )
+        entered = f"which it enters {said(record['entry_radius'])} m from the centre at 0 s"
+        coils = f"spirals of pitch {said(record['pitch'])} m and {said(record['start_turns'])} turns"
+        return f"the turn of ratio {said(record['ratio'])}, {entered}, between {coils}"
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
     place = f"its s = 0 at {said(record['start'])} m from its beginning"
     return f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, {place}"
@@ -123,30 +104,25 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
 
 # The arcs of a Turn: S = R sqrt(1 + theta^2) / theta. With T the direction of travel at the entry E and n to the right
 # of it, E . T = -R sin gamma and E . n = -R cos gamma, tan gamma = 1 / theta. From C1 = E + r1 n to C2 = -E - r2 n goes
-# -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise turn by alpha brings
-# -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.
+# -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise rotation by alpha
+# brings -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.
 def _turn_path(record: Record) -> Path:
     growth, radius = arb(record["pitch"]) / (2 * arb.pi()), arb(record["entry_radius"])
     theta, start = radius / growth, 2 * arb.pi() * arb(record["start_turns"])
     total, ratio = radius * (1 + theta**2).sqrt() / theta, arb(record["ratio"])
     radii, angle = (total * ratio / (1 + ratio), total / (1 + ratio)), arb.pi() - 2 * (1 / theta).atan()
-    pieces = (
-        Coil.between(growth, start, theta),
-        Piece(-1 / radii[0], radii[0] * angle),
-        Piece(1 / radii[1], radii[1] * angle),
-        Coil.between(growth, -theta, -start),
-    )
-    return Path(pieces, (1, arb(0)), acb(0), acb(1))
+    coils = Coil.between(growth, start, theta), Coil.between(growth, -theta, -start)
+    arcs = Piece(-1 / radii[0], radii[0] * angle), Piece(1 / radii[1], radii[1] * angle)
+    return Path((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
 
 
 def _route_path(record: Record) -> Path:
     given = [_piece(piece) for piece in record["pieces"]]
-    _, shift, turned = given[0]
-    return Path([piece for piece, _, _ in given], (0, arb(record["start"])), shift, turned)
+    return Path([piece for piece, _, _ in given], (0, arb(record["start"])), *given[0][1:])
 
 
 def _piece(record: Record) -> tuple[Piece, acb, acb]:
-    """A piece, and its given position: shift and turn."""
+    """A piece, and its given position: shift and rotation."""
     if record["kind"] == "line":
         start, end = (acb(*record[name]) for name in ("start", "end"))
         return Piece(arb(0), abs(end - start)), start, (end - start) / abs(end - start)
