@@ -111,8 +111,7 @@ def prove_contact(
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
     record, begin = recorded_path(_steady(dance).path), dance.default_start if start is None else start
-    claim = Contact(dance.dragon, record, dance.head_speed, begin, time, margin)
-    return _proven(claim, every_pair, progress)
+    return _proven(Contact(dance.dragon, record, dance.head_speed, begin, time, margin), every_pair, progress)
 
 
 def prove_tolerance(
@@ -146,10 +145,8 @@ def prove_tolerance(
 def _steady(dance: Dance) -> Dance:
     """The dance, whose places and times are proportional. raises: InvalidValue for passages"""
     if dance.passages:
-        rule = (
-            "must be left out for a proof, which is about places of the head: prove dance.steady, whose times are those"
-        )
-        raise InvalidValue("passages", f"{rule} places divided by its head speed")
+        rule = "must be left out for a proof, which is about places of the head: prove dance.steady"
+        raise InvalidValue("passages", f"{rule}, whose times are those places divided by its head speed")
     return dance.steady
 
 
@@ -159,15 +156,11 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress, pose: dict[str, 
         overlap = pose or claim.find_overlap(lambda share: progress(claim.search_share * share))
         claim.check_overlap(overlap)
         repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
-        rest = 1.0 - claim.search_share
-        sweeps = swept(
-            chain,
-            *claim.way,
-            repeats_from,
-            found(chain),
-            lambda share: progress(1.0 - rest * (1.0 - share)),
-            claim.follows,
-        )
+
+        def going_on(share: float) -> None:
+            progress(1.0 - (1.0 - claim.search_share) * (1.0 - share))
+
+        sweeps = swept(chain, *claim.way, repeats_from, found(chain), going_on, claim.follows)
     certificate = {
         "format": FORMAT,
         "versions": {"python-flint": __version__, "flint": __FLINT_VERSION__},

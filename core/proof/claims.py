@@ -31,10 +31,10 @@ FOLD_WITHIN = (1e-9, 1e-11)
 
 
 @dataclass(frozen=True)
-class SpiralClaim:
-    """A claim about a dragon on a spiral.
+class Claim:
+    """A claim about a dragon.
 
-    way: (highest, lowest) theta of the head between which nothing may touch [rad]
+    way: (highest, lowest) place of the head between which nothing may touch [rad], [m]
     find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
     kind: name of the claim in certificates; search_share: fraction of a proof's work in find_overlap(); follows: see
         swept()
@@ -44,6 +44,15 @@ class SpiralClaim:
     search_share: ClassVar[float] = 0.0
     follows: ClassVar[bool] = False
     dragon: Dragon
+
+    def find_overlap(self, progress: Progress) -> dict[str, Any]:
+        return {}
+
+
+@dataclass(frozen=True)
+class SpiralClaim(Claim):
+    """A claim about a dragon on a spiral."""
+
     pitch: float
     start_turns: float
 
@@ -124,9 +133,8 @@ class MinimumPitchClaim(SpiralClaim):
     def _way(self, chain: Chain) -> tuple[float, float]:
         circle = self.turning_radius / chain.growth
         if circle > chain.start:
-            raise ProofRefused.in_words(
-                "claim", f"with pitch {said(self.pitch)} m the start lies within the turning circle"
-            )
+            words = f"with pitch {said(self.pitch)} m the start lies within the turning circle"
+            raise ProofRefused.in_words("claim", words)
         return above(chain.start), below(circle)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
@@ -137,7 +145,7 @@ class MinimumPitchClaim(SpiralClaim):
         if fold := self._find_fold(below(less.start), above(circle)):
             return fold
         try:
-            swept(less, *self._way(less), less.repeats_from, found(less), progress)
+            swept(less, *self._way(less), less.repeats_from, found(less), progress, follows=False)
         except Overlap as overlap:
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
@@ -178,12 +186,10 @@ class MinimumPitchClaim(SpiralClaim):
             if not circle > less.start:
                 raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
             why = "the start lies within the circle"
-        return (
-            f"{dragon_words(self.dragon)} on the spiral inwards from {said(self.start_turns)} turns: with pitch "
-            f"{said(self.pitch)} m every bench follows and {apart_words(self.margin)} until the head is "
-            f"{said(self.turning_radius)} m from the centre, "
-            f"and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
-        )
+        danced = f"{dragon_words(self.dragon)} on the spiral inwards from {said(self.start_turns)} turns"
+        until = f"until the head is {said(self.turning_radius)} m from the centre, and with {PITCH_STEP} m less {why}"
+        clear = f"with pitch {said(self.pitch)} m every bench follows and {apart_words(self.margin)}"
+        return f"{danced}: {clear} {until}. This says nothing of larger pitches."
 
 
 def checked_margin(margin: float) -> float:
@@ -233,10 +239,7 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 
 
 def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:
-    """Two benches a < b if they share no handle.
-
-    raises: Unproven
-    """
+    """Two benches a < b if they share no handle. raises: Unproven"""
     if not 0 <= a < b - 1 < chain.count - 1:
         raise Unproven(f"benches {a} and {b} are not two benches of this dragon, in order, that share no handle")
     return a, b

@@ -12,7 +12,7 @@ from flint import arb
 from core.dance import Dance, EndReason
 from core.dragon import Dragon
 from core.errors import InvalidValue, said
-from core.proof.claims import TIME_BRACKET, check_near, checked_margin, near_pair, settle
+from core.proof.claims import TIME_BRACKET, Claim, check_near, checked_margin, near_pair, settle
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
@@ -26,16 +26,9 @@ ENDINGS = ("stop", "fold", "centre", "end")
 
 
 @dataclass(frozen=True)
-class DanceClaim:
-    """A claim about a dance on any path, from `start` on [s].
+class DanceClaim(Claim):
+    """A claim about a dance on any path, from `start` on [s]. path: as paths.py writes it"""
 
-    path: as paths.py writes it; the other members: as of SpiralClaim
-    """
-
-    kind: ClassVar[str]
-    search_share: ClassVar[float] = 0.0
-    follows: ClassVar[bool] = False
-    dragon: Dragon
     path: Mapping[str, Any]
     head_speed: float
     start: float
@@ -69,9 +62,6 @@ class Clear(DanceClaim):
     def way(self) -> tuple[float, float]:
         return _way(self.chain, arb(self.start) * self.head_speed, arb(self.stop) * self.head_speed)
 
-    def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {}
-
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s{self._ending()}"
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {apart_words(self.margin)} {span}."
@@ -79,19 +69,18 @@ class Clear(DanceClaim):
     def _ending(self) -> str:
         if self.until == "stop":
             return ""
-        later = (self.stop + arb(END_BRACKET)) * self.head_speed
+        later, when = (self.stop + arb(END_BRACKET)) * self.head_speed, f"before {said(self.stop)} + {END_BRACKET} s"
         chain = self.chain
         if isinstance(chain, RouteChain):
             if not chain.place_after(later) <= chain.path.pieces[-1].low:
-                raise Unproven(f"the route is not shown to end before {said(self.stop)} + {END_BRACKET} s")
-            return f", and the route ends before {said(self.stop)} + {END_BRACKET} s"
+                raise Unproven(f"the route is not shown to end {when}")
+            return f", and the route ends {when}"
         if self.until == "centre":
             if not chain.arc(chain.start) <= later:
-                raise Unproven(f"the head is not shown to reach the centre before {said(self.stop)} + {END_BRACKET} s")
-            return f", and the head reaches the centre before {said(self.stop)} + {END_BRACKET} s"
-        before = chain.place_after(self.stop * arb(self.head_speed))
-        bench = folding(chain, before, chain.place_after(later))
-        return f", and bench {bench} cannot follow any more (it folds) before {said(self.stop)} + {END_BRACKET} s"
+                raise Unproven(f"the head is not shown to reach the centre {when}")
+            return f", and the head reaches the centre {when}"
+        bench = folding(chain, chain.place_after(self.stop * arb(self.head_speed)), chain.place_after(later))
+        return f", and bench {bench} cannot follow any more (it folds) {when}"
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,7 @@ WALL_STEPS, WALL_MOST = (0.01, 0.0001), 7.0
 
 
 def folding(chain: Chain, before: arb, after: arb) -> int:
-    """The bench that can no longer follow when the head goes from one theta to another [rad].
-
-    raises: Unproven
-    """
+    """The bench that can no longer follow when the head goes from one theta to another [rad]. raises: Unproven"""
     pose = chain.pose_at(0, after)
     try:
         pose.grow(chain.count)

@@ -16,7 +16,6 @@ from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
 from core.proof.pairs import Benches, Unproven, above, below
-from core.proof.sweeps import Progress
 from core.proof.words import apart_words, danced_words, spiral_words
 from core.tolerance.exhibit import Exhibit
 
@@ -60,9 +59,6 @@ class ToleranceClaim(SpiralClaim):
     def _place(self, time: float) -> arb:
         return self.chain.place_after(time * arb(self.head_speed))
 
-    def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {}
-
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s"
         kept = f"while every hole is within {said(self.stray)} m of its place and every chord keeps its length"
@@ -84,12 +80,11 @@ class ToleranceClaim(SpiralClaim):
         if not (self.start <= time <= self.stop and len(headings) == chain.count):
             raise Unproven("the pose is not one of this dragon in this time")
         head = self._place(time)
-        nominal = chain.pose_at(0, head)
+        nominal, rotation = chain.pose_at(0, head), acb(0, head).exp()
         nominal.grow_to(chain.count)
-        turned = acb(0, head).exp()
         handle, pair = acb(*overlap["head"]), Benches([chain.sizes[a], chain.sizes[b]])
         for k, place in enumerate(nominal.points):
-            if not abs(handle - turned * place) < most:
+            if not abs(handle - rotation * place) < most:
                 raise Unproven(f"handle {k} of the pose is not shown to be within {said(most)} m of its place")
             if k < chain.count:
                 sine, cosine = arb(headings[k]).sin_cos()

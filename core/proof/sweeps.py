@@ -172,13 +172,7 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
 
 
 def swept(
-    chain: AnyChain,
-    high: float,
-    low: float,
-    repeats_from: int,
-    source: Source,
-    progress: Progress,
-    follows: bool = False,
+    chain: AnyChain, high: float, low: float, repeats_from: int, source: Source, progress: Progress, follows: bool
 ) -> list[dict[str, Any]]:
     """Sweeps that prove that nothing touches while the head goes from the place high on to low [rad], [m].
 

@@ -65,10 +65,10 @@ def test_stretches_join_from_the_highest_place_to_the_lowest_and_read_back_as_th
     shares: list[float] = []
     with ctx.workprec(128):
         chain = Chain(Dragon(9), arb(0.55), 16.0, margin)
-        sweeps = swept(chain, HIGH, LOW, 1, found(chain), shares.append)
-        assert swept(chain, HIGH, LOW, 1, recorded(chain, sweeps), shares.append) == sweeps
+        sweeps = swept(chain, HIGH, LOW, 1, found(chain), shares.append, follows=False)
+        assert swept(chain, HIGH, LOW, 1, recorded(chain, sweeps), shares.append, follows=False) == sweeps
         with pytest.raises(Unproven, match="short of"):
-            swept(chain, HIGH, LOW - 0.1, 1, recorded(chain, sweeps), shares.append)
+            swept(chain, HIGH, LOW - 0.1, 1, recorded(chain, sweeps), shares.append, follows=False)
     assert [sweep["bench"] for sweep in sweeps] == [0, 1]
     for sweep in sweeps:
         tiles = sweep["stretches"]
@@ -83,7 +83,7 @@ def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there() -> None:
     with ctx.workprec(128):
         chain = Chain(Dragon(14), arb(0.55), 16.0)
         with pytest.raises(Overlap) as met:
-            swept(chain, 28.0, 26.0, 1, found(chain), lambda share: None)
+            swept(chain, 28.0, 26.0, 1, found(chain), lambda share: None, follows=False)
         a, b = met.value.a, met.value.b
         pose = chain.pose_at(a, arb(met.value.place))
         pose.grow_to(b - a + 1)
