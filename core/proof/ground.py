@@ -35,14 +35,14 @@ class Ground:
 
     def __init__(self, half_chord: arb, half_length: arb, half_width: arb, stray: arb) -> None:
         self.outwards = [(acb(2 * k) / SIDES).exp_pi_i() for k in range(SIDES)]
-        inner, outer = ([acb(x, half_width), acb(x, -half_width)] for x in (half_chord, half_length))
         motions = _motions(2 * half_chord, stray)
-        parts = (inner + outer, outer[0]), (inner + [-point for point in inner], inner[0])
-        spares = (_spare(2 * half_chord, stray, abs(furthest)) for _, furthest in parts)
-        front, middle = (
-            [_support(way, motions, stray, points) + spare for way in self.outwards]
-            for (points, _), spare in zip(parts, spares, strict=True)
-        )
+        spares = [_spare(2 * half_chord, stray, abs(acb(x, half_width))) for x in (half_length, half_chord)]
+        # The ground is symmetric about its axis.
+        left = [
+            _supports(way, motions, stray, (half_chord, half_length, half_width))
+            for way in self.outwards[: SIDES // 2 + 1]
+        ]
+        front, middle = ([values[part] + spare for values in left + left[-2:0:-1]] for part, spare in enumerate(spares))
         rear = front[SIDES // 2 :] + front[: SIDES // 2]
         whole = [a.max(b).max(c) for a, b, c in zip(front, middle, rear, strict=True)]
         self.supports = [front, middle, rear, whole]
@@ -62,17 +62,24 @@ def _motions(chord: arb, stray: arb) -> list[tuple[arb, acb]]:
     return [(abs(sine), acb((1 - half**2).sqrt(), half)) for sine, half in zip(sines, halves, strict=True)]
 
 
-def _support(way: acb, motions: Sequence[tuple[arb, acb]], stray: arb, points: Sequence[acb]) -> arb:
-    """Largest distance that points of a bench reach in a direction, at the samples (15.) [m]."""
-    back, best = way.conjugate(), arb("-inf")
+def _supports(
+    way: acb, motions: Sequence[tuple[arb, acb]], stray: arb, half_sizes: tuple[arb, arb, arb]
+) -> tuple[arb, arb]:
+    """Largest distances that the front end and the middle of a bench reach in a direction, at the samples (15.) [m].
+
+    half_sizes: half of the chord, of the length and of the width [m]
+    """
+    half_chord, half_length, half_width = half_sizes
+    back, front, middle = way.conjugate(), arb("-inf"), arb("-inf")
     for q, half in motions:
         leaning = back * half
         along, across = abs(leaning.real), abs(leaning.imag)
         lens = along * (1 - q**2).nonnegative_part().sqrt() if q > across else 1 - q * across
-        rotation = leaning * half
-        for point in points:
-            best = best.max(stray * lens + (rotation * point).real)
-    return best
+        rotated = leaning * half
+        beside = stray * lens + abs(rotated.imag) * half_width
+        front = front.max(beside + (rotated.real * half_chord).max(rotated.real * half_length))
+        middle = middle.max(beside + abs(rotated.real) * half_chord)
+    return front, middle
 
 
 def _spare(chord: arb, stray: arb, furthest: arb) -> arb:
