@@ -1,6 +1,6 @@
 /** The answers, each with its evidence. */
 
-import { make } from "./elements.js";
+import { button, make } from "./elements.js";
 import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
@@ -39,9 +39,7 @@ function show(box, title, value, lines, known = [], outcome = "") {
   box.replaceChildren(paragraph(say("old"), { className: "old" }), heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
 }
 
-function facts(...rows) {
-  return make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].map((tag, k) => make(tag, { textContent: row[k] }))));
-}
+const facts = (...rows) => make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].map((tag, k) => make(tag, { textContent: row[k] }))));
 
 /** The benches that the engines judged, in words. benches: of the dragon */
 function judgedWords({ judged }, benches, asked) {
@@ -55,9 +53,7 @@ function engines(check, benches, asked) {
   const word = (overlaps) => (overlaps === null ? say("noBefore") : sayOf(overlaps ? "overlapping" : "apart", asked));
   const cell = (overlaps) => make("td", { textContent: word(overlaps) });
   const head = (key, scope) => make("th", { scope, textContent: say(key) });
-  const rows = Object.entries(check.engines).map(([name, { before, after }]) =>
-    make("tr", {}, head(name, "row"), cell(before), cell(after)),
-  );
+  const rows = Object.entries(check.engines).map(([name, { before, after }]) => make("tr", {}, head(name, "row"), cell(before), cell(after)));
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
   const grounds = rows.length === 1 && say("judgedGrounds", { count: check.judged.length });
   const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, asked)}`, say(check.agree ? "agree" : "disagree")];
@@ -86,9 +82,8 @@ export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason 
 export const instantWords = (time, { answer, end }) => (time === end && answer.time === null ? (answer.end?.time ?? time) : time).toFixed(6);
 
 function contactLine(answer, asked) {
-  const { benches } = asked;
   const { time_bracket, point, benches: both, head, end, gap } = answer;
-  const state = stateOf(answer);
+  const [{ benches }, state] = [asked, stateOf(answer)];
   if (state === "undecided") return say("undecidedFrom", { time: bound(time_bracket[0], 9, -1) });
   if (state === "folds") return sayOf("foldsUntil", asked, { name: benchName(end.bench, benches) });
   if (state === "clear") return end ? sayOf("clearUntil", asked, { time: end.time.toFixed(6) }) : sayOf("clearAll", asked);
@@ -106,6 +101,8 @@ function certificateWords({ outcome, certificate: { steps, clear_until: until } 
   return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", asked);
 }
 
+const methodOf = ({ method }) => paragraph(proofWords(method), { className: "method" });
+
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, asked) {
   const { time_bracket, certificate } = answer;
@@ -117,26 +114,20 @@ export function showFirstContact(box, answer, asked) {
     const values = { ...pair(least.benches, asked.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
     rows.push([say("leastBefore"), sayOf("leastBeforeIs", asked, values)]);
   }
-  const method = paragraph(proofWords(certificate.method), { className: "method" });
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
-  const value = [mark, outcomeWords(answer, asked)];
-  const known = [facts(...rows), method, engines(answer.cross_check, asked.benches, asked)];
-  show(box, titleOf("firstContact", asked), value, lines, known, state);
+  const known = [facts(...rows), methodOf(certificate), engines(answer.cross_check, asked.benches, asked)];
+  show(box, titleOf("firstContact", asked), [mark, outcomeWords(answer, asked)], lines, known, state);
 }
 
 /** A button of an answer, with its text and its action. */
-function offer(box, key, act) {
-  const button = make("button", { type: "button", textContent: say(key) });
-  button.addEventListener("click", act);
-  box.querySelector("details").before(button);
-}
+const offer = (box, key, act) => box.querySelector("details").before(button({ textContent: say(key) }, act));
 
 /** answer: of /minimum-pitch; use(pitch) sets it; key: of the button's text */
 export function showMinimumPitch(box, answer, asked, key, use) {
-  const { benches, turning_diameter: diameter } = asked;
-  const names = answer.benches ? pair(answer.benches, Number(benches)) : {};
-  const name = answer.bench === null ? "" : benchName(answer.bench, Number(benches));
+  const [benches, diameter] = [Number(asked.benches), asked.turning_diameter];
+  const names = answer.benches ? pair(answer.benches, benches) : {};
+  const name = answer.bench === null ? "" : benchName(answer.bench, benches);
   const limit = sayOf(`limited_${answer.limited_by}`, asked, { ...names, name, radius: answer.head_radius?.toFixed(6) });
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
@@ -145,17 +136,16 @@ export function showMinimumPitch(box, answer, asked, key, use) {
   const lines = [sayOf("toCircle", asked, { diameter, pitches }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(", ") }));
+  const [low, high] = answer.pitch_bracket;
   const rows = [
-    answer.pitch_bracket[0] < answer.pitch_bracket[1]
-      ? bracket("bracketPitch", answer.pitch_bracket, 13)
-      : [say("bracket"), say("bracketNone")],
+    low < high ? bracket("bracketPitch", [low, high], 13) : [say("bracket"), say("bracketNone")],
     [say("justified"), say(`justified_${answer.justified_by}`, { from, step: step === null ? "" : millimetres(step) })],
     [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
   ];
-  const known = [facts(...rows), engines(answer.cross_check, Number(benches), asked)];
+  const known = [facts(...rows), engines(answer.cross_check, benches, asked)];
   show(box, titleOf("minimumPitch", asked), `${answer.pitch.toFixed(9)} m`, lines, known);
-  offer(box, key, () => use(answer.pitch_bracket[1]));
+  offer(box, key, () => use(high));
 }
 
 /** answer: of /shortest-turn; use(radius) sets the entry of the turn */
@@ -189,8 +179,7 @@ export function showTolerance(box, answer, benches, diameter) {
   const cm = (metres, way) => bound(100 * metres, 7, way);
   const both = high === null ? say("bracketStrayOpen", { low: cm(low, -1) }) : say("bracketStray", { low: cm(low, -1), high: cm(high, 1) });
   const rows = [[say("bracket"), both], [say("certificate"), say("stepsTaken", { steps: certificate.steps })]];
-  const method = paragraph(proofWords(certificate.method), { className: "method" });
-  show(box, say("tolerance"), `${centimetres(stray)} cm`, lines, [facts(...rows), method]);
+  show(box, say("tolerance"), `${centimetres(stray)} cm`, lines, [facts(...rows), methodOf(certificate)]);
 }
 
 /** fastest: highest_speed of /check; null in a run to a fold */
@@ -223,9 +212,7 @@ export const mendWords = (names) => say("mend", { names: names.map((name) => say
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, asked) {
   const name = (bench) => benchName(bench, asked.benches);
-  const words =
-    corner && edge
-      ? sayOf("insetMeet", asked, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) })
-      : `${name(a)}, ${name(b)}`;
+  const meet = () => sayOf("insetMeet", asked, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) });
+  const words = corner && edge ? meet() : `${name(a)}, ${name(b)}`;
   return gap === null ? words : `${words}; ${gapWords(gap)}`;
 }

@@ -1,6 +1,6 @@
 /** Benches measured one by one: a table that is typed, pasted, dropped or opened, in the service's format. */
 
-import { $, make } from "./elements.js";
+import { $, make, worded } from "./elements.js";
 import { Pause } from "./pending.js";
 import { nameBenches, refusalWords, say } from "./text.js";
 
@@ -48,18 +48,14 @@ export class BenchTable {
   /** group: the numbers of equal benches, which the table replaces */
   constructor(group, state) {
     Object.assign(this, { group, state });
-    const button = (key, act) => {
-      const one = make("button", { type: "button", id: key, "data-text": key });
-      one.addEventListener("click", act);
-      return one;
-    };
     this.title = make("summary");
     const described = { "aria-describedby": "csv-help csv-error" };
     this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "csv", ...described });
     this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt", "data-label": "csvOpen", hidden: true });
     this.error = make("p", { id: "csv-error", className: "error", hidden: true });
     this.note = make("p", { className: "hint" });
-    const buttons = [button("csvOpen", () => this.file.click()), button("csvBegin", () => this.#begin()), button("csvClear", () => state.set({ csv: "" }))];
+    const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => state.set({ csv: "" }) };
+    const buttons = Object.entries(acts).map(([id, act]) => worded(id, act, { id }));
     const help = make("p", { id: "csv-help", className: "hint", "data-text": "csvHelp" });
     this.box = make("details", { id: "one-by-one" }, this.title, help, this.text, this.error, this.note, make("p", { className: "buttons" }, ...buttons, this.file));
     group.append(this.box);

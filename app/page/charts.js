@@ -1,11 +1,13 @@
 /** Charts drawn by uPlot: clearance over time; stray and radius at first contact against the pitch. */
 
-import { make } from "./elements.js";
+import { colours, make } from "./elements.js";
 import { say } from "./text.js";
 
 const HEIGHT = 240;
 /** Upper end of a scale, as a multiple of its highest value [1]. */
 const ABOVE = 1.06;
+/** Tolerance of a tick, as a part of the step between ticks: far more than rounding [1]. */
+const ROUNDING = 1e-6;
 
 /** A chart in a box; click or drag calls seek(x). The marker `now` is an element, so that it moves without a redraw. */
 export class Chart {
@@ -43,8 +45,7 @@ export class Chart {
   }
 
   #options({ labels, range, width, draw }) {
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+    const colour = colours();
     const [grid, font] = [{ stroke: colour("line"), width: 1 }, "12px system-ui, sans-serif"];
     const looks = { stroke: colour("muted"), grid, ticks: grid, font, labelFont: font, labelSize: 22 };
     const place = () => this.now(this.#now);
@@ -163,29 +164,28 @@ export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, 
 /** Parts without a jump, each a list of points: the samples of a piece, and the ends of the jumps around them. */
 export function staircase(samples, pieces, jumps) {
   const ends = jumps.map(({ pitch, radius }) => pitch.map((one, k) => [one, radius[k]]));
-  const stretches = [];
-  let open = [];
-  const close = () => {
-    if (open.length) stretches.push(open);
-    open = [];
+  const stretches = [[]];
+  const jump = ([before, after]) => {
+    stretches.at(-1).push(before);
+    stretches.push([after]);
   };
   for (const [from, to] of pieces) {
     const known = ends.length;
-    while (ends.length && ends[0][0][0] < samples[from][0]) {
-      const [before, after] = ends.shift();
-      open.push(before);
-      close();
-      open.push(after);
-    }
+    while (ends.length && ends[0][0][0] < samples[from][0]) jump(ends.shift());
     // Between two pieces without a jump there is no contact.
-    if (known === ends.length) close();
-    open.push(...samples.slice(from, to));
+    if (known === ends.length) stretches.push([]);
+    stretches.at(-1).push(...samples.slice(from, to));
   }
-  for (const [before, after] of ends) {
-    open.push(before);
-    close();
-    open.push(after);
-  }
-  close();
-  return stretches;
+  ends.forEach(jump);
+  return stretches.filter((points) => points.length);
+}
+
+/** Round numbers in a range, about as many as a largest count, and their decimals: {values, decimals}. */
+export function ticks([low, high], most) {
+  const rough = (high - low) / most || 1;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough);
+  const first = Math.ceil(low / step - ROUNDING);
+  const values = Array.from({ length: Math.max(Math.floor(high / step + ROUNDING) - first + 1, 0) }, (_, k) => (first + k) * step);
+  return { values, decimals: Math.max(0, -Math.floor(Math.log10(step) + ROUNDING)) };
 }

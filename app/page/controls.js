@@ -3,7 +3,7 @@
  * service's message if it is wrong.
  */
 
-import { $$, make, onClick } from "./elements.js";
+import { $$, button, make, onClick } from "./elements.js";
 import { Pause } from "./pending.js";
 import { FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
@@ -17,12 +17,11 @@ const PARTS = { head_length: "length", body_length: "length", width: "width", ov
 /** Limits and unit of every number: name -> [low, high, unit]. paths: of the service's OpenAPI document */
 export function limitsIn(paths) {
   const parameters = ["/maximum-head-speed", "/collision-time", "/minimum-pitch"].flatMap((path) => paths[path].get.parameters);
-  return Object.fromEntries(
-    parameters.map(({ name, schema }) => {
-      const { minimum, exclusiveMinimum, maximum } = schema.anyOf?.[0] ?? schema;
-      return [name, [minimum ?? exclusiveMinimum, maximum, schema["x-unit"]]];
-    }),
-  );
+  const limits = ({ anyOf, ...own }) => {
+    const { minimum, exclusiveMinimum, maximum } = anyOf?.[0] ?? own;
+    return [minimum ?? exclusiveMinimum, maximum, own["x-unit"]];
+  };
+  return Object.fromEntries(parameters.map(({ name, schema }) => [name, limits(schema)]));
 }
 
 /** A typed number, also with a decimal comma, the only one on some phones. */
@@ -57,21 +56,18 @@ export class Controls {
 
   #row({ name, slider: [min, max, step] }) {
     const change = (event) => this.state.set({ [name]: times(typed(event.target.value), 1 / SHOWN[name]) });
+    const typing = new Pause(name);
+    const acts = { oninput: (event) => typing.begin(TYPING, () => change(event)), onchange: change };
     const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
     const row = {
-      text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...described }),
-      slider: make("input", { type: "range", min, max, step }),
+      text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...acts, ...described }),
+      slider: make("input", { type: "range", min, max, step, oninput: change }),
       ends: ENDS.map((end) => this.#end(name, end, end === "min" ? min : max)),
-      reset: make("button", { type: "button", className: "reset", textContent: "↺" }),
+      reset: button({ className: "reset", textContent: "↺" }, () => this.state.reset([name])),
       unit: make("span", { className: "unit" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
       error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
-    const typing = new Pause(name);
-    row.text.addEventListener("input", (event) => typing.begin(TYPING, () => change(event)));
-    row.text.addEventListener("change", change);
-    row.slider.addEventListener("input", change);
-    row.reset.addEventListener("click", () => this.state.reset([name]));
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": name });
@@ -83,14 +79,13 @@ export class Controls {
 
   /** The field for one end of a slider. */
   #end(name, end, value) {
-    const field = make("input", { className: "end", inputMode: "decimal", autocomplete: "off", value });
-    field.addEventListener("change", () => {
+    const onchange = ({ target: field }) => {
       const { slider } = this.#rows.get(name);
-      const [low, high] = [end === "min" ? field.value : slider.min, end === "max" ? field.value : slider.max].map((text) => Number(typed(text)));
+      const [low, high] = ENDS.map((one) => Number(typed(one === end ? field.value : slider[one])));
       if (field.value.trim() && low < high) slider[end] = end === "min" ? low : high;
       this.#show(name);
-    });
-    return field;
+    };
+    return make("input", { className: "end", inputMode: "decimal", autocomplete: "off", value, onchange });
   }
 
   /** Show only the numbers of this path. */

@@ -1,9 +1,11 @@
 /** The picture: benches as rectangles between their handles, coloured by speed, over the faint path. */
 
+import { colours } from "./elements.js";
 import { strayOf } from "./state.js";
 import { View } from "./view.js";
 
 const SHADES = 48;
+const COLOURS = ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn"];
 /** Speeds closer together than this [m/s] get one colour, so that colours do not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
 /** A click within this distance of a handle [px] selects it. */
@@ -142,8 +144,7 @@ class Pen {
     const { context } = this;
     const { width, height } = context.canvas;
     context.save();
-    context.resetTransform();
-    context.scale(devicePixelRatio, devicePixelRatio);
+    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     const [right, bottom] = [width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
     Object.assign(context, { font: "600 12px system-ui, sans-serif", textAlign: "center", lineJoin: "round" });
     for (const [strokeStyle, lineWidth] of [[halo, 5], [colour, 2]]) {
@@ -169,8 +170,7 @@ class Pen {
     context.save();
     context.translate(x, y);
     context.scale(1 / scale, -1 / scale);
-    context.font = "600 14px system-ui, sans-serif";
-    Object.assign(context, { lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
+    Object.assign(context, { font: "600 14px system-ui, sans-serif", lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
     context.strokeText(text, 10, -10);
     context.fillText(text, 10, -10);
     context.restore();
@@ -203,19 +203,17 @@ export class Dance {
 
   restyle() {
     this.view.measure();
-    const style = getComputedStyle(this.canvas);
-    for (const name of ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn"])
-      this.#colours[name] = style.getPropertyValue(`--${name}`).trim();
-    this.#palette = palette(style.getPropertyValue("--ramp"));
+    const colour = colours(this.canvas);
+    for (const name of COLOURS) this.#colours[name] = colour(name);
+    this.#palette = palette(colour("ramp"));
   }
 
   /** The path of the head, {x, y}, as sampled by the service, or null; around: further points [x, y] to be shown. */
   setPath(path, around = []) {
     this.#path = null;
     if (path) [this.#path, this.#points] = [smooth(path), path];
-    const [xs, ys] = [[...(path?.x ?? []), ...around.map((point) => point[0])], [...(path?.y ?? []), ...around.map((point) => point[1])]];
-    if (!xs.length) return;
-    this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
+    const [xs, ys] = ["x", "y"].map((axis, k) => [...(path?.[axis] ?? []), ...around.map((point) => point[k])]);
+    if (xs.length) this.#bounds = [least(xs), least(ys), largest(xs), largest(ys)];
   }
 
   draw() {
@@ -271,14 +269,14 @@ export class Dance {
 
   /** An arrow before the head. */
   #drawWay(pen) {
-    const { pose: { x, y }, dragon } = this.scene;
+    const { pose: { x, y }, dragon: { overhang } } = this.scene;
     const [dx, dy] = [x[0] - x[1], y[0] - y[1]];
-    const reach = (dragon.overhang + AHEAD / pen.scale) / Math.hypot(dx, dy);
-    const [tx, ty] = [x[0] + dx * reach, y[0] + dy * reach];
+    const at = (way) => [x[0] + (dx * way) / Math.hypot(dx, dy), y[0] + (dy * way) / Math.hypot(dx, dy)];
+    const tip = at(overhang + AHEAD / pen.scale);
     const shaft = new Path2D();
-    shaft.moveTo(x[0] + (dx * dragon.overhang) / Math.hypot(dx, dy), y[0] + (dy * dragon.overhang) / Math.hypot(dx, dy));
-    shaft.lineTo(tx, ty);
-    shaft.addPath(pen.tip(tx, ty, dx, dy, 1.6 * ARROW));
+    shaft.moveTo(...at(overhang));
+    shaft.lineTo(...tip);
+    shaft.addPath(pen.tip(...tip, dx, dy, 1.6 * ARROW));
     pen.stroke(shaft, this.#colours.head, 2.5);
   }
 
@@ -339,11 +337,6 @@ export class Dance {
 
   #nearest(px, py) {
     const { pose } = this.scene;
-    let [best, radius] = [null, PICK_RADIUS];
-    pose?.x.forEach((x, k) => {
-      const [sx, sy] = this.view.toScreen(x, pose.y[k]);
-      if (Math.hypot(sx - px, sy - py) < radius) [best, radius] = [k, Math.hypot(sx - px, sy - py)];
-    });
-    return best;
+    return pose && this.view.nearest(pose, px, py, PICK_RADIUS);
   }
 }

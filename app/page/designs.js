@@ -3,7 +3,6 @@
 import { $ } from "./elements.js";
 import { Jobs } from "./jobs.js";
 import { SweepMap } from "./map.js";
-import { announce } from "./overlays.js";
 import { QUESTIONS, SweepForm } from "./sweeps.js";
 
 export class Designs {
@@ -14,7 +13,7 @@ export class Designs {
   constructor(state, service, names) {
     Object.assign(this, { state, names });
     this.map = new SweepMap($("#map"), (over, row) => this.#open(over, row));
-    this.jobs = new Jobs($("#jobs"), service, (columns, spec) => this.#show(columns, spec), announce);
+    this.jobs = new Jobs($("#jobs"), service, (columns, spec) => this.#show(columns, spec));
     new SweepForm($("#sweep"), state, (spec) => this.jobs.start(spec));
   }
 

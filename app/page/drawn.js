@@ -2,7 +2,7 @@
 
 import { EMPTY } from "./drawing.js";
 import { Editor } from "./edit.js";
-import { $, $$, hide, make } from "./elements.js";
+import { $, $$, hide, make, worded } from "./elements.js";
 import { Files } from "./files.js";
 import { Steps } from "./history.js";
 import { Judgement } from "./judgement.js";
@@ -19,12 +19,12 @@ export class Drawn {
   /** A failure whose benches must still be moved into view. */
   #wanted = null;
 
-  constructor({ state, service, questions, dance, announce, draw }) {
+  constructor({ state, service, questions, dance, draw }) {
     Object.assign(this, { state, questions, picture: dance, draw });
     this.steps = new Steps(state, () => this.show());
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
-    const files = new Files(state, this.steps, service, questions, announce);
+    const files = new Files(state, this.steps, service, questions);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));
     this.#invite();
@@ -46,14 +46,9 @@ export class Drawn {
 
   /** The offers without a drawing: draw a path, or begin with a preset. */
   #invite() {
-    const button = (key, act, properties = {}) => {
-      const one = make("button", { type: "button", "data-text": key, ...properties });
-      one.addEventListener("click", act);
-      return one;
-    };
-    const presets = Object.keys(PRESETS).map((name) => button(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
+    const presets = Object.keys(PRESETS).map((name) => worded(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
     const words = (tag, key) => make(tag, { "data-text": key });
-    $("#invite").append(words("h3", "inviteTitle"), button("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
+    $("#invite").append(words("h3", "inviteTitle"), worded("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
   }
 
   /** Begin to draw: with an S where nothing is drawn yet. */
@@ -138,13 +133,8 @@ export class Drawn {
   }
 
   /** Move the picture to a point [m] outside the view. */
-  #look([x, y]) {
-    const { view } = this.picture;
-    const [px, py] = view.toScreen(x, y);
-    if (px < 0 || py < 0 || px > view.width || py > view.height) {
-      view.set(x, y);
-      view.moved(true);
-    }
+  #look(point) {
+    this.picture.view.reveal(...point);
     this.draw();
   }
 }

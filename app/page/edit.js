@@ -106,14 +106,11 @@ export class Editor {
   }
 
   #knot(k) {
-    const knot = make("button", { type: "button", className: "knot", textContent: k + 1 });
-    knot.addEventListener("pointerdown", (event) => this.#grab(event));
-    knot.addEventListener("pointermove", (event) => this.#pull(event));
-    for (const type of ["pointerup", "pointercancel"]) knot.addEventListener(type, () => this.#drop());
-    knot.addEventListener("keydown", (event) => this.#key(event, k));
-    knot.addEventListener("focus", () => this.#reveal(k));
-    this.#knots.push(knot);
-    return knot;
+    const [onpointerdown, onpointermove, drop] = [(event) => this.#grab(event), (event) => this.#pull(event), () => this.#drop()];
+    const drag = { onpointerdown, onpointermove, onpointerup: drop, onpointercancel: drop };
+    const keys = { onkeydown: (event) => this.#key(event, k), onfocus: () => this.#reveal(k) };
+    this.#knots.push(make("button", { type: "button", className: "knot", textContent: k + 1, ...drag, ...keys }));
+    return this.#knots.at(-1);
   }
 
   /** Take the point nearest to the pointer, because buttons of near points overlap. */
@@ -190,13 +187,7 @@ export class Editor {
   /** Move the picture so that a point that got the focus is in view. */
   #reveal(k) {
     this.#last = k;
-    const { view } = this.dance;
-    const [x, y] = this.#points[k];
-    const [px, py] = view.toScreen(x, y);
-    if (px < 0 || py < 0 || px > view.width || py > view.height) {
-      view.set(x, y);
-      view.moved(true);
-    }
+    this.dance.view.reveal(...this.#points[k]);
   }
 
   /** Handle a tap on the picture; returns true if it drew something. */
@@ -206,30 +197,22 @@ export class Editor {
     const point = this.dance.view.toWorld(px, py).map((one) => Math.round(10 * one) / 10);
     this.#last = null;
     this.dance.view.fitted = false;
-    if (this.tool === "path") this.#tapPath(drawing, px, py, point);
-    else if (this.item === null || this.tool === "circle") this.#begin(drawing, point);
+    if (this.tool === "path") {
+      const found = drawing.points.length > 1 ? this.#onPath(px, py) : null;
+      this.steps.take(inserted(drawing, null, found?.k ?? drawing.points.length, found?.point ?? point));
+    } else if (this.item === null || this.tool === "circle") this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, pointsOf(drawing, this.item).length, point));
     this.chosen();
     return true;
   }
 
-  #tapPath(drawing, px, py, point) {
-    const count = drawing.points.length;
-    const found = count > 1 ? this.#onPath(px, py) : null;
-    this.steps.take(found ? inserted(drawing, null, found.k, found.point) : inserted(drawing, null, count, point));
-  }
-
   /** The division of the path by a tap: number of the next point, and place of the new one. */
   #onPath(px, py) {
-    const { s, x, y, knots } = this.course() ?? { s: [], knots: [] };
-    if (knots.length !== this.#drawing.points.length) return null;
-    let [best, nearest] = [-1, ON_PATH];
-    s.forEach((_, k) => {
-      const [sx, sy] = this.dance.view.toScreen(x[k], y[k]);
-      const far = Math.hypot(sx - px, sy - py);
-      if (far < nearest) [best, nearest] = [k, far];
-    });
-    if (best < 0) return null;
+    const course = this.course();
+    if (course?.knots.length !== this.#drawing.points.length) return null;
+    const { s, x, y, knots } = course;
+    const best = this.dance.view.nearest(course, px, py, ON_PATH);
+    if (best === null) return null;
     const k = knots.findIndex((knot) => knot > s[best]);
     return { k: k < 0 ? knots.length - 1 : k, point: [x[best], y[best]] };
   }

@@ -4,6 +4,19 @@ export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];
 export const onClick = (selector, act) => $(selector).addEventListener("click", act);
 
+/** Save a file. blob: its content */
+export function download(blob, name) {
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+/** Function that gives a colour of the page by its name. */
+export function colours(element = document.documentElement) {
+  const style = getComputedStyle(element);
+  return (name) => style.getPropertyValue(`--${name}`).trim();
+}
+
 /** Show or hide an element only on a change, because each assignment makes the browser compute all styles again. */
 export function hide(element, hidden) {
   if (element.hidden !== hidden) element.hidden = hidden;
@@ -19,3 +32,8 @@ export function make(tag, properties = {}, ...children) {
   element.append(...children);
   return element;
 }
+
+/** A button with an action. */
+export const button = (properties, onclick, ...children) => make("button", { type: "button", onclick, ...properties }, ...children);
+/** A button with the text of a key, in the language of the page at every time. */
+export const worded = (key, onclick, properties = {}) => button({ "data-text": key, ...properties }, onclick);

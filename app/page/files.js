@@ -1,12 +1,12 @@
 /** Files of a drawn dance: opened, dropped on the picture, and saved. */
 
-import { Problem, Superseded } from "./api.js";
 import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
-import { $, make } from "./elements.js";
+import { $, download, make, worded } from "./elements.js";
 import { bearer } from "./jobs.js";
+import { announce, announceRefusal } from "./overlays.js";
 import { passagesText } from "./pace.js";
-import { language, refusalWords, say } from "./text.js";
+import { language, say } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv";
 /** Fields of a dance's file that are numbers of the page too. */
@@ -14,14 +14,14 @@ const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
 export class Files {
-  /** steps: receives drawings; questions: has the shown dance; announce(words()) */
-  constructor(state, steps, service, questions, announce) {
-    Object.assign(this, { state, steps, service, questions, announce });
-    this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "open", hidden: true });
-    this.input.addEventListener("change", () => {
+  /** steps: receives drawings; questions: has the shown dance */
+  constructor(state, steps, service, questions) {
+    Object.assign(this, { state, steps, service, questions });
+    const onchange = () => {
       if (this.input.files[0]) this.open(this.input.files[0]);
       this.input.value = "";
-    });
+    };
+    this.input = make("input", { type: "file", id: "open-file", accept: ACCEPT, "data-label": "open", hidden: true, onchange });
     const stage = $("#stage");
     for (const type of ["dragenter", "dragover"])
       stage.addEventListener(type, (event) => {
@@ -38,12 +38,7 @@ export class Files {
 
   /** Buttons that open and save. */
   buttons() {
-    const button = (key, act) => {
-      const one = make("button", { type: "button", id: key, "data-text": key });
-      one.addEventListener("click", act);
-      return one;
-    };
-    return [button("open", () => this.input.click()), this.input, button("save", () => this.save())];
+    return [worded("open", () => this.input.click(), { id: "open" }), this.input, worded("save", () => this.save(), { id: "save" })];
   }
 
   /** Open a dance, or a map with a venue and a path. */
@@ -51,15 +46,13 @@ export class Files {
     try {
       if (/\.(csv|tsv)$/i.test(file.name)) {
         this.state.set({ csv: await file.text() });
-        return this.announce(() => say("opened", { name: file.name }));
+        return announce(() => say("opened", { name: file.name }));
       }
-      this.announce(() => say("opening", { name: file.name }));
+      announce(() => say("opening", { name: file.name }));
       const found = (await ownDance(file)) ?? (await this.#places(file));
       if (found) this.#take(found, file.name);
     } catch (error) {
-      if (error instanceof Superseded) return;
-      if (!(error instanceof Problem)) throw error;
-      this.announce(() => refusalWords(error.message).textContent);
+      announceRefusal(error);
     }
   }
 
@@ -85,16 +78,14 @@ export class Files {
     };
     this.state.set({ ...own, ...numbers, ...told, time: null, view: null });
     this.steps.take(opened);
-    this.announce(() => [say("opened", { name }), ...(found.notes ?? [])].join(" "));
+    announce(() => [say("opened", { name }), ...(found.notes ?? [])].join(" "));
   }
 
   /** The dance in the format of `bench-dragon check`. */
   save() {
     const text = JSON.stringify(this.questions.checkBody(this.questions.drawn()), null, 2);
-    const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "application/json" })), download: "dance.json" });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-    this.announce(() => say("saved", { name: link.download }));
+    download(new Blob([text], { type: "application/json" }), "dance.json");
+    announce(() => say("saved", { name: "dance.json" }));
   }
 }
 

@@ -39,10 +39,8 @@ export class Grader {
     onClick("#grade-clear", () => {
       $("#files").value = "";
       $("#typed").reset();
-      this.#files = [];
-      this.#answers = [];
-      this.#working = "";
-      this.show();
+      [this.#files, this.#answers] = [[], []];
+      this.#tell("");
     });
   }
 
@@ -56,6 +54,12 @@ export class Grader {
   show() {
     $("#grades").replaceChildren(...this.#answers.flatMap(({ answer, refused }) => (refused ? [refused] : boxes(answer))));
     if (this.#working) $("#grades").append(make("p", { className: "hint", role: "status", textContent: this.#working }));
+  }
+
+  /** Show everything, with what is going on. */
+  #tell(working) {
+    this.#working = working;
+    this.show();
   }
 
   #take(files) {
@@ -75,8 +79,7 @@ export class Grader {
     });
     this.#answers = found;
     for (const [k, [query, file]] of asked.entries()) {
-      this.#working = say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: asked.length });
-      this.show();
+      this.#tell(say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: asked.length }));
       try {
         found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
       } catch (error) {
@@ -89,8 +92,7 @@ export class Grader {
       if (this.#answers !== found) return;
       this.show();
     }
-    this.#working = "";
-    this.show();
+    this.#tell("");
   }
 }
 
@@ -105,9 +107,8 @@ const paragraph = (textContent, className = "") => make("p", { textContent, clas
 function boxes({ files, answers }) {
   const typed = answers.map((one) => {
     const { found, expected, unit, verdict, digits, notes } = one;
-    const graded = [...(verdict === "right" ? [say("digitsGo", { digits })] : []), ...notes].map((words) => paragraph(words));
-    const right = verdict === "right" ? graded : [paragraph(say("rightIs", { value: expected.toFixed(9), unit }))];
-    return box(`${say(`typed_${one.answer}`)}: ${found} ${unit}`, verdict, [...right, ...diagnosis(one)]);
+    const words = verdict === "right" ? [say("digitsGo", { digits }), ...notes] : [say("rightIs", { value: expected.toFixed(9), unit })];
+    return box(`${say(`typed_${one.answer}`)}: ${found} ${unit}`, verdict, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
   });
   return [...typed, ...files.map(fileBox)];
 }
@@ -127,12 +128,8 @@ function diagnosis({ verdict, diagnosis: found }) {
 function fileBox(file) {
   const points = file.rubric.map(({ met, words }) => make("li", { className: `met-${met}`, textContent: words }));
   const rubric = make("details", {}, make("summary", { textContent: say("rubric") }), make("ul", {}, ...points));
-  return box(file.file, file.verdict, [
-    ...file.notes.map((one) => paragraph(one)),
-    ...diagnosis(file),
-    ...file.sheets.flatMap(sheetParts),
-    ...(points.length ? [rubric] : []),
-  ]);
+  const notes = file.notes.map((one) => paragraph(one));
+  return box(file.file, file.verdict, [...notes, ...diagnosis(file), ...file.sheets.flatMap(sheetParts), ...(points.length ? [rubric] : [])]);
 }
 
 function sheetParts(sheet) {
@@ -140,14 +137,12 @@ function sheetParts(sheet) {
   const title = sheet.sheet || say(`holds_${sheet.holds}`);
   const word = say(`verdict_${sheet.verdict}`);
   const verdict = decimals ? say("toDecimals", { verdict: word, decimals }) : word;
-  const line = say("sheetIs", { title, verdict, right, cells });
-  const parts = [paragraph(line, "sheet"), ...notes.map((one) => paragraph(one))];
+  const parts = [paragraph(say("sheetIs", { title, verdict, right, cells }), "sheet"), ...notes.map((one) => paragraph(one))];
   if (["wrong", "rounded"].includes(sheet.verdict))
     for (const [key, cell] of Object.entries({ worstCell: worst, firstCell: first })) {
       const { found, expected, time } = cell;
       const quantity = cell.quantity === "speed" ? say("quantity_speed") : cell.quantity;
-      const values = { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) };
-      parts.push(paragraph(say(key, values)));
+      parts.push(paragraph(say(key, { ...cell, quantity, found: found.toFixed(6), expected: expected.toFixed(6), time: Number(time.toFixed(6)) })));
     }
   if (picture.some((line) => /[^.]/.test(line))) parts.push(drawn(picture), legend(picture.join("")));
   return parts;

@@ -1,7 +1,8 @@
 /** The jobs that this browser has started, or with a token all jobs of the service: progress, result and removal. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, make } from "./elements.js";
+import { $, button, make } from "./elements.js";
+import { announce, announceRefusal } from "./overlays.js";
 import { refusalWords, say } from "./text.js";
 
 const STORED = "bench-dragon-jobs";
@@ -37,9 +38,9 @@ export class Jobs {
   #jobs = new Map();
   #timer = 0;
 
-  /** show(columns, spec): draw the table of a sweep; announce(words()) */
-  constructor(list, service, show, announce) {
-    Object.assign(this, { list, service, show, announce });
+  /** show(columns, spec): draw the table of a sweep */
+  constructor(list, service, show) {
+    Object.assign(this, { list, service, show });
     for (const { id, spec } of remembered()) this.#jobs.set(id, { spec });
     $("#token").addEventListener("change", () => this.#listAll());
     this.#look();
@@ -54,7 +55,7 @@ export class Jobs {
   add(status, spec) {
     this.#jobs = new Map([[status.jobID, { spec, status, shown: false }], ...this.#jobs]);
     this.#remember();
-    this.announce(() => say("jobStarted"));
+    announce(() => say("jobStarted"));
     this.#look();
   }
 
@@ -75,7 +76,7 @@ export class Jobs {
       this.render();
       this.#look();
     } catch (error) {
-      this.#refused(error);
+      announceRefusal(error);
     }
   }
 
@@ -106,18 +107,13 @@ export class Jobs {
     this.render();
   }
 
-  #refused(error) {
-    if (error instanceof Problem) this.announce(() => refusalWords(error.message).textContent);
-    else if (!(error instanceof Superseded)) throw error;
-  }
-
   async #open(id, job) {
     job.shown = true;
     try {
       this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
-      this.announce(() => say("jobReady"));
+      announce(() => say("jobReady"));
     } catch (error) {
-      this.#refused(error);
+      announceRefusal(error);
     }
   }
 
@@ -128,7 +124,7 @@ export class Jobs {
       else this.#forget(id);
       this.render();
     } catch (error) {
-      this.#refused(error);
+      announceRefusal(error);
     }
   }
 
@@ -144,20 +140,16 @@ export class Jobs {
   #row(id, job) {
     const { status } = job;
     const going = UNFINISHED.includes(status.status);
-    const name = `${what(status.processID, job.spec)}`;
-    const button = (key, act) => {
-      const made = make("button", { type: "button", id: `${key}-${id}`, textContent: say(key), "aria-label": `${say(key)}: ${name}` });
-      made.addEventListener("click", act);
-      return made;
-    };
-    const row = make("li", { "data-state": status.status }, make("span", { className: "what", textContent: name }));
-    row.append(make("span", { className: "state", textContent: stateWords(status) }));
+    const name = what(status.processID, job.spec);
+    const labelled = (key, act) => button({ id: `${key}-${id}`, textContent: say(key), "aria-label": `${say(key)}: ${name}` }, act);
+    const words = Object.entries({ what: name, state: stateWords(status) }).map(([className, textContent]) => make("span", { className, textContent }));
+    const row = make("li", { "data-state": status.status }, ...words);
     if (going) row.append(make("progress", { max: 100, value: status.progress, "aria-label": `${name}: ${status.progress} %` }));
     const { href, type } = resultOf(status);
     const buttons = make("span", { className: "buttons" });
-    if (href && isTable(status)) buttons.append(button("jobMap", () => this.#open(id, job)));
+    if (href && isTable(status)) buttons.append(labelled("jobMap", () => this.#open(id, job)));
     if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("jobResult") }));
-    buttons.append(button(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
+    buttons.append(labelled(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
     row.append(buttons);
     if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem.detail) }));
     return row;

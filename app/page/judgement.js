@@ -1,7 +1,7 @@
 /** The verdict on the drawn dance, and each failure in order of time with a button that shows it. */
 
 import { mendWords } from "./answers.js";
-import { $, make } from "./elements.js";
+import { $, button, make } from "./elements.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
 
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
@@ -61,10 +61,8 @@ export class Judgement {
     this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, said[0] ?? lines[0]?.textContent);
   }
 
-  #row(button, text, act) {
-    const go = make("button", { type: "button", textContent: button });
-    go.addEventListener("click", act);
-    return make("li", {}, go, " ", make("span", { textContent: text }));
+  #row(name, text, act) {
+    return make("li", {}, button({ textContent: name }, act), " ", make("span", { textContent: text }));
   }
 
   /** first: the first of the rows in words */

@@ -1,12 +1,13 @@
 /** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
 
-import { Problem, Superseded } from "./api.js";
-import { $, make, onClick } from "./elements.js";
+import { Problem } from "./api.js";
+import { $, button, download, make, onClick } from "./elements.js";
 import { bearer } from "./jobs.js";
+import { announce, announceRefusal } from "./overlays.js";
 import { isPlain } from "./questions.js";
 import { FOR_CLIENTS } from "./refusals.js";
 import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
-import { language, refusalWords, say } from "./text.js";
+import { language, say } from "./text.js";
 
 const CSV_STEP = 1;
 const TYPES = {
@@ -24,7 +25,7 @@ const TYPES = {
   A4: "application/pdf",
   A3: "application/pdf",
 };
-/** Items to save, in the order of the page: formats, and the method with the request; slow ones become a job. */
+/** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job. */
 const ITEMS = [
   { key: "keepTrajectory", forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
   { key: "keepPicture", forms: ["PNG"], file: "dance" },
@@ -40,7 +41,7 @@ const ITEMS = [
   { key: "keepPitch", forms: ["JSON"], ask: "pitch", file: "minimum-pitch" },
   { key: "keepStray", forms: ["JSON"], ask: "stray", file: "tolerance" },
   { key: "keepClearance", forms: ["JSON"], ask: "clearance", file: "clearance" },
-  { key: "keepPaper", forms: ["JSON"], ask: "paperAsked", file: "paper" },
+  { key: "keepPaper", forms: ["JSON"], ask: "paper", file: "paper" },
 ];
 /** Name of a file in this format. */
 const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
@@ -48,10 +49,52 @@ const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` 
 const SHOWN = "keepShown";
 const PROOF = "keepProof";
 
+const figure = (name, form, asked) => ({ path: `figures/${name}.${form.toLowerCase()}`, ...asked });
+/** Whole seconds of a dance. */
+const seconds = ({ begin, end }) => ({ start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP });
+/** The request of each item in a format: {path, query or body}. */
+const REQUESTS = {
+  trajectory: (questions) => ({ path: "trajectory", body: questions.body({ times: seconds(questions.dance) }) }),
+  instant(questions, form) {
+    const { begin, end } = questions.dance;
+    const time = Math.min(Math.max(questions.state.get("time") ?? end, begin), end);
+    return figure("trajectory", form, { body: questions.placed({ time }) });
+  },
+  contact(questions, form) {
+    const { kind, query, numbers, end } = questions.dance;
+    // The figure of a contact shows everybody in their place: with a stray, the figure of the last shown instant replaces it.
+    if (strayOf(query) > 0) return figure("trajectory", form, { body: questions.placed({ time: end }) });
+    const { stray, hole, pin, ...flat } = query;
+    return figure("contact", form, kind === "spiral" && isPlain(questions.dance) ? { query: flat } : { body: questions.placed({ margin: numbers.margin }) });
+  },
+  stairs: (questions, form) => figure("pitch-scan", form, questions.pitchOf(["margin"])),
+  film(questions) {
+    const { begin, end } = questions.dance;
+    return { path: "films", body: questions.placed({ start: begin, stop: end, language: language() }) };
+  },
+  ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
+  plan: (questions, paper) => ({ path: "plan", body: { ...questions.checkBody(questions.dance), paper, language: language() } }),
+  map(questions, form) {
+    const { origin } = questions.dance.kind === "route" ? questions.state.get("drawing") : {};
+    return { path: `maps.${form.toLowerCase()}`, body: { ...questions.checkBody(questions.dance), ...(origin && { origin }) } };
+  },
+  /** The answer of the command; in the shown one the engines may have judged only the pair. */
+  answer(questions) {
+    const { dance } = questions;
+    if (dance.kind !== "spiral") return REQUESTS.verdict(questions);
+    return { path: "collision-time", ...(isPlain(dance) ? { query: dance.query } : { body: questions.checkBody(dance) }) };
+  },
+  verdict: (questions) => ({ path: "check", body: questions.checkBody(questions.dance) }),
+  pitch: (questions) => ({ path: "minimum-pitch", ...questions.pitchOf(CONTACT) }),
+  stray: (questions) => ({ path: "tolerance", ...questions.toleranceOf() }),
+  clearance: (questions) => ({ path: "clearance", body: questions.body({ times: seconds(questions.dance) }) }),
+  paper: () => ({ path: "paper", query: { language: language() } }),
+};
+
 export class Keep {
-  /** jobs: makes films; announce(words()): reports events */
-  constructor({ state, service, questions, jobs, canvas, announce }) {
-    Object.assign(this, { state, service, questions, jobs, canvas, announce });
+  /** jobs: makes films */
+  constructor({ state, service, questions, jobs, canvas }) {
+    Object.assign(this, { service, questions, jobs, canvas });
     onClick("#share", () => {
       state.write();
       this.#copy(location.href);
@@ -65,11 +108,8 @@ export class Keep {
   }
 
   #row(item) {
-    const buttons = item.forms.map((form) => {
-      const button = make("button", { type: "button", id: `${item.key}-${form}`, textContent: form, "data-keep": item.key, "data-form": form });
-      button.addEventListener("click", () => this.#save(item, form));
-      return button;
-    });
+    const about = (form) => ({ id: `${item.key}-${form}`, textContent: form, "data-keep": item.key, "data-form": form });
+    const buttons = item.forms.map((form) => button(about(form), () => this.#save(item, form)));
     return make("li", {}, make("span", { "data-text": item.key }), make("span", { className: "buttons" }, ...buttons));
   }
 
@@ -82,10 +122,8 @@ export class Keep {
 
   /** Offer only formats that this service can write. paths: of its OpenAPI document */
   offer(paths) {
-    const types = new Set();
-    for (const calls of Object.values(paths)) {
-      for (const { responses } of Object.values(calls)) for (const type of Object.keys(responses?.[200]?.content ?? {})) types.add(type);
-    }
+    const calls = Object.values(paths).flatMap((path) => Object.values(path));
+    const types = new Set(calls.flatMap(({ responses }) => Object.keys(responses?.[200]?.content ?? {})));
     for (const button of $("#kept").querySelectorAll("button")) button.hidden = !types.has(TYPES[button.dataset.form]);
   }
 
@@ -93,8 +131,8 @@ export class Keep {
   show() {
     const wanted = $("#curl-of").value;
     const item = ITEMS.find(({ key }) => key === wanted);
-    const lines = { [SHOWN]: () => [this.#curl(this.answer()), this.#curl(this.trajectory())], [PROOF]: () => [this.#proof()] };
-    $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(this[item.ask](item.forms[0]), item)]))().join("\n");
+    const lines = { [SHOWN]: () => ["answer", "trajectory"].map((name) => this.#curl(REQUESTS[name](this.questions))), [PROOF]: () => [this.#proof()] };
+    $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(REQUESTS[item.ask](this.questions, item.forms[0]), item)]))().join("\n");
   }
 
   /** The command for a question. item: its first format goes into a file */
@@ -119,34 +157,24 @@ export class Keep {
   }
 
   async #copy(text) {
-    try {
-      await navigator.clipboard.writeText(text);
-      this.announce(() => say("copied"));
-    } catch {
-      this.announce(() => say("copyFailed"));
-    }
+    const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+    announce(() => say(copied ? "copied" : "copyFailed"));
   }
 
   async #save(item, form) {
     if (!this.questions.dance) return;
     try {
       if (item.job) return await this.#begin(item, form);
-      this.announce(() => say("making", { name: say(item.key) }), true);
-      const blob = item.ask ? await this.#asked(this[item.ask](form), form) : await this.#picture();
-      const link = make("a", { href: URL.createObjectURL(blob), download: named(item.file, form) });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-      this.announce(() => say("saved", { name: link.download }));
+      announce(() => say("making", { name: say(item.key) }), true);
+      const blob = item.ask ? await this.#asked(REQUESTS[item.ask](this.questions, form), form) : await this.#picture();
+      const name = named(item.file, form);
+      download(blob, name);
+      announce(() => say("saved", { name }));
     } catch (error) {
       // What takes too long for one answer is made as a job.
-      if (error instanceof Problem && FOR_CLIENTS.test(error.message)) this.#begin(item, form).catch((refused) => this.#told(refused));
-      else this.#told(error);
+      if (error instanceof Problem && FOR_CLIENTS.test(error.message)) this.#begin(item, form).catch(announceRefusal);
+      else announceRefusal(error);
     }
-  }
-
-  #told(error) {
-    if (error instanceof Problem) this.announce(() => refusalWords(error.message).textContent);
-    else if (!(error instanceof Superseded)) throw error;
   }
 
   async #asked({ path, asked, ...question }, form) {
@@ -156,14 +184,9 @@ export class Keep {
 
   /** Start a job; its result appears among the jobs. */
   async #begin({ ask }, form) {
-    const { path, query, body } = this[ask](form);
+    const { path, query, body } = REQUESTS[ask](this.questions, form);
     const headers = { Prefer: "respond-async", ...bearer() };
     this.jobs.add(await this.service.ask(`keep ${form}`, path, { query, body, headers, accept: `${TYPES[form]}, application/json;q=0.1` }), { question: path, over: {} });
-  }
-
-  trajectory() {
-    const { begin, end } = this.questions.dance;
-    return { path: "trajectory", body: this.questions.body({ times: { start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP } }) };
   }
 
   async #picture() {
@@ -176,78 +199,9 @@ export class Keep {
     return new Promise((resolve) => copy.toBlob(resolve, "image/png"));
   }
 
-  #figure(name, form, asked) {
-    return { path: `figures/${name}.${form.toLowerCase()}`, ...asked };
-  }
-
-  instant(form) {
-    const { begin, end } = this.questions.dance;
-    const time = Math.min(Math.max(this.state.get("time") ?? end, begin), end);
-    return this.#figure("trajectory", form, { body: this.questions.placed({ time }) });
-  }
-
-  contact(form) {
-    const { kind, query, numbers, end } = this.questions.dance;
-    // The figure of a contact shows everybody in their place: with a stray, the figure of the last shown instant replaces it.
-    if (strayOf(query) > 0) return this.#figure("trajectory", form, { body: this.questions.placed({ time: end }) });
-    const { stray, hole, pin, ...flat } = query;
-    return this.#figure("contact", form, kind === "spiral" && isPlain(this.questions.dance) ? { query: flat } : { body: this.questions.placed({ margin: numbers.margin }) });
-  }
-
-  stairs(form) {
-    return this.#figure("pitch-scan", form, this.questions.pitchOf(["margin"]));
-  }
-
-  film() {
-    const { begin, end } = this.questions.dance;
-    return { path: "films", body: this.questions.placed({ start: begin, stop: end, language: language() }) };
-  }
-
-  ground() {
-    const { begin, end } = this.questions.dance;
-    return { path: "envelope", body: this.questions.body({ start: begin, stop: end }) };
-  }
-
-  plan(paper) {
-    return { path: "plan", body: { ...this.questions.checkBody(this.questions.dance), paper, language: language() } };
-  }
-
-  map(form) {
-    const { origin } = this.questions.dance.kind === "route" ? this.state.get("drawing") : {};
-    return { path: `maps.${form.toLowerCase()}`, body: { ...this.questions.checkBody(this.questions.dance), ...(origin && { origin }) } };
-  }
-
-  /** The answer of the command; in the shown one the engines may have judged only the pair. */
-  answer() {
-    const { dance } = this.questions;
-    if (dance.kind !== "spiral") return this.verdict();
-    return { path: "collision-time", ...(isPlain(dance) ? { query: dance.query } : { body: this.questions.checkBody(dance) }) };
-  }
-
-  verdict() {
-    return { path: "check", body: this.questions.checkBody(this.questions.dance) };
-  }
-
-  pitch() {
-    return { path: "minimum-pitch", ...this.questions.pitchOf(CONTACT) };
-  }
-
-  stray() {
-    return { path: "tolerance", ...this.questions.toleranceOf() };
-  }
-
-  clearance() {
-    const { begin, end } = this.questions.dance;
-    return { path: "clearance", body: this.questions.body({ times: { start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP } }) };
-  }
-
-  paperAsked() {
-    return { path: "paper", query: { language: language() } };
-  }
-
   /** The paper's numbers beside ours, requested when the section is opened. */
   async paper() {
-    const answer = await this.service.ask("paper", "paper", this.paperAsked()).catch((error) => this.#told(error));
+    const answer = await this.service.ask("paper", "paper", REQUESTS.paper()).catch(announceRefusal);
     if (!answer) return;
     const { rows, literature } = answer;
     const head = ["paperWhat", "paperSource", "paperTheirs", "paperOurs"].map((key) => make("th", { scope: "col", "data-text": key, textContent: say(key) }));

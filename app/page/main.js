@@ -11,7 +11,7 @@ import { $, $$, onClick } from "./elements.js";
 import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
-import { announce, announceAgain, markContact, placeInset } from "./overlays.js";
+import { announce, announceAgain, lost, markContact, placeInset } from "./overlays.js";
 import { Pace, passagesText, quickened, timeOfDay } from "./pace.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
@@ -45,10 +45,7 @@ const service = new Service({
     for (const box of BUSY[channel] ?? []) $(box).setAttribute("aria-busy", busy);
     if (channel === "contact") $("main").classList.toggle("waiting", busy && Boolean(questions.dance));
   },
-  lost(seconds) {
-    $("#lost").hidden = false;
-    $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
-  },
+  lost,
   back() {
     $("#lost").hidden = true;
     announce(() => say("back"));
@@ -69,9 +66,9 @@ const benches = new BenchTable($("[data-group=dragon]"), state);
 const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
-const route = new Drawn({ state, service, questions, dance, announce, draw });
+const route = new Drawn({ state, service, questions, dance, draw });
 const { jobs, map } = new Designs(state, service, NUMBERS);
-const keep = new Keep({ state, service, questions, jobs, canvas: $("#canvas"), announce });
+const keep = new Keep({ state, service, questions, jobs, canvas: $("#canvas") });
 const grader = new Grader(service);
 let limits = {};
 let drawing = 0;
@@ -136,8 +133,7 @@ function showTable(pose) {
   const clock = state.get("start_clock");
   const time = (last ? fold : pose.time).toFixed(6);
   $("#table-time").textContent = say(last ? "tableAtFold" : "tableAt", { time }) + (clock ? ` · ${timeOfDay(pose.time, clock)}` : "");
-  $("#table-fold").hidden = fold === null;
-  $("#table-fold").textContent = fold === null ? "" : say("nearFold", { time: fold.toFixed(6) });
+  Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : say("nearFold", { time: fold.toFixed(6) }) });
 }
 
 function showTime() {
@@ -157,8 +153,7 @@ const SHOW = {
     const { answer, numbers, begin, end } = questions.dance;
     Object.assign($("#time"), { min: begin, max: end });
     markContact(answer, begin, end);
-    $("#verdict").hidden = false;
-    $("#verdict").textContent = answers.verdictWords(answer, numbers);
+    Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
     answers.showFirstContact($("#first-contact"), answer, numbers);
     answers.showEnd($("#run-end"), answer, end, numbers);
     graphs.pitch();
@@ -316,10 +311,8 @@ function listen() {
     draw();
   };
   const follow = () => state.set({ follow: !state.get("follow") });
-  onClick("#zoom-in", () => dance.view.zoom(ZOOM));
-  onClick("#zoom-out", () => dance.view.zoom(1 / ZOOM));
-  onClick("#show-all", all);
-  onClick("#follow", follow);
+  const views = { "zoom-in": () => dance.view.zoom(ZOOM), "zoom-out": () => dance.view.zoom(1 / ZOOM), "show-all": all, follow };
+  for (const [id, act] of Object.entries(views)) onClick(`#${id}`, act);
   const others = { " ": () => player.toggle(), Escape: () => state.set({ handle: null }) };
   dance.view.listen({ 0: all, f: follow, F: follow, "[": () => choose(-1), "]": () => choose(1), ...others });
 }

@@ -1,7 +1,8 @@
 /** The map of a sweep: a value over one parameter as a line, over two as colours with contours. */
 
+import { ticks } from "./charts.js";
 import { palette } from "./dance.js";
-import { $, make } from "./elements.js";
+import { $, colours, make } from "./elements.js";
 import { FIELDS } from "./state.js";
 import { say } from "./text.js";
 
@@ -10,8 +11,6 @@ const [LEFT, RIGHT, TOP, BOTTOM] = [64, 16, 12, 44];
 const LEVELS = 8;
 const TICKS = 6;
 const DIGITS = 6;
-/** Tolerance of a tick, as a part of the step between ticks: far more than rounding [1]. */
-const ROUNDING = 1e-6;
 /** Columns before the values of the answer. */
 const DESIGN = "design";
 const ERROR = "error.code";
@@ -65,14 +64,10 @@ export class SweepMap {
     const context = canvas.getContext("2d");
     Object.assign(canvas, { width: canvas.clientWidth * devicePixelRatio, height: HEIGHT * devicePixelRatio });
     context.scale(devicePixelRatio, devicePixelRatio);
-    if (!this.#table) {
-      this.reading.textContent = say("mapNone");
-      return;
-    }
+    if (!this.#table) return (this.reading.textContent = say("mapNone"));
     const { columns, over, axes } = this.#table;
     const values = columns[this.select.value];
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+    const colour = colours();
     const known = values.filter((one) => one !== null);
     const range = [Math.min(...known), Math.max(...known)];
     const frame = { left: LEFT, top: TOP, width: canvas.clientWidth - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM };
@@ -255,19 +250,12 @@ function drawLine(context, xs, values, at, colour) {
 function drawAxes(context, { left, top, width, height }, { x, y }, at, [nameX, nameY], colour) {
   Object.assign(context, { strokeStyle: colour("border"), fillStyle: colour("muted"), lineWidth: 1, font: "12px system-ui, sans-serif" });
   context.strokeRect(left, top, width, height);
-  const ticks = ({ low, high }, most) => {
-    const rough = (high - low) / most || 1;
-    const power = 10 ** Math.floor(Math.log10(rough));
-    const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough);
-    const first = Math.ceil(low / step - ROUNDING);
-    return Array.from({ length: Math.max(Math.floor(high / step + ROUNDING) - first + 1, 0) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
-  };
   context.textBaseline = "top";
   context.textAlign = "center";
-  for (const tick of ticks(x, Math.min(TICKS, Math.max(Math.floor(width / 60), 2)))) context.fillText(shown(tick), at(tick, y.low)[0], top + height + 6);
+  for (const tick of ticks([x.low, x.high], Math.min(TICKS, Math.max(Math.floor(width / 60), 2))).values) context.fillText(shown(tick), at(tick, y.low)[0], top + height + 6);
   context.fillText(nameX, left + width / 2, top + height + 24);
   Object.assign(context, { textAlign: "right", textBaseline: "middle" });
-  for (const tick of ticks(y, TICKS)) context.fillText(shown(tick), left - 6, at(x.low, tick)[1]);
+  for (const tick of ticks([y.low, y.high], TICKS).values) context.fillText(shown(tick), left - 6, at(x.low, tick)[1]);
   context.save();
   context.translate(12, top + height / 2);
   context.rotate(-Math.PI / 2);

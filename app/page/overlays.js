@@ -1,7 +1,8 @@
 /** Elements over the picture and the page: the inset, the mark of the contact, temporary messages. */
 
+import { Problem, Superseded } from "./api.js";
 import { $ } from "./elements.js";
-import { say } from "./text.js";
+import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
 const [SAID, LETTER] = [6_000, 80];
@@ -13,6 +14,12 @@ let said = 0;
 /** Gives the shown message in the language of the page. */
 let message = () => "";
 
+/** Say that the service is lost. seconds: until the next try, 0 during one */
+export function lost(seconds) {
+  $("#lost").hidden = false;
+  $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
+}
+
 /** Show a message; it disappears by itself, or on a click. words(): its text; stays: only the next message replaces it */
 export function announce(words, stays = false) {
   const box = $("#status");
@@ -21,6 +28,12 @@ export function announce(words, stays = false) {
   Object.assign(box, { textContent: words(), onclick: end });
   clearTimeout(said);
   if (!stays) said = setTimeout(end, Math.max(SAID, LETTER * box.textContent.length));
+}
+
+/** Show the refusal of a question that a person has asked, if it was refused. throws: any other error */
+export function announceRefusal(error) {
+  if (error instanceof Problem) announce(() => refusalWords(error.message).textContent);
+  else if (!(error instanceof Superseded)) throw error;
 }
 
 /** Show the message in another language. */

@@ -1,6 +1,6 @@
 /** Speeds and times of the head: passages in addition to the head speed, and the time of day at time 0. */
 
-import { make } from "./elements.js";
+import { button, make, worded } from "./elements.js";
 import { refusalWords, say } from "./text.js";
 
 const DAY = 86_400;
@@ -71,16 +71,10 @@ export class Pace {
     this.title = make("summary");
     this.list = make("ol");
     this.error = make("p", { className: "error", hidden: true });
-    const adds = [false, true].map((isPause) => {
-      const key = isPause ? "pauseAdd" : "passageAdd";
-      const add = make("button", { type: "button", id: key, "data-text": key });
-      add.addEventListener("click", () => this.#add(isPause));
-      return add;
-    });
+    const adds = ["passageAdd", "pauseAdd"].map((id) => worded(id, () => this.#add(id === "pauseAdd"), { id }));
     const help = make("p", { className: "hint", "data-text": "passagesHelp" });
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
-    this.clock = make("input", { id: "start_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error" });
-    this.clock.addEventListener("change", () => this.#start());
+    this.clock = make("input", { id: "start_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error", onchange: () => this.#start() });
     this.wrong = make("p", { id: "clock-error", className: "error", hidden: true, "data-text": "clockWrong" });
     const label = make("label", { className: "starts" }, make("span", { "data-text": "start_clock" }), " ", this.clock);
     field.after(make("div", { id: "pace" }, box, label, this.wrong));
@@ -113,14 +107,15 @@ export class Pace {
   }
 
   #row() {
-    const number = (key) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key) });
-    const unit = make("select", { "data-label": "passageUnit", "aria-label": say("passageUnit") }, ...Object.keys(ENDS).map((one) => new Option(one, one)));
-    const remove = make("button", { type: "button", className: "reset", textContent: "✕", "data-label": "passageRemove", "aria-label": say("passageRemove") });
-    const row = { until: number("passageUntil"), unit, speed: number("passageSpeed"), remove };
-    const said = (key) => make("span", { "data-text": key, textContent: say(key) });
-    row.box = make("li", {}, said("passageUntilWord"), row.until, unit, row.speed, make("span", { className: "unit", textContent: "m/s" }), remove);
-    for (const field of [row.until, unit, row.speed]) field.addEventListener("change", () => this.state.set({ passages: this.#typed.join("_") }));
-    remove.addEventListener("click", () => this.state.set({ passages: this.#typed.toSpliced(this.#rows.indexOf(row), 1).join("_") }));
+    const label = (key) => ({ "data-label": key, "aria-label": say(key) });
+    const onchange = () => this.state.set({ passages: this.#typed.join("_") });
+    const number = (key) => make("input", { inputMode: "decimal", autocomplete: "off", onchange, ...label(key) });
+    const unit = make("select", { onchange, ...label("passageUnit") }, ...Object.keys(ENDS).map((one) => new Option(one, one)));
+    const drop = () => this.state.set({ passages: this.#typed.toSpliced(this.#rows.indexOf(row), 1).join("_") });
+    const remove = button({ className: "reset", textContent: "✕", ...label("passageRemove") }, drop);
+    const row = { until: number("passageUntil"), unit, speed: number("passageSpeed") };
+    const word = make("span", { "data-text": "passageUntilWord", textContent: say("passageUntilWord") });
+    row.box = make("li", {}, word, row.until, unit, row.speed, make("span", { className: "unit", textContent: "m/s" }), remove);
     return row;
   }
 

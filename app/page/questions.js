@@ -42,9 +42,9 @@ function speedTimes({ begin, end, numbers: { benches } }) {
 }
 
 /** The last shown instant: first contact, or the time until which nothing touches. */
-function lastInstant({ time, time_bracket, end }) {
-  return time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
-}
+const lastInstant = ({ time, time_bracket, end }) => time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
+
+const picked = (from, names) => Object.fromEntries(names.map((name) => [name, from[name]]));
 
 /** True if its numbers describe a dance completely, so that a query can ask about it on a spiral. */
 export const isPlain = ({ said: { csv, passages } }) => !csv && !passages.length;
@@ -92,11 +92,10 @@ export class Questions {
     const numbers = numbersOf(query);
     numbers.top_speed = Math.max(numbers.head_speed, ...said.passages.map(({ speed }) => Number(speed) || 0));
     const { listed } = said;
-    if (listed) {
-      const { lengths, widths, overhangs: [overhang] } = listed;
-      Object.assign(numbers, { listed, benches: lengths.length, head_length: lengths[0], body_length: Math.max(...lengths), width: Math.max(...widths), overhang });
-    }
-    return { kind, query, numbers, said };
+    if (!listed) return { kind, query, numbers, said };
+    const { lengths, widths, overhangs: [overhang] } = listed;
+    const own = { listed, benches: lengths.length, head_length: lengths[0], body_length: Math.max(...lengths), width: Math.max(...widths), overhang };
+    return { kind, query, numbers: { ...numbers, ...own }, said };
   }
 
   /** A question over these numbers: a query, or a body with the table of benches. */
@@ -125,19 +124,17 @@ export class Questions {
 
   /** The request about the present drawing. */
   drawn() {
-    const query = this.state.texts([...DRAGON, "head_speed", ...CONTACT]);
-    const { numbers, said } = this.#asking("route", query);
-    return { kind: "route", query, numbers: { ...numbers, drawn: true }, said, drawing: this.state.get("drawing") };
+    const asking = this.#asking("route", this.state.texts([...DRAGON, "head_speed", ...CONTACT]));
+    return { ...asking, numbers: { ...asking.numbers, drawn: true }, drawing: this.state.get("drawing") };
   }
 
   /** Body of a request about a dance; default: the shown dance. */
   body(more, { numbers, kind, drawing, said: { csv, passages, clock } } = this.dance) {
-    const dragon = csv ? { csv } : Object.fromEntries(DRAGON.map((name) => [name, numbers[name]]));
+    const dragon = csv ? { csv } : picked(numbers, DRAGON);
     const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }) };
     if (kind === "route") return { dragon, path: pathOf(drawing), ...pace, ...more };
-    const path = { kind, pitch: numbers.pitch, start_turns: numbers.start_turns };
-    if (kind === "turn") for (const name of TURN) path[name] = numbers[name];
-    return { dragon, path, ...pace, ...more };
+    const names = ["pitch", "start_turns", ...(kind === "turn" ? TURN : [])];
+    return { dragon, path: { kind, ...picked(numbers, names) }, ...pace, ...more };
   }
 
   /** Body of a request about the dance shown, in the square that is drawn. */
@@ -148,8 +145,7 @@ export class Questions {
 
   /** Body of /check: a spiral is danced to its end. */
   checkBody(asked) {
-    const contact = Object.fromEntries(CONTACT.map((name) => [name, asked.numbers[name]]));
-    return this.body({ ...contact, ...this.#stretch(asked) }, asked);
+    return this.body({ ...picked(asked.numbers, CONTACT), ...this.#stretch(asked) }, asked);
   }
 
   /** The shown part of a turn, whose coils have no end; a spiral is shown to its end, a drawn path in its place. */
@@ -182,18 +178,15 @@ export class Questions {
       const question = isPlain(asked) ? { query: { ...asked.query, ...QUICK } } : { body: { ...this.checkBody(asked), ...QUICK } };
       const answer = await this.#answer("contact", "collision-time", question);
       if (answer) this.#accept({ ...asked, answer, begin: 0, end: lastInstant(answer) });
-    } else if (asked.kind === "route") {
-      const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...VERDICT } });
-      if (!report) return;
-      const { failures, verdict, start: begin, stop, first_contact: answer } = report;
-      const end = answer.time === null ? { reason: "path", time: stop } : null;
-      this.#accept({ ...asked, answer: { ...answer, end }, begin, end: answer.time ?? stop - BEFORE_END, failures, verdict });
-    } else {
-      const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...QUICK } });
-      if (!report) return;
-      const answer = { ...report.first_contact, end: null };
-      this.#accept({ ...asked, answer, begin: report.start, end: answer.time ?? report.stop, report });
+      return;
     }
+    const isRoute = asked.kind === "route";
+    const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...(isRoute ? VERDICT : QUICK) } });
+    if (!report) return;
+    const { failures, verdict, start: begin, stop, first_contact: found } = report;
+    const answer = { ...found, end: isRoute && found.time === null ? { reason: "path", time: stop } : null };
+    const last = isRoute ? stop - BEFORE_END : stop;
+    this.#accept({ ...asked, answer, begin, end: answer.time ?? last, ...(isRoute ? { failures, verdict } : { report }) });
   }
 
   #accept(dance) {
@@ -211,7 +204,7 @@ export class Questions {
     const start = begin - (numbers.head_length + numbers.benches * numbers.body_length) / numbers.head_speed;
     const step = Math.max(PATH_STEP / numbers.top_speed, (end - start) / PATH_SAMPLES);
     const body = this.body({ times: { start, stop: end, step }, decimals: 4 });
-    body.dragon = { ...Object.fromEntries(DRAGON.map((name) => [name, numbers[name]])), benches: 1 };
+    body.dragon = { ...picked(numbers, DRAGON), benches: 1 };
     const table = await this.#answer("path", "trajectory", { body });
     if (table) this.tell("path", { x: table.x.map((row) => row[0]), y: table.y.map((row) => row[0]) });
   }
@@ -304,7 +297,7 @@ export class Questions {
   /** The request for a clearance: a query on a spiral, where more benches are allowed; a body on other paths. */
   #clearanceOf(dance, start, stop, step) {
     if (dance.kind !== "spiral" || !isPlain(dance)) return { body: this.body({ times: { start, stop, step } }) };
-    return { query: { ...Object.fromEntries(MOTION.map((name) => [name, dance.query[name]])), start, stop, step } };
+    return { query: { ...picked(dance.query, MOTION), start, stop, step } };
   }
 
   #startTrack(dance) {
@@ -340,11 +333,10 @@ export class Questions {
       if (this.refusals.delete(channel)) this.tell("refused");
       return answer;
     } catch (error) {
-      if (error instanceof Superseded) return undefined;
+      if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
       this.refusals.set(channel, error);
       this.tell("refused");
-      return undefined;
     }
   }
 }

@@ -1,7 +1,7 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
 import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
-import { $, hide, make } from "./elements.js";
+import { button, hide, make } from "./elements.js";
 import { PRESETS } from "./presets.js";
 import { say } from "./text.js";
 
@@ -10,11 +10,9 @@ const read = (field) => (NUMBER.test(field.value.trim()) ? Number(field.value.tr
 /** An element with a text, or a label, that follows the language. */
 const said = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
 const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
-const number = (key, act) => {
-  const field = labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false });
-  field.addEventListener("change", () => act(read(field)));
-  return field;
-};
+const number = (key, act) => labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange: ({ target }) => act(read(target)) });
+const unitOf = (textContent) => make("span", { className: "unit", textContent });
+const removing = { className: "reset", textContent: "✕" };
 /** Show a value unless a person is typing there. */
 const put = (field, value) => {
   if (document.activeElement !== field && field.value !== String(value)) field.value = value;
@@ -27,21 +25,17 @@ export class RouteForm {
   /** editor: chooses the edited item; steps: receives changes; files: {open, save, map} */
   constructor(box, state, steps, editor, files) {
     Object.assign(this, { box, state, steps, editor });
-    this.preset = labelled("select", "preset", { id: "preset" });
-    this.preset.append(said("option", "presetChoose", { value: "" }), said("option", "preset_empty", { value: "empty" }), ...Object.keys(PRESETS).map((name) => said("option", `preset_${name}`, { value: name })));
-    this.preset.addEventListener("change", () => this.beginWith(this.preset.value));
+    this.preset = labelled("select", "preset", { id: "preset", onchange: () => this.beginWith(this.preset.value) });
+    this.preset.append(said("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => said("option", `preset_${name}`, { value: name })));
     this.corner = number("cornerRadius", (radius) => radius > 0 && this.#take({ radius }));
     this.limit = number("speedLimit", (limit) => this.#take({ limit: limit > 0 ? limit : null }));
     this.begin = number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
     this.origin = ["latitude", "longitude"].map((key) => number(key, () => this.#placed()));
-    this.rows = make("tbody");
-    this.list = make("ul");
-    this.pointsTitle = make("summary");
-    this.thingsTitle = make("summary");
+    [this.rows, this.list, this.pointsTitle, this.thingsTitle] = ["tbody", "ul", "summary", "summary"].map((tag) => make(tag));
     this.note = make("p", { className: "hint", id: "route-note", role: "status" });
     const heads = ["knotNumber", "x", "y", "straightOn", "remove"].map((key) => (key.length === 1 ? make("th", { scope: "col", textContent: `${key} [m]` }) : said("th", key, { scope: "col" })));
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);
-    const field = (key, input, unit) => make("label", { className: "line" }, said("span", key), input, make("span", { className: "unit", textContent: unit }));
+    const field = (key, input, unit) => make("label", { className: "line" }, said("span", key), input, unitOf(unit));
     box.append(
       make("p", { className: "buttons" }, this.preset, ...files.buttons()),
       this.note,
@@ -49,7 +43,7 @@ export class RouteForm {
       (this.cornerLine = field("cornerRadius", this.corner, "m")),
       field("pathBegin", this.begin, "m"),
       (this.later = make("p", { className: "hint", hidden: true }, make("span"), " ", make("button", { type: "button" }))),
-      make("p", { className: "line" }, said("span", "origin"), ...this.origin, make("span", { className: "unit", textContent: "°" })),
+      make("p", { className: "line" }, said("span", "origin"), ...this.origin, unitOf("°")),
       make("details", { id: "points" }, this.pointsTitle, table),
       make("details", { id: "things", open: true }, this.thingsTitle, this.list, said("p", "thingsHelp", { className: "hint" })),
     );
@@ -135,32 +129,29 @@ export class RouteForm {
     const fields = ["pointX", "pointY"].map((key, axis) =>
       number(key, (value) => value !== null && this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
     );
-    const leg = labelled("input", "straightOn", { type: "checkbox" });
-    leg.addEventListener("change", () => this.steps.take(bent(this.#drawing, k)));
-    const remove = labelled("button", "remove", { type: "button", className: "reset", textContent: "✕" });
-    remove.addEventListener("click", () => this.steps.take(removed(this.#drawing, null, k)));
+    const leg = labelled("input", "straightOn", { type: "checkbox", onchange: () => this.steps.take(bent(this.#drawing, k)) });
+    const remove = labelled("button", "remove", { type: "button", ...removing, onclick: () => this.steps.take(removed(this.#drawing, null, k)) });
     const cells = [...fields, make("label", { className: "tap" }, leg), remove].map((part) => make("td", {}, part));
     return { fields, leg, box: make("tr", {}, make("th", { scope: "row", textContent: k + 1 }), ...cells) };
   }
 
   #thingRow(k) {
-    const row = {
-      edit: make("button", { type: "button" }),
-      name: labelled("input", "thingName", { autocomplete: "off", spellcheck: false }),
-      radius: number("thingRadius", (radius) => radius > 0 && this.steps.take(withThing(this.#drawing, k, { radius }))),
-      unit: make("span", { className: "unit", textContent: "m" }),
-      remove: make("button", { type: "button", className: "reset", textContent: "✕" }),
-    };
-    row.edit.addEventListener("click", () => {
+    const edit = () => {
       this.editor.turn(true);
       this.editor.edit(this.editor.item === k ? null : k);
-    });
-    row.name.addEventListener("change", () => {
+    };
+    const rename = ({ target }) => {
       const { things } = this.#drawing;
-      const name = row.name.value.trim() || say(`thing_${things[k].kind}`);
+      const name = target.value.trim() || say(`thing_${things[k].kind}`);
       this.steps.take(withThing(this.#drawing, k, { name: freeName(things, name, things[k]) }));
-    });
-    row.remove.addEventListener("click", () => this.steps.take({ ...this.#drawing, things: this.#drawing.things.toSpliced(k, 1) }));
+    };
+    const row = {
+      edit: button({}, edit),
+      name: labelled("input", "thingName", { autocomplete: "off", spellcheck: false, onchange: rename }),
+      radius: number("thingRadius", (radius) => radius > 0 && this.steps.take(withThing(this.#drawing, k, { radius }))),
+      unit: unitOf("m"),
+      remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(k, 1) })),
+    };
     row.box = make("li", {}, row.edit, row.name, row.radius, row.unit, row.remove);
     return row;
   }

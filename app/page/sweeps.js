@@ -16,10 +16,7 @@ export const QUESTIONS = {
   maximum_head_speed: { parameters: [...CIRCLE, "pitch"], value: "head_speed", path: "turn" },
 };
 /** First values of the form: parameter, from, to, count. */
-const FIRST = [
-  ["pitch", 0.45, 0.6, 31],
-  ["width", 0.25, 0.35, 11],
-];
+const FIRST = [["pitch", 0.45, 0.6, 31], ["width", 0.25, 0.35, 11]];
 const COUNT_MAX = 200;
 const NONE = "";
 
@@ -30,13 +27,12 @@ export class SweepForm {
   constructor(form, state, start) {
     Object.assign(this, { state, start });
     const options = Object.keys(QUESTIONS).map((name) => make("option", { value: name, "data-text": `sweep_${name}` }));
-    this.question = make("select", { id: "sweep-question" }, ...options);
+    this.question = make("select", { id: "sweep-question", onchange: () => this.#offer() }, ...options);
     this.#rows = FIRST.map((first, k) => this.#row(k, first));
     this.error = make("p", { id: "sweep-error", className: "error", role: "alert" });
     const go = make("button", { className: "main", "data-text": "sweepStart" });
     const label = make("label", { htmlFor: "sweep-question", "data-text": "sweepQuestion" });
     form.append(make("p", {}, label, " ", this.question), ...this.#rows.map(({ box }) => box), make("p", {}, go), this.error);
-    this.question.addEventListener("change", () => this.#offer());
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       this.#submit();
@@ -45,11 +41,10 @@ export class SweepForm {
   }
 
   #row(k, [name, from, to, count]) {
-    const number = (key, value, more = {}) =>
-      make("input", { id: `sweep-${key}-${k}`, type: "number", step: "any", required: true, value, "data-label": key, ...more });
+    const number = (key, value, more = {}) => make("input", { id: `sweep-${key}-${k}`, type: "number", step: "any", required: true, value, "data-label": key, ...more });
     const row = {
       k,
-      name: make("select", { id: `sweep-name-${k}`, "data-label": "sweepParameter" }),
+      name: make("select", { id: `sweep-name-${k}`, "data-label": "sweepParameter", onchange: ({ target }) => this.#choose(row, target.value) }),
       from: number("sweepFrom", from),
       to: number("sweepTo", to),
       count: number("sweepCount", count, { step: 1, min: 2, max: COUNT_MAX }),
@@ -59,7 +54,6 @@ export class SweepForm {
     const part = (key) => make("label", { htmlFor: row[key].id }, make("span", { "data-text": row[key].dataset.label }), row[key]);
     row.numbers = ["from", "to", "count"].map(part);
     row.box = make("fieldset", {}, legend, make("div", { className: "axis" }, row.name, ...row.numbers));
-    row.name.addEventListener("change", () => this.#choose(row, row.name.value));
     return row;
   }
 
@@ -100,12 +94,10 @@ export class SweepForm {
     const [first, second] = this.#rows.map((row) => row.wanted);
     this.error.textContent = first === second ? say("sweepTwice") : "";
     if (this.error.textContent) return;
-    try {
-      await this.start(this.spec());
-    } catch (error) {
+    await this.start(this.spec()).catch((error) => {
       if (!error.errors) throw error;
       Object.assign(this.error, refusalWords(error.message));
-    }
+    });
   }
 }
 

@@ -39,6 +39,17 @@ export class View {
     return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];
   }
 
+  /** Number of the point of {x, y} [m] nearest to a place [px], within a distance [px]; null without one. */
+  nearest({ x, y }, px, py, reach) {
+    let [best, least] = [null, reach];
+    x.forEach((one, k) => {
+      const [sx, sy] = this.toScreen(one, y[k]);
+      const far = Math.hypot(sx - px, sy - py);
+      if (far < least) [best, least] = [k, far];
+    });
+    return best;
+  }
+
   /** Show these bounds completely, [x min, y min, x max, y max]. */
   fit([left, bottom, right, top]) {
     const side = this.width < NARROW ? BUTTONS : 0;
@@ -49,6 +60,14 @@ export class View {
 
   set(x, y, scale = this.scale, fitted = false) {
     Object.assign(this, { x, y, scale: within(scale), fitted });
+  }
+
+  /** Move the view to a point that is outside. */
+  reveal(x, y) {
+    const [px, py] = this.toScreen(x, y);
+    if (px >= 0 && py >= 0 && px <= this.width && py <= this.height) return;
+    this.set(x, y);
+    this.moved(true);
   }
 
   zoom(factor, px = this.width / 2, py = this.height / 2) {

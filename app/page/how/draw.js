@@ -1,5 +1,6 @@
 /** Pictures in metres and charts of the service's answers, as SVG. */
 
+import { ticks } from "../charts.js";
 import { addGround } from "../dance.js";
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
@@ -8,14 +9,6 @@ const PIECE = 0.05;
 /** Margins of a chart [px]: left, right, top, bottom; approximate distance of ticks [px]. */
 const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 14, 42];
 const TICKS = { x: 90, y: 48 };
-
-/** An element of SVG with these attributes and children. */
-function shape(tag, attributes = {}, ...children) {
-  const element = document.createElementNS(NAMESPACE, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-}
 
 const joined = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
 
@@ -36,18 +29,21 @@ class Sheet {
     return part;
   }
 
+  /** Add an element of SVG with these attributes and children. */
   add(tag, attributes, ...children) {
-    const element = shape(tag, attributes, ...children);
+    const element = document.createElementNS(NAMESPACE, tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    element.append(...children);
     this.layer.append(element);
     return element;
   }
 
-  line(points, className) {
-    this.add("polyline", { class: className, points: joined(points.map((point) => this.at(...point))) });
+  line(points, className, tag = "polyline") {
+    this.add(tag, { class: className, points: joined(points.map((point) => this.at(...point))) });
   }
 
   area(points, className) {
-    this.add("polygon", { class: className, points: joined(points.map((point) => this.at(...point))) });
+    this.line(points, className, "polygon");
   }
 
   dot(x, y, className, r = 4) {
@@ -123,15 +119,10 @@ export class Picture extends Sheet {
   }
 }
 
-/** Round numbers in a range, with a largest count. */
-function ticks([low, high], most) {
-  const rough = (high - low) / Math.max(most, 1);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= rough);
-  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  const first = Math.ceil(low / step - 1e-9);
-  const count = Math.floor(high / step + 1e-9) - first + 1;
-  return Array.from({ length: count }, (_, k) => ((first + k) * step).toFixed(decimals).replace(/^-0$/, "0"));
+/** Round numbers in a range as texts, with a largest count. */
+function marksOf(range, most) {
+  const { values, decimals } = ticks(range, Math.max(most, 1));
+  return values.map((value) => value.toFixed(decimals).replace(/^-0$/, "0"));
 }
 
 export class Chart extends Sheet {
@@ -140,12 +131,12 @@ export class Chart extends Sheet {
     super(svg, box);
     Object.assign(this, { x, y });
     const [right, bottom] = [this.width - RIGHT, this.height - BOTTOM];
-    for (const tick of ticks(y, (bottom - TOP) / TICKS.y)) {
+    for (const tick of marksOf(y, (bottom - TOP) / TICKS.y)) {
       const [, py] = this.at(x[0], Number(tick));
       this.add("path", { class: Number(tick) ? "grid" : "zero", d: `M${LEFT} ${py}H${right}` });
       this.add("text", { class: "tick right", x: LEFT - 6, y: py + 4 }, tick);
     }
-    for (const tick of ticks(x, (right - LEFT) / TICKS.x)) {
+    for (const tick of marksOf(x, (right - LEFT) / TICKS.x)) {
       const [px] = this.at(Number(tick), y[0]);
       this.add("path", { class: "grid", d: `M${px} ${bottom}v4` });
       this.add("text", { class: "tick middle", x: px, y: bottom + 16 }, tick);

@@ -1,7 +1,7 @@
 /** A figure with its sentences: a person drags their numbers, the service answers, and the figure is drawn. */
 
 import { Problem, Superseded } from "../api.js";
-import { make } from "../elements.js";
+import { button, make } from "../elements.js";
 import { refusalWords } from "../text.js";
 import { Dial } from "./dial.js";
 
@@ -57,25 +57,18 @@ export class Figure {
   }
 
   #sentence(text) {
-    return text.split(NAMES).reduce((parts, piece, k, all) => {
-      if (k % EVERY_THIRD === 0) parts.push(piece);
-      if (k % EVERY_THIRD === 1) parts.push(this.#number(piece, all[k + 1]));
-      return parts;
-    }, []);
+    const pieces = text.split(NAMES);
+    return pieces.flatMap((piece, k) => (k % EVERY_THIRD === 0 ? piece : k % EVERY_THIRD === 1 ? this.#number(piece, pieces[k + 1]) : []));
   }
 
   #number(name, value) {
     const dial = this.dials[name];
     if (!dial) {
-      const output = make("span", { className: "output", textContent: "…" });
-      output.dataset.name = name;
-      this.#outputs.set(name, output);
-      return output;
+      this.#outputs.set(name, make("span", { className: "output", textContent: "…", "data-name": name }));
+      return this.#outputs.get(name);
     }
     if (value === undefined) return dial.element;
-    const button = make("button", { type: "button", className: "try", textContent: dial.words(Number(value)) });
-    button.addEventListener("click", () => dial.set(Number(value)));
-    return button;
+    return button({ className: "try", textContent: dial.words(Number(value)) }, () => dial.set(Number(value)));
   }
 
   /** Ask the service about the present numbers. */
@@ -85,8 +78,7 @@ export class Figure {
     this.figure.setAttribute("aria-busy", "true");
     try {
       const answer = await this.plan.ask((call, how) => this.service.ask(`${id} ${call}`, call, how), values);
-      Object.assign(this, { data: { ...answer, values } });
-      this.#refused = null;
+      [this.data, this.#refused] = [{ ...answer, values }, null];
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
@@ -125,10 +117,10 @@ export class Figure {
   draw() {
     const { svg, data, plan, word } = this;
     if (!data || svg.clientWidth < NARROWEST) return;
-    const height = Math.round(Math.min(Math.max(TALL * svg.clientWidth, LOWEST), HIGHEST));
+    const width = svg.clientWidth;
+    const height = Math.round(Math.min(Math.max(TALL * width, LOWEST), HIGHEST));
     svg.setAttribute("height", height);
     svg.replaceChildren();
-    const width = svg.clientWidth;
     this.sheet = plan.draw(svg, { width, height }, data, word);
     // On paper the drawing is scaled.
     svg.setAttribute("viewBox", `0 0 ${width} ${svg.getAttribute("height")}`);

@@ -2,6 +2,7 @@
 
 import { Service } from "../api.js";
 import { $, $$, onClick } from "../elements.js";
+import { lost } from "../overlays.js";
 import { say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
@@ -16,8 +17,7 @@ const word = (key, values = {}) => WORDS[key][column].replace(/\{(\w+)\}/g, (who
 const service = new Service({
   busy: () => {},
   lost(seconds) {
-    $("#lost").hidden = false;
-    $("#lost span").textContent = say(seconds ? "lost" : "trying", { seconds });
+    lost(seconds);
     for (const figure of figures) figure.lost(word(seconds ? "lost" : "trying", { seconds }));
   },
   back() {

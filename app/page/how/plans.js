@@ -103,11 +103,8 @@ const stairs = {
 };
 
 function drawStairs(chart) {
-  if (!scan.whole) {
-    scan.pitch.forEach((pitch, k) => chart.dot(pitch, scan.radius[k], "sample", 1.5));
-    return;
-  }
   const samples = scan.pitch.map((pitch, k) => [pitch, scan.radius[k]]);
+  if (!scan.whole) return samples.forEach((sample) => chart.dot(...sample, "sample", 1.5));
   for (const stretch of staircase(samples, scan.pieces, scan.jumps)) chart.line(stretch, "curve");
   for (const { pitch, radius } of scan.jumps) chart.line([[pitch[0], radius[0]], [pitch[1], radius[1]]], "jump");
 }

@@ -31,7 +31,6 @@ export const DANCE = {
   legend: ["Speed over the whole dance", "把手速度（全程）"],
   scale: ["{metres} m", "{metres} m"],
   contactMark: ["First contact, at {time} s", "首次碰撞：{time} s"],
-  verdictGo: ["To the answers", "查看结果"],
   halo: ["Band: where a bench may be", "色带：板凳可能到达之处"],
   allEqual: ["all equal", "全部相等"],
   insetTitle: ["Where the two benches are nearest, enlarged", "两节板凳最近处放大"],
