@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.plan.sheet import Box, Sheet
+from app.plan.sheet import Sheet
 
 # Height of a row and of a heading [mm], type of rows and of headings [pt], space between columns and blocks [mm].
 ROW, HEADING = 4.0, 7.0
@@ -42,28 +42,23 @@ def widths_of(sheet: Sheet, table: Table) -> list[float]:
 
 def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list[Sheet]:
     """Draw tables in order, in blocks side by side, on as many sheets as they need."""
-    sheets: list[Sheet] = []
-    room: Box = (0.0, 0.0, 0.0, 0.0)
-    x = y = right = 0.0
+    sheets = [new_sheet()]
+    room = sheets[0].paper.room
+    left, bottom, most, top = room[0] + 3.0, room[1] + 3.0, room[2] - 3.0, room[3] - 3.0
+    x, y, right = left, top, left
     for table in tables:
-        done, widths = 0, list[float]()
+        done, widths = 0, widths_of(sheets[0], table)
+        wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
         while done < len(table.rows):
-            if not sheets:
-                sheets.append(new_sheet())
-                left, bottom, most, top = sheets[-1].paper.room
-                room = (left + 3.0, bottom + 3.0, most - 3.0, top - 3.0)
-                x, y, right = room[0], room[3], room[0]
-            widths = widths or widths_of(sheets[-1], table)
-            wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
-            fits = int((y - room[1] - HEADING - ROW) / ROW)
-            if fits < min(ROWS_LEAST, len(table.rows) - done) or x + wide > room[2] + 0.01:
-                if y == room[3] and x == room[0]:
+            fits = int((y - bottom - HEADING - ROW) / ROW)
+            if fits < min(ROWS_LEAST, len(table.rows) - done) or x + wide > most + 0.01:
+                if y == top and x == left:
                     fits = max(1, fits)  # A table wider than a sheet fits on no new sheet either.
                 else:
-                    x, y = right + BLOCK_SPACE, room[3]
-                    if x + wide > room[2]:
+                    x, y = right + BLOCK_SPACE, top
+                    if x + wide > most:
                         sheets.append(new_sheet())
-                        x, y, right = room[0], room[3], room[0]
+                        x, y, right = left, top, left
                     continue
             left_over = len(table.rows) - done - fits
             if 0 < left_over < ROWS_LEAST < fits:  # Avoid a block of only a row or two.
