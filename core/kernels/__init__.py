@@ -1,8 +1,8 @@
 """The compiled loops, in Cython's pure-Python mode: the same files run uncompiled, slower, to the same digits.
 
 Only loops live here; everything around them is NumPy. The .pxd beside each module gives the C types of functions, of
-their integer locals, and of names from other modules. The compiler infers the types of floating-point locals, and it
-refuses Python objects inside loops. `setup.py` compiles all modules or none.
+integer locals with which they calculate, and of names from other modules. The compiler infers the types of all other
+locals, and it refuses Python objects inside loops. `setup.py` compiles all modules or none.
 
 Bisections share halved() of fold.py. clear_radius(), Peak.refine(), crossing() and seek_rear() halve in loops of their
 own, because what they test takes more than two numbers and goes on between the halvings: clear_radius() through

@@ -3,11 +3,9 @@ cimport cython
 # volatile: another thread writes it while a loop without Python's lock reads it
 @cython.final
 cdef class Budget:
-    cdef public double left
-    cdef public double work
+    cdef public double left, work
     cdef public volatile bint stopped
-    cdef public bint brief
-    cdef public bint limited
+    cdef public bint brief, limited
     cdef public Budget part
     cdef public str then
 

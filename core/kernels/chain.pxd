@@ -8,38 +8,25 @@ from core.kernels.rounding cimport route_rounding, spiral_rounding
 cdef class Curve:
     cdef readonly bint is_spiral
     cdef readonly double growth
-    cdef const double[:, ::1] pieces
+    cdef Pieces pieces
 
 cpdef Curve spiral_curve(double growth)
-cpdef Curve route_curve(const double[:, ::1] pieces)
-
-cpdef void start_chain(double theta, double[:, ::1] chain) noexcept nogil
+cpdef Curve route_curve(Pieces pieces)
+cpdef void start_chain(double theta, Rows chain) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t)
 cpdef Py_ssize_t extend_chain(
-    double growth, Py_ssize_t first, Py_ssize_t last, double radius, double[:, ::1] sizes, double[:, ::1] chain
+    double growth, Py_ssize_t first, Py_ssize_t last, double radius, Rows sizes, Rows chain
 ) noexcept nogil
 
-cdef Py_ssize_t extend(
-    Curve curve, Py_ssize_t first, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
-) noexcept nogil
+cdef Py_ssize_t extend(Curve curve, Py_ssize_t first, Py_ssize_t last, Rows sizes, Rows chain) noexcept nogil
+cdef void start(Curve curve, double place, Rows chain) noexcept nogil
+cpdef Py_ssize_t place_chain(Curve curve, double place, Py_ssize_t last, Rows sizes, Rows chain) noexcept nogil
+cpdef void chain_rounding(Curve curve, Py_ssize_t last, Rows sizes, Rows chain) noexcept nogil
+cpdef double route_tail(Pieces pieces, double s, Py_ssize_t benches, Rows sizes, Rows chain) noexcept nogil
 
-cdef void start(Curve curve, double place, double[:, ::1] chain) noexcept nogil
-
-cpdef Py_ssize_t place_chain(
-    Curve curve, double place, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
-) noexcept nogil
-
-cpdef void chain_rounding(
-    Curve curve, Py_ssize_t last, double[:, ::1] sizes, double[:, ::1] chain
-) noexcept nogil
-
-cpdef double route_tail(
-    const double[:, ::1] pieces, double s, Py_ssize_t benches, double[:, ::1] sizes, double[:, ::1] chain
-) noexcept nogil
-
-@cython.locals(row=cython.Py_ssize_t, k=cython.Py_ssize_t, last=cython.Py_ssize_t)
+@cython.locals(last=cython.Py_ssize_t)
 cpdef void route_trajectory(
-    const double[:, ::1] pieces, double[::1] s, double head_speed, double[:, ::1] sizes, double[:, ::1] chain,
-    double[:, :, ::1] position, double[:, :, ::1] velocity, double[:, ::1] speed
+    Pieces pieces, double[::1] s, double head_speed, Rows sizes, Rows chain, Tables position, Tables velocity,
+    Rows speed
 ) noexcept

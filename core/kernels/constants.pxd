@@ -53,3 +53,8 @@ cdef enum Step:
 
 cdef enum Judged:
     KEPT = 0, EXCEEDED = 1, GIVEN_UP = 2
+
+# The loops' arrays: rows of the columns above; a table of pieces; instants, handles, and x and y.
+ctypedef double[:, ::1] Rows
+ctypedef const double[:, ::1] Pieces
+ctypedef double[:, :, ::1] Tables

@@ -7,15 +7,11 @@ from core.kernels.scene cimport Interval, Scene
 cdef class Excess:
     cdef Interval interval
     cdef double calm
-    cdef readonly double proven
-    cdef readonly double found
+    cdef readonly double proven, found
     cdef readonly Py_ssize_t handle
     cdef readonly double rate
 
-    @cython.locals(
-        scene=Scene, placed=cython.Py_ssize_t, links=cython.Py_ssize_t, k=cython.Py_ssize_t, opened=cython.bint,
-        outcome=Judged
-    )
+    @cython.locals(scene=Scene, links=cython.Py_ssize_t, opened=cython.bint)
     cpdef object run(
         self, double start, double stop, double step, double limit, double kept, double width, double rounding,
         Py_ssize_t most_links

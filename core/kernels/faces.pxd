@@ -6,15 +6,11 @@ from core.kernels.hulls cimport nearest_corner, nearest_hulls, uphill, view_of
 from core.kernels.records cimport Axis, Curvatures, Corner, Faced, Hulls, View, Views
 from core.kernels.scene cimport Band, Interval, Scene
 
-@cython.locals(
-    edge=cython.bint, n=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
-    k=cython.Py_ssize_t, start=View, end=View, hulls=Hulls, swapped=Hulls, axis=Axis
-)
+@cython.locals(edge=cython.bint, n=cython.Py_ssize_t)
 cdef double hulls_least(
     Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double enough, double curvature, double curvature_back
 ) noexcept nogil
 
-@cython.locals(k=cython.Py_ssize_t, start=View, end=View, axis=Axis)
 cdef double swapped_least(
     Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, Hulls hulls, double curvature, double enough
 ) noexcept nogil
@@ -23,34 +19,23 @@ cdef double face_along(
     Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double curvature, double h
 ) noexcept nogil
 
-@cython.locals(axis=Axis)
 cdef double face_least(
     Kinds kinds, View start, View end, Hulls hulls, Py_ssize_t k, double curvature, double h, double enough
 ) noexcept nogil
 
-@cython.locals(
-    faced=Faced, i=cython.Py_ssize_t, j=cython.Py_ssize_t, hulls=Hulls, view=View, at=Corner
-)
-cdef double hulls_most(
-    Scene scene, Interval interval, Py_ssize_t a, Py_ssize_t b, double distance
-) noexcept nogil
-
+@cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t)
+cdef double hulls_most(Scene scene, Interval interval, Py_ssize_t a, Py_ssize_t b, double distance) noexcept nogil
 cdef Views views_of(Py_ssize_t i, Py_ssize_t j, Band band) noexcept nogil
 
-@cython.locals(
-    curvatures=Curvatures, curvatures_back=Curvatures, n=cython.Py_ssize_t, own=cython.Py_ssize_t, other=cython.Py_ssize_t,
-    k=cython.Py_ssize_t, views=Views, hulls=Hulls
-)
+@cython.locals(n=cython.Py_ssize_t)
 cdef double band_hulls(
     Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double enough, double distance
 ) noexcept nogil
 
-@cython.locals(views=Views)
 cdef double band_swapped(
     Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, Hulls hulls, Curvatures curvatures, double enough
 ) noexcept nogil
 
-@cython.locals(axis=Axis)
 cdef double band_face(
     Scene scene, Band band, Views views, Hulls hulls, Py_ssize_t k, Curvatures curvatures, double enough
 ) noexcept nogil

@@ -10,27 +10,19 @@ from core.kernels.scene cimport Interval, Scene
 
 cdef double PASSED_BY
 
-@cython.locals(k=cython.Py_ssize_t)
 cdef Laid chain_between(
-    Scene scene, double place, Py_ssize_t leaders, double allowance, bint reversing, double[:, ::1] chain
+    Scene scene, double place, Py_ssize_t leaders, double allowance, bint reversing, Rows chain
 ) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, leading=cython.Py_ssize_t)
-cdef Laid route_between(
-    Scene scene, double place, Py_ssize_t leaders, double allowance, double[:, ::1] chain
-) noexcept nogil
+cdef Laid route_between(Scene scene, double place, Py_ssize_t leaders, double allowance, Rows chain) noexcept nogil
 
 @cython.locals(i=cython.Py_ssize_t)
 cdef bint passed(
-    Scene scene, Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed, double[:, ::1] opening, double[:, ::1] chain
+    Scene scene, Py_ssize_t first, Py_ssize_t last, Py_ssize_t placed, Rows opening, Rows chain
 ) noexcept nogil
 
 cdef bint may_reverse(Interval interval, Py_ssize_t k, double error) noexcept nogil
-
-@cython.locals(i=cython.Py_ssize_t)
 cdef bint leader_may_reverse(Interval interval, Py_ssize_t k) noexcept nogil
-
 @cython.locals(k=cython.Py_ssize_t, placed=cython.Py_ssize_t, followed=cython.bint)
-cdef bint slid_back(
-    Scene scene, Interval interval, Py_ssize_t first, Py_ssize_t last, double[:, ::1] opening
-) noexcept nogil
+cdef bint slid_back(Scene scene, Interval interval, Py_ssize_t first, Py_ssize_t last, Rows opening) noexcept nogil

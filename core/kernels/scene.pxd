@@ -14,24 +14,18 @@ cdef class Scene:
     cdef public Curve curve
     cdef public double place
     cdef public Rings rings
-    cdef double[:, ::1] sizes
-    cdef readonly Py_ssize_t benches
-    cdef readonly Py_ssize_t room
-    cdef readonly Py_ssize_t edges
+    cdef Rows sizes
+    cdef readonly Py_ssize_t benches, room, edges
     cdef public Kinds kinds
     cdef public double margin
     cdef public Budget budget
-    cdef public Py_ssize_t left_out
-    cdef public Py_ssize_t left_out_too
-    cdef public Py_ssize_t between
+    cdef public Py_ssize_t left_out, left_out_too, between
     cdef readonly Witnesses met
 
 @cython.final
 cdef class Interval:
     cdef readonly Scene scene
-    cdef double[:, ::1] before
-    cdef double[:, ::1] after
-    cdef double[:, ::1] motion
+    cdef Rows before, after, motion
     cdef public double h
     cdef public Py_ssize_t handles
 
@@ -46,9 +40,7 @@ cdef class Found:
     cdef double proven
     cdef bint meets
     cdef double touching
-    cdef Py_ssize_t first
-    cdef Py_ssize_t second
-    cdef Py_ssize_t steps
+    cdef Py_ssize_t first, second, steps
     cdef readonly double work
 
     cdef void begin(self, double start) noexcept nogil
@@ -57,8 +49,6 @@ cdef class Found:
 
 @cython.final
 cdef class Band:
-    cdef readonly Interval low
-    cdef readonly Interval high
-    cdef double[:, ::1] shifts
-    cdef double width
-    cdef double slack
+    cdef readonly Interval low, high
+    cdef Rows shifts
+    cdef double width, slack

@@ -16,7 +16,7 @@ DECLARED = Path(records.__file__).with_suffix(".pxd").read_text(encoding="utf-8"
 
 def test_records_are_the_same_for_the_compiler() -> None:
     structs = {
-        name: tuple(re.findall(r"(?:double|Py_ssize_t|bint|View) (\w+)", fields))
+        name: tuple(", ".join(re.findall(r"    (?:double|Py_ssize_t|bint|View) (.+)\n", fields)).split(", "))
         for name, fields in re.findall(r"cdef struct (\w+):\n((?:    .+\n)+)", DECLARED)
     }
     assert len(structs) > 9
@@ -24,7 +24,7 @@ def test_records_are_the_same_for_the_compiler() -> None:
 
 
 def test_counts_and_numbers_are_told_apart_as_the_compiler_tells_them() -> None:
-    counts = set(re.findall(r"Py_ssize_t (\w+)", DECLARED))
+    counts = set(", ".join(re.findall(r"Py_ssize_t (.+)", DECLARED)).split(", "))
     annotated = {
         field
         for record in vars(records).values()
