@@ -36,7 +36,6 @@ from core.kernels.chain import (
     extend_chain,
     place_chain,
     route_curve,
-    route_tail,
     route_trajectory,
     spiral_curve,
     start_chain,

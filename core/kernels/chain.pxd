@@ -23,7 +23,6 @@ cdef Py_ssize_t extend(Curve curve, Py_ssize_t first, Py_ssize_t last, Rows size
 cdef void start(Curve curve, double place, Rows chain) noexcept nogil
 cpdef Py_ssize_t place_chain(Curve curve, double place, Py_ssize_t last, Rows sizes, Rows chain) noexcept nogil
 cpdef void chain_rounding(Curve curve, Py_ssize_t last, Rows sizes, Rows chain) noexcept nogil
-cpdef double route_tail(Pieces pieces, double s, Py_ssize_t benches, Rows sizes, Rows chain) noexcept nogil
 
 @cython.locals(last=cython.Py_ssize_t)
 cpdef void route_trajectory(

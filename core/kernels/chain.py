@@ -140,13 +140,6 @@ def chain_rounding(curve, last, sizes, chain):
         route_rounding(curve.pieces, last, sizes, chain)
 
 
-def route_tail(pieces, s, benches, sizes, chain):
-    """Place of the last handle with the head at s on a route [m]."""
-    start_route(pieces, s, chain)
-    extend_route(pieces, 0, benches, FREE, sizes, chain)
-    return -chain[benches, PLACE]
-
-
 def route_trajectory(pieces, s, head_speed, sizes, chain, position, velocity, speed):
     """spiral_trajectory() on a route. s: (T,) of the head [m]; chain: (n + 1, CHAIN_COLUMNS) scratch"""
     last = position.shape[1] - 1

@@ -31,10 +31,7 @@ THETA = 4  # on a spiral: the polar angle [rad]
 PLACE = 4  # on a route: minus the arc length s [m], which falls in the direction of travel as theta does
 RATE = 5  # d s / d sigma [1]
 # Centre [m] and direction of the bench behind the handle.
-MX = 6
-MY = 7
-UX = 8
-UY = 9
+MX, MY, UX, UY = range(6, 10)
 CURVATURE = 10  # [1/m]; on a spiral from climbs()
 # On a route: the handle's piece, and its theta if that piece is a spiral [rad].
 PIECE = 11
@@ -49,11 +46,7 @@ REST = 18  # on a spiral: the sum of all delta less THETA [rad]
 CHAIN_COLUMNS = 19
 
 # Columns of a motion row, one for each bench: bounds over an interval.
-CENTRE_SPEED = 0
-CORNER_SPEED = 1
-CENTRE_PULL = 2
-CORNER_PULL = 3
-OMEGA = 4
+CENTRE_SPEED, CORNER_SPEED, CENTRE_PULL, CORNER_PULL, OMEGA = range(5)
 OMEGA_PULL = 5  # omega^2 + omega'
 HANDLE_SPEED = 6  # of the faster of its two handles
 OMEGA_LOW = 7
@@ -74,31 +67,15 @@ CLIMB_ERROR = 19
 MOTION_COLUMNS = 20
 
 # Columns of a size row, one for each bench.
-CHORD = 0
-HALF_LENGTH = 1
-HALF_WIDTH = 2
-RADIUS = 3
+CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS = range(4)
 SIZE_COLUMNS = 4
 
 # Columns of a frame, which is a rectangle in the plane: its centre [m], the unit vector along it, half its size [m].
-FRAME_X = 0
-FRAME_Y = 1
-FRAME_UX = 2
-FRAME_UY = 3
-FRAME_HALF_LENGTH = 4
-FRAME_HALF_WIDTH = 5
+FRAME_X, FRAME_Y, FRAME_UX, FRAME_UY, FRAME_HALF_LENGTH, FRAME_HALF_WIDTH = range(6)
 FRAME_COLUMNS = 6
 
 # Columns of the separation of two rectangles a and b: separation [m], witnesses [m], normal from a to b, and features.
-SEPARATION = 0
-WITNESS_AX = 1
-WITNESS_AY = 2
-WITNESS_BX = 3
-WITNESS_BY = 4
-NORMAL_X = 5
-NORMAL_Y = 6
-FEATURE_A = 7
-FEATURE_B = 8
+SEPARATION, WITNESS_AX, WITNESS_AY, WITNESS_BX, WITNESS_BY, NORMAL_X, NORMAL_Y, FEATURE_A, FEATURE_B = range(9)
 SEPARATION_COLUMNS = 9
 
 # Number of half planes of a hull, evenly spaced; number of hulls of a bench; and the columns of their corners [m].
@@ -109,20 +86,10 @@ HULL_X = 0
 HULL_Y = 1
 
 # Features of a rectangle: its corners, then its edges.
-FRONT_LEFT = 0
-FRONT_RIGHT = 1
-REAR_RIGHT = 2
-REAR_LEFT = 3
-FRONT = 4
-RIGHT = 5
-REAR = 6
-LEFT = 7
+FRONT_LEFT, FRONT_RIGHT, REAR_RIGHT, REAR_LEFT, FRONT, RIGHT, REAR, LEFT = range(8)
 
 # Columns of an upright box [m].
-X_LOW = 0
-Y_LOW = 1
-X_HIGH = 2
-Y_HIGH = 3
+X_LOW, Y_LOW, X_HIGH, Y_HIGH = range(4)
 BOX_COLUMNS = 4
 
 # Largest curvature chord / 2 at which the chord lemma serves on a spiral; beyond it the angles are followed [1].
@@ -146,16 +113,10 @@ NO_BENCH = -1
 
 # Columns of a table of pieces, one row for each, joined by arc length s to a route. Curvature is positive
 # counter-clockwise. The first piece also serves before its S_START, and the last one after its S_END.
-PIECE_KIND = 0
-S_START = 1
-S_END = 2
-K_START = 3
+PIECE_KIND, S_START, S_END, K_START = range(4)
 K_END = 4  # on a crest K_START and K_END are a lower and an upper bound instead
 # Of a line: its point at S_START [m] and its unit direction.
-LINE_X = 5
-LINE_Y = 6
-LINE_DX = 7
-LINE_DY = 8
+LINE_X, LINE_Y, LINE_DX, LINE_DY = range(5, 9)
 # Of an arc and of a spiral: its centre [m].
 CENTRE_X = 5
 CENTRE_Y = 6
@@ -167,15 +128,7 @@ COIL_ROTATION = 8  # of the whole spiral [rad]
 COIL_ARC = 10  # arc length from its centre at S_START [m]
 # Of a cubic: the coefficients of r(t) = sum of c_k t^k for t in [0, T_END] [m]. The curvature of a cubic is monotonic;
 # a crest is a cubic whose curvature has a maximum or a minimum inside.
-X0 = 5
-X1 = 6
-X2 = 7
-X3 = 8
-Y0 = 9
-Y1 = 10
-Y2 = 11
-Y3 = 12
-T_END = 13
+X0, X1, X2, X3, Y0, Y1, Y2, Y3, T_END = range(5, 14)
 K_SLOPE = 14  # bound on |d curvature / d s| [1/m^2]
 PART = 15  # number of the part of the route; within a part curvature does not jump
 # Largest distance from a joint at which the path leaves its pieces to close a gap between them [m].
@@ -194,10 +147,7 @@ POINT_CURVATURE = 4
 POINT_COLUMNS = 5
 # Columns of the gap between a piece and the one before it: across and along the path [m], in direction [rad], in
 # curvature [1/m].
-MISS_ACROSS = 0
-MISS_ALONG = 1
-MISS_KINK = 2
-MISS_STEP = 3
+MISS_ACROSS, MISS_ALONG, MISS_KINK, MISS_STEP = range(4)
 MISS_COLUMNS = 4
 
 
