@@ -92,10 +92,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 
     returns: False if a handle may reverse on the rectangle, because there are no bounds then
     """
-    grown = 0.0
-    slides = 0.0
-    path_pull = 0.0
-    speed = 0.0
+    grown = slides = path_pull = speed = 0.0
     for k in range(benches):
         chord = sizes[k, CHORD]
         delta = inner[k + 1, THETA] - inner[k, THETA]
@@ -108,9 +105,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
         rho = low * inner[k, THETA]
         rho_far = high * outer[k, THETA]
         rho_b = high * outer[k + 1, THETA]
-        sine = sin(least)
-        if 2.0 * s * c < sine:
-            sine = 2.0 * s * c
+        sine = min(sin(least), 2.0 * s * c)
         sine *= rho * (rho + low * least)
         slope = sin(0.5 * least)
         slope = low * low * least + 2.0 * low * rho * slope * slope + sine
@@ -160,8 +155,6 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 # State.  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
 #         that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
 # Output. How it ended, and the record Marched.
-
-
 class BandMarch(Found):
     """All growths between two at once, proven clear while the head goes inwards.
 

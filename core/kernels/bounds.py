@@ -140,9 +140,7 @@ def followed_link(k, h, k_high, rate_a, sizes, before, after):
     omega = (rate_a + rate_b) / chord
     swing_a = k_high * rate_a + omega
     swing_b = k_high * rate_b + omega
-    front += 0.5 * h * swing_a
-    if front > 1.0:
-        front = 1.0
+    front = min(front + 0.5 * h * swing_a, 1.0)
     rear -= 0.5 * h * swing_b
     if rear <= 0.0 or rate_a * front > rate_b * rear:
         rear = 0.0
@@ -154,13 +152,10 @@ def followed_link(k, h, k_high, rate_a, sizes, before, after):
 #         before this one was followed; `filled`, whether the sums of spiral_rounding() are known; and `widened`, the
 #         part by which curvatures are widened.
 # Output: a motion row for every bench and the handle in front of it, see constants.py.
-
-
 def motion_bounds(growth, h, benches, sizes, before, after, motion):
     """Bounds on the motion of the first benches over an interval of width h; False when h is too wide for any."""
     followed = False
-    rate_a = 1.0
-    rate_low = 1.0
+    rate_a = rate_low = 1.0
     second_a = 0.0
     motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
     motion[0, RATE_RATE] = 0.0
@@ -282,9 +277,8 @@ def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     s'', by rates.climbs(), obeys d_b cos alpha_b <= d_a + 2 blur (|a''| + |b''|) + widened (a'^2 + b'^2)
     + 8 (a' + b') (e_a + e_b + blur (a' + b')) / c
     """
-    rate_low = 1.0
     third_a = 0.0
-    motion[0, RATE_HIGH] = 1.0
+    motion[0, RATE_HIGH] = rate_low = 1.0
     motion[0, RATE_RATE] = motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     motion[0, CROSSED] = parts_between(pieces, 0, before, after)
     for k in range(benches):

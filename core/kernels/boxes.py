@@ -52,8 +52,6 @@ def widen(tree, k, boxes, i):
 # Input:  the tree and its boxes; which pairs count (margin, exact, chained); when to stop (most_...).
 # State:  i, the row whose walk it is; k, the node that the walk has come to.
 # Output: pairs as far as there is room, the number of pairs found, and the number of boxes met.
-
-
 class Meetings:
     """Which of many rectangles come near each other.
 

@@ -49,8 +49,6 @@ def start_chain(theta, chain):
 # State:  k, the last handle placed; `alike`, the number of equal chords up to it, whose deltas predict the next one.
 # Output: the rows of the handles up to a radius or the last one, and of the benches between them; that handle's
 #         number.
-
-
 def extend_chain(growth, first, last, radius, sizes, chain):
     """Place handles after `first` up to one at `radius` [m] or the `last`; returns its number, FOLDED at a fold."""
     delta = 0.0

@@ -85,8 +85,6 @@ def least_with(scene, i, first, end, best, chain):
 # Input:  a chain up to handle `handles`, and the number of benches that lead pairs (`active`).
 # State:  the nearest pair so far; upright boxes around blocks of BLOCK benches, of which far ones are skipped.
 # Output: the record Closest.
-
-
 def row_clearance(scene, active, handles, best, chain, boxes):
     """Least separation among the pairs led by the first `active` benches, and that pair.
 
@@ -207,8 +205,6 @@ def bottom_between(scene, low, high, a, b, width, chain):
 # State:  the bracket; `above` and `below`, the function at its ends, halved where an end stays; `last`, the end that
 #         moved last.
 # Output: the upper end of a bracket no wider than `width`.
-
-
 def crossing(scene, low, high, pair, width, of_rate, chain):
     """Travel at which the gap of a pair less the margin, or (of_rate) the rate at which it closes, falls to 0 [m].
 

@@ -22,8 +22,6 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # Rounding. The way begins before `start` and ends after `stop` by the error of a travel, and `proven` lies by as much
 # before the last step passed. A step ends `rounding` after the travel at which an excess is looked for. So this travel
 # lies in the step, whatever the error of its end, and there the limit is exceeded for certain (certain_rate()).
-
-
 class Excess:
     """The first travel in a run at which a |rate| exceeds a limit.
 

@@ -29,8 +29,6 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 #         enough.
 # State:  `best`, the least bound of the pairs of hulls so far; `start` and `end`, the views at both ends.
 # Output: `best`; the first pair with a bound of the margin or less ends the search.
-
-
 def hulls_least(scene, interval, i, j, enough, curvature, curvature_back):
     """pair_least() of benches with hulls, without the rectangles around them [m]; 0 or less: no bound.
 

@@ -29,8 +29,6 @@ ARRIVAL = 1e-12
 # Input:  a claim about an angle that holds at low and fails at high, with two numbers that it needs.
 # State:  the bracket.
 # Output: the bracket after 60 halvings, 2^60 times narrower: 0.05 ULP if it was 2 pi wide.
-
-
 def halved(holds, low, high, theta, chord2):
     """Both ends of the narrow bracket around the angle up to which a claim holds."""
     for i in range(60):  # a number that the compiler knows: otherwise first_root() takes twice as long

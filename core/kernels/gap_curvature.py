@@ -54,15 +54,12 @@ def against_rotation(growth, k, omega_low, omega_high, motion):
 # Input:  bench i, in which the axis is fixed, bench j, the distance of their centres, and the bounds on their motion.
 # State:  `slips` and `pulls`, sums of |xi| and of |P'' + Omega^2 P|, against the rotation of bench i.
 # Output: K: the lesser of the bound made of these sums and of plain_curvature(), the bound in the resting frame.
-
-
 def axis_curvature(growth, i, j, distance, sizes, motion):
     """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
     low = motion[i, OMEGA_LOW]
     high = motion[i, OMEGA]
     plain = plain_curvature(i, j, distance, sizes, motion)
-    slips = 0.0
-    pulls = 0.0
+    slips = pulls = 0.0
     if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, OMEGA_LOW] <= 0.0:
         return plain
     for side in range(2):

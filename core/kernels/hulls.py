@@ -160,8 +160,6 @@ def best_beyond(kinds, view, hulls):
 # them then has a positive gap, a better half plane of the other must be one of the two around the opposite direction:
 # the sides of both hulls together, in the order of their directions, are those of the difference of the hulls, and the
 # two between which the nearest direction lies are neighbours there.
-
-
 def nearest_hulls(kinds, i, j, edge, limit, sizes, chain):
     """The nearest hulls of rows i and j, if they are nearer than the limit; edge: whether j is an edge at rest."""
     best = Faced(0, 0, 0, False, limit)
@@ -257,8 +255,6 @@ def corner_beyond(kinds, view, hulls, at):
 # Input:  a bench, the stray, and sines and cosines of samples of psi; see core/tolerance/reach.py.
 # State:  for each direction the largest value so far for the front end, and for the middle.
 # Output: these values.
-
-
 def largest_supports(chord, overhang, half_width, stray, samples, directions, found):
     """Largest samples of the supports of all places of a bench's front end and of its middle.
 

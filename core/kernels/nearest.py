@@ -11,6 +11,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.rounding import spiral_error
     from core.kernels.route import stands_first
 
+
 # Input:  an interval whose chains are laid out, and the number of benches that lead pairs (`active`).
 # State:  the least bound so far with its K and its pair; `room`, the widest interval that the pairs so far would allow.
 # Output: the record Nearest.
@@ -19,19 +20,14 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # bound for all pairs where no handle had to be followed, else a bound for each pair (proven_gap()). Pairs too far apart
 # at the beginning to come within the margin are skipped. On a spiral handles stand in order of their radius, so that
 # once one bench is out of reach of bench i, all further ones are skipped.
-
-
 def interval_least(scene, interval, active):
     """Proven least separation over an interval of all pairs led by the first `active` benches; NO_BOUND if too wide."""
     before: cython.double[:, ::1] = interval.before
     motion: cython.double[:, ::1] = interval.motion
     sizes: cython.double[:, ::1] = scene.sizes
-    best = FREE
+    best = room = FREE
     curvature = 0.0
-    room = FREE
-    tried = 0
-    a = 0
-    b = 0
+    tried = a = b = 0
     if not interval.bound(False):
         return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     rounding = interval_rounding(scene, interval)
@@ -131,9 +127,7 @@ def coil_stays_beyond(scene, interval, leaders, error):
     for i in range(leaders):
         far = coil_radius(scene.curve.pieces, interval.before[i, MX], interval.before[i, MY])
         far = max(far, coil_radius(scene.curve.pieces, interval.after[i, MX], interval.after[i, MY]))
-        far += scene.sizes[i, RADIUS] + 0.5 * interval.h * interval.motion[i, CENTRE_SPEED]
-        if far > reach:
-            reach = far
+        reach = max(reach, far + (scene.sizes[i, RADIUS] + 0.5 * interval.h * interval.motion[i, CENTRE_SPEED]))
     reach = (reach + scene.margin) * (1.0 + RING_ROUNDING) + 8.0 * error
     reach = radius_beyond(scene.curve.pieces[0, COIL_GROWTH], reach, scene.rings) + 8.0 * error
     x = interval.after[interval.handles, PX]
@@ -165,12 +159,9 @@ def band_rounding(scene, band):
 
 def band_least(scene, band, leaders):
     """interval_least() over a band, of pairs led by the first `leaders` benches."""
-    best = FREE
+    best = room = FREE
     curvature = 0.0
-    room = FREE
-    tried = 0
-    a = 0
-    b = 0
+    tried = a = b = 0
     growth = scene.curve.growth
     growth_high = band.high.scene.curve.growth
     rounding = band_rounding(scene, band)

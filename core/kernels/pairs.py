@@ -217,8 +217,7 @@ def band_pair(scene, band, i, j, enough, distance):
         else:
             _, along, left = best_axis(a, b, scene.sizes, band.high.after)
         least = band_along(scene, band, a, b, along, left, curvatures)
-        if least > best:
-            best = least
+        best = max(best, least)
         if best > enough:
             return best, curvatures.low
     if scene.kinds.some:
@@ -227,7 +226,7 @@ def band_pair(scene, band, i, j, enough, distance):
         return best, curvatures.low
     along, left = corner_axis(scene, i, j, band.low.after)
     least = band_along(scene, band, i, j, along, left, curvatures)
-    return (least if least > best else best), curvatures.low
+    return max(best, least), curvatures.low
 
 
 def band_pair_rounding(scene, band, i, j, distance):

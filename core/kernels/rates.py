@@ -149,8 +149,7 @@ BOUND_ROUNDING = 1e-14  # [1]
 
 def spiral_errors(growth, handles, sizes, before, after, motion):
     """Fill in RATE_ERROR and CLIMB_ERROR of the handles of a spiral; FREE where no bound is known."""
-    error = 0.0
-    climb = 0.0
+    error = climb = 0.0
     motion[0, RATE_ERROR] = motion[0, CLIMB_ERROR] = 0.0
     for k in range(handles):
         chord = sizes[k, CHORD]
@@ -180,8 +179,6 @@ def spiral_errors(growth, handles, sizes, before, after, motion):
 # Input:  an interval whose chains are laid out, and from where handles are calm.
 # State:  `upper`, the largest bound on a rate so far, at first 1, the rate of the head.
 # Output: `upper`, widened by its rounding, or FREE.
-
-
 def rate_bound(scene, interval, calm):
     """Upper bound of every |rate| over an interval whose chains are laid out; FREE if the interval is too wide."""
     handles = interval.handles

@@ -84,12 +84,8 @@ def face_gap(seen):
 
 def point_gap_squared(x, y, hl, hw):
     """Squared distance of a point in the rectangle's frame to the rectangle, 0 inside [m^2]."""
-    beyond_x = fabs(x) - hl
-    beyond_y = fabs(y) - hw
-    if beyond_x < 0.0:
-        beyond_x = 0.0
-    if beyond_y < 0.0:
-        beyond_y = 0.0
+    beyond_x = max(fabs(x) - hl, 0.0)
+    beyond_y = max(fabs(y) - hw, 0.0)
     return beyond_x * beyond_x + beyond_y * beyond_y
 
 
@@ -101,16 +97,9 @@ def corners_gap_squared(seen):
     qx = seen.c * seen.other_hl + seen.s * seen.other_hw
     qy = seen.s * seen.other_hl - seen.c * seen.other_hw
     least = point_gap_squared(seen.along + px, seen.left + py, seen.hl, seen.hw)
-    gap = point_gap_squared(seen.along - px, seen.left - py, seen.hl, seen.hw)
-    if gap < least:
-        least = gap
-    gap = point_gap_squared(seen.along + qx, seen.left + qy, seen.hl, seen.hw)
-    if gap < least:
-        least = gap
-    gap = point_gap_squared(seen.along - qx, seen.left - qy, seen.hl, seen.hw)
-    if gap < least:
-        least = gap
-    return least
+    least = min(least, point_gap_squared(seen.along - px, seen.left - py, seen.hl, seen.hw))
+    least = min(least, point_gap_squared(seen.along + qx, seen.left + qy, seen.hl, seen.hw))
+    return min(least, point_gap_squared(seen.along - qx, seen.left - qy, seen.hl, seen.hw))
 
 
 def pair_gap_within(a, b, limit):
@@ -216,8 +205,7 @@ def edge_witness(a, seen, out):
 
 def corner_witness(a, seen, out):
     """Fill out for the corner of the other that is nearest to a."""
-    px = 0.0
-    py = 0.0
+    px = py = 0.0
     least = -1.0
     for k in range(4):
         l_side = seen.other_hl if k < REAR_RIGHT else -seen.other_hl

@@ -22,8 +22,6 @@ PASSED_BY = 1e-9
 # Input:  a scene, the place of the head, and the benches that may lead pairs.
 # State:  the chain, laid out handle by handle.
 # Output: the chain up to the last bench in reach of those that lead pairs now, and the record Laid.
-
-
 def chain_between(scene, place, leaders, allowance, reversing, chain):
     """Fill in the chain of a head at a place as far as its leading benches reach; returns its extent, and their number.
 
@@ -97,8 +95,6 @@ def route_between(scene, place, leaders, allowance, chain):
 # Input:  the chain at the start (`opening`) and the chain now, with the benches from `first` on.
 # State:  the handle compared with the start of the one before it.
 # Output: whether these benches repeat what others met: passed(), and for a spiral not slid_back().
-
-
 def passed(scene, first, last, placed, opening, chain):
     """Whether every handle from `first` to `last` has passed where its predecessor began, by more than rounding.
 

@@ -60,8 +60,7 @@ class Rings:
         """
         self.chord = self.overhang = self.all_chord = self.all_overhang = self.all_length = 0.0
         self.shortest = self.all_shortest = self.between_shortest = FREE
-        widest = 0.0
-        outer_widest = 0.0
+        widest = outer_widest = 0.0
         for k in range(alike + 1):
             self.all_chord = max(self.all_chord, chords[k])
             self.all_shortest = min(self.all_shortest, chords[k])
@@ -170,8 +169,6 @@ DISCERNED = 1e-3
 # State:  `gap`, the bound for benches a turn or more apart, the lesser of its values at both growths; `same_turn`, the
 #         bound for benches with another one between them.
 # Output: the lesser of the two, or NO_BOUND.
-
-
 def ring_least(growth_low, growth, radius, rings, total=1e150):
     """Lower bound of the separation of two non-neighbours, the inner one's front handle at `radius` or further out [m].
 
@@ -200,8 +197,7 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
         bows += (half_width + outer_half_width) * slope
         if rings.hulls:
             bows = outward_bow(q, slope, rings) + inward_bow(q, slope, rings)
-        if TWO_PI * at - bows < gap:
-            gap = TWO_PI * at - bows
+        gap = min(gap, TWO_PI * at - bows)
         at = growth
     gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
     x_rear = 0.5 * chord + 1.67 * growth
@@ -214,9 +210,7 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
     same_turn = 2.0 * rho * sin(0.5 * same_turn) if same_turn < PI else 2.0 * rho
     spread += total * asin(0.5 * chord / radius) / (0.5 * chord)
     if spread < TWO_PI:
-        spread = 2.0 * rho * sin(0.5 * spread) if spread > PI else 2.0 * rho
-        if spread > gap:
-            gap = spread
+        gap = max(gap, 2.0 * rho * sin(0.5 * spread) if spread > PI else 2.0 * rho)
     if gap <= 0.0:
         return NO_BOUND
     return gap if gap < same_turn else same_turn

@@ -77,8 +77,6 @@ def swayed(k, chain, ratio, local, spread, inverse):
 # Input:  a chain whose rounding is filled in up to handle FILLED.
 # State:  the SLIP of the last handle, from which that of the next one follows (1 to 3 above).
 # Output: SLIP of the handles, ERROR and SWAY of the benches between them; the same in route_rounding().
-
-
 def spiral_rounding(growth, last, sizes, chain):
     """Fill in SLIP, ERROR and SWAY of a chain up to handle `last`."""
     first = cython.cast(cython.Py_ssize_t, chain[0, FILLED])

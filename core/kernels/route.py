@@ -37,8 +37,7 @@ def cubic_arcs(pieces, out):
 
 def piece_of(pieces, s, near):
     """Number of the piece that holds s, at a joint the one behind it: by steps that double from `near`, then halve."""
-    low = near
-    high = near
+    low = high = near
     step = 1
     while low > 0 and s <= pieces[low, S_START]:
         high = low - 1
@@ -165,14 +164,11 @@ def start_route(pieces, s, chain):
 # the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
 # the chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along
 # the path: no point further back that comes near is taken for it.
-
 #
 # Input:  a chain on a route up to handle `first` (start_route() lays out the head), the pieces, and the chords.
 # State:  the links before this one on the same spiral: `alike`, their number (those of the same chord, plus one); d1 to
 #         d5, the angles that they span, the last one first; `begin`, the arc length at their end.
 # Output: the rows of the handles up to the last one or the place `until`, and of the benches between them.
-
-
 def extend_route(pieces, first, last, until, sizes, chain):
     """Place handles after `first` up to the `last`, each at the first point behind its leader at the bench's chord.
 

@@ -75,8 +75,6 @@ def way_out(pieces, alike, sizes, chain):
 #         its ends; `links`, the number followed since the tolerance grew; E = `ratio` from the place `left` = q on,
 #         FREE while no such place is known; `most` = U since then; `tried`, the E of the last try.
 # Output: see Peak.
-
-
 class Peak:
     """The largest |rate| of any handle over a run, with a proven upper bound.
 

@@ -162,9 +162,7 @@ class Block:
 
     def start(self, row, thetas, head_speed):
         """Place the heads of the instants from `row` on; returns the number of lanes."""
-        lanes = thetas.shape[0] - row
-        if lanes > LANES:
-            lanes = LANES
+        lanes = min(thetas.shape[0] - row, LANES)
         self.standing = lanes
         for lane in range(lanes):
             self.theta[lane] = thetas[row + lane]

@@ -45,10 +45,8 @@ def stretch_curvature(pieces, rear, k_rear, front, k_front):
                 start = k_rear
             if p == front:
                 end = k_front
-        low = start if start < low else low
-        low = end if end < low else low
-        high = start if start > high else high
-        high = end if end > high else high
+        low = min(low, start, end)
+        high = max(high, start, end)
     return low, high
 
 

@@ -28,17 +28,12 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # that touches another in its nominal place has no room, and is always loud.
 
 # Columns of the play of a bench: of its front hole and of its rear hole from their pins [m].
-FRONT_X = 0
-FRONT_Y = 1
-REAR_X = 2
-REAR_Y = 3
+FRONT_X, FRONT_Y, REAR_X, REAR_Y = range(4)
 
 
 # Input:  new numbers for every person and instant, the nominal places and tangents, the play, and the rooms.
 # State:  z and z' of every person (`state`); the chain as it hangs at this instant; which benches are `loud`.
 # Output: the first instant at which two benches touch, that pair, and the furthest stray of a hole on the way.
-
-
 class Wobbler:
     """A dragon in which people wobble.
 
