@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -66,13 +66,9 @@ def panels(solved: Solved, say: Say) -> list[Panel]:
 def _curve(asked: ContestRequest, name: str, limits: tuple[float, float], answer: Answer) -> list[tuple[float, float]]:
     found = []
     for value in np.linspace(*limits, VALUES).tolist():
-        other: dict[str, Any] = {name: value}
-        try:
-            given = answer(asked.model_copy(update=other))
-        except BenchDragonError:
-            continue  # no answer: these benches do not fit on this spiral or turn
-        if given is not None:
-            found.append((value, given))
+        with suppress(BenchDragonError):  # no answer: these benches do not fit on this spiral or turn
+            if (given := answer(asked.model_copy(update={name: value}))) is not None:
+                found.append((value, given))
     return found
 
 

@@ -77,11 +77,8 @@ def _share_consistent(position: Judgement, speed: Judgement) -> float | None:
     times, p, v = np.intersect1d(position.times, speed.times, return_indices=True)
     if times.size < 2:
         return None
-    places = {int(handle): k for k, handle in enumerate(position.handles) if handle < HANDLES}
-    both = [(places[int(handle)], k) for k, handle in enumerate(speed.handles) if int(handle) in places]
-    if not both:
-        return None
-    a, b = (np.array(side) for side in zip(*both, strict=True))
+    handles, a, b = np.intersect1d(position.handles, speed.handles, return_indices=True)
+    a, b = a[handles < HANDLES], b[handles < HANDLES]
     ways = np.linalg.norm(np.diff(position.values[p][:, a], axis=0), axis=-1) / np.diff(times)[:, None]
     told = speed.values[v][:, b, 0]
     off = np.abs(ways - 0.5 * (told[1:] + told[:-1]))

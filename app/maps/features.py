@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Literal
@@ -125,12 +125,7 @@ def inner_point(rings: tuple[Ring, ...]) -> tuple[float, float]:
     heights = [y for _, y in rings[0]]
     # Slightly beside the middle, because a side may lie exactly on it.
     level = min(heights) + 0.5001 * (max(heights) - min(heights))
-    crossings = sorted(
-        a[0] + (level - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-        for ring in rings
-        for a, b in pairwise(ring)
-        if (a[1] > level) != (b[1] > level)
-    )
+    crossings = sorted(_crossings(rings, level))
     pairs = list(zip(crossings[::2], crossings[1::2], strict=True))
     left, right = max(pairs, key=lambda pair: pair[1] - pair[0], default=(rings[0][0][0],) * 2)
     return 0.5 * (left + right), level
@@ -142,14 +137,14 @@ def holds(rings: tuple[Ring, ...], point: tuple[float, float]) -> bool:
     >>> holds((((0, 0), (4, 0), (4, 4), (0, 0)),), (3, 1))
     True
     """
-    x, y = point
-    crossed = (
-        a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) > x
-        for ring in rings
-        for a, b in pairwise(ring)
-        if (a[1] > y) != (b[1] > y)
-    )
-    return sum(crossed) % 2 == 1
+    return sum(x > point[0] for x in _crossings(rings, point[1])) % 2 == 1
+
+
+def _crossings(rings: tuple[Ring, ...], level: float) -> Iterator[float]:
+    """x of every crossing of rings with a level y."""
+    for a, b in (side for ring in rings for side in pairwise(ring)):
+        if (a[1] > level) != (b[1] > level):
+            yield a[0] + (level - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
 
 
 def area_of(feature: Feature) -> float:

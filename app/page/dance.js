@@ -91,9 +91,10 @@ function edge(corners, name) {
   return { front: [corners[0], corners[1]], rear: [corners[2], corners[3]], inner, outer }[name];
 }
 
-function trace(path, corners) {
-  corners.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
-  path.closePath();
+/** A path along points [x, y], added to another. */
+export function trace(points, path = new Path2D(), isClosed = true) {
+  points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
+  if (isClosed) path.closePath();
   return path;
 }
 
@@ -132,11 +133,7 @@ class Pen {
   tip(x, y, dx, dy, size) {
     const reach = size / this.scale / Math.hypot(dx, dy);
     const [ux, uy] = [dx * reach, dy * reach];
-    const path = new Path2D();
-    path.moveTo(x - ux - uy, y - uy + ux);
-    path.lineTo(x, y);
-    path.lineTo(x - ux + uy, y - uy - ux);
-    return path;
+    return trace([[x - ux - uy, y - uy + ux], [x, y], [x - ux + uy, y - uy - ux]], new Path2D(), false);
   }
 
   /** The scale, at the lower right. */
@@ -273,16 +270,14 @@ export class Dance {
     const [dx, dy] = [x[0] - x[1], y[0] - y[1]];
     const at = (way) => [x[0] + (dx * way) / Math.hypot(dx, dy), y[0] + (dy * way) / Math.hypot(dx, dy)];
     const tip = at(overhang + AHEAD / pen.scale);
-    const shaft = new Path2D();
-    shaft.moveTo(...at(overhang));
-    shaft.lineTo(...tip);
+    const shaft = trace([at(overhang), tip], new Path2D(), false);
     shaft.addPath(pen.tip(...tip, dx, dy, 1.6 * ARROW));
     pen.stroke(shaft, this.#colours.head, 2.5);
   }
 
   /** Outline of bench k in the picture. */
   bench(k, path = new Path2D()) {
-    return trace(path, outline(this.scene.pose, this.scene.dragon, k));
+    return trace(outline(this.scene.pose, this.scene.dragon, k), path);
   }
 
   #benches(pen) {
@@ -329,7 +324,7 @@ export class Dance {
     this.#pair(pen);
     if (contact.edge) {
       const ends = edge(outline(pose, dragon, contact.edge.bench), contact.edge.name);
-      pen.stroke(trace(new Path2D(), ends), this.#colours.text, 4);
+      pen.stroke(trace(ends), this.#colours.text, 4);
     }
     pen.fill(pen.circle(x, y, 6), this.#colours.card);
     pen.stroke(pen.circle(x, y, 6), this.#colours.text, 3);

@@ -1,5 +1,6 @@
 /** Layers of a drawing on the picture: the square and its obstacles, bends that are too tight, benches at fault. */
 
+import { trace } from "./dance.js";
 import { isWhole } from "./drawing.js";
 import { radiiOf } from "./judgement.js";
 import { say } from "./text.js";
@@ -12,24 +13,18 @@ const NAME_HEIGHT = 13;
 /** Largest difference between a time and that of a failure that it shows [s]. */
 const SAME_TIME = 1e-6;
 
-const outline = (points, path = new Path2D(), close = true) => {
-  points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
-  if (close) path.closePath();
-  return path;
-};
-
 function drawThing(pen, colours, thing) {
   const { kind, points, radius, holes = [] } = thing;
   const { context } = pen;
   if (kind === "wall") {
     Object.assign(context, { lineCap: "round", lineJoin: "round" });
-    pen.stroke(outline(points, new Path2D(), false), colours.thing, Math.max(2 * radius * pen.scale, 2));
+    pen.stroke(trace(points, new Path2D(), false), colours.thing, Math.max(2 * radius * pen.scale, 2));
     Object.assign(context, { lineCap: "butt", lineJoin: "miter" });
     return;
   }
   const path = new Path2D();
   if (kind === "circle") path.arc(...points[0], radius, 0, 2 * Math.PI);
-  else [points, ...holes].forEach((ring) => outline(ring, path));
+  else [points, ...holes].forEach((ring) => trace(ring, path));
   context.fillStyle = kind === "area" ? colours.ground : colours.thing;
   context.fill(path, "evenodd");
   pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
@@ -74,7 +69,7 @@ export function layers(dance, get) {
     const { things } = shown.drawing;
     const order = [...things.keys()].sort((a, b) => (things[b].kind === "area") - (things[a].kind === "area"));
     for (const k of order) if (isWhole(things[k])) drawThing(pen, colours, things[k]);
-    for (const bend of shown.course?.bends ?? []) pen.stroke(outline(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
+    for (const bend of shown.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
   const above = (pen, colours) => {
     const shown = get();
@@ -85,7 +80,7 @@ export function layers(dance, get) {
       if (!thing.points.length) continue;
       const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
       label(pen, dance.view, thing.name, labelled(thing), colour, colours, names);
-      if (failure?.area === thing.name && isWhole(thing)) pen.stroke(outline(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
+      if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
     }
     for (const { points, ...bend } of shown.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
