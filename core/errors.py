@@ -199,16 +199,15 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
         raise InvalidValue(name, f"must be {rule}, got 1e308 or more") from error
     if low <= number <= high and math.isfinite(number) and not (open_low and number == low):
         return number
-    limit_unit = f" {unit}" if unit else ""
     if not math.isfinite(number):
         rule = "a finite number"
     elif number > high:
-        rule = f"at most {high:g}{limit_unit}"
+        rule = f"at most {high:g} {unit}".rstrip()
     elif number <= 0.0 <= low:
         rule = "positive" if open_low or low > 0.0 else "zero or more"
     else:
-        rule = f"at least {low:g}{limit_unit}"
-    raise InvalidValue(name, f"must be {rule}, got {said(number)}{limit_unit}")
+        rule = f"at least {low:g} {unit}".rstrip()
+    raise InvalidValue(name, f"must be {rule}, got {said(number)} {unit}".rstrip())
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
@@ -258,10 +257,7 @@ def checked_size(name: str, value: object) -> float:
 
 
 def checked_point(name: str, value: Any) -> Point:
-    """The value as a point with both coordinates within COORDINATE_MAX.
-
-    raises: InvalidValue
-    """
+    """The value as a point with both coordinates within COORDINATE_MAX. raises: InvalidValue"""
     try:
         x, y = value
     except (TypeError, ValueError) as error:

@@ -140,35 +140,29 @@ def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float,
     """Failure of the first excess, with the highest speed. speed: None towards a fold"""
     proven, latest = excess.time_bracket
     time, handle = excess.time, excess.handle
-    handles: tuple[int, ...] = ()
     if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
         time, handle = speed.time, speed.handles[0]
     kept = f"{said(limit)} m/s is proven to be kept up to {said_bound(proven, 6, -1)} s"
     if time is None and speed is not None:
         message = f"Whether a handle exceeds {said(limit)} m/s is not decided; {kept}, and no higher speed was found."
         return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
-    if speed is None:
-        peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
-        speed_then, then = None, end.time
-    else:
+    peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
+    if speed is not None:
         peak = f"the highest speed is {speed.speed:.6f} m/s, of handle {speed.handles[0]} at {speed.time:.6f} s"
-        speed_then, then = speed.speed, speed.time
+    highest = (speed.speed, speed.time) if speed is not None else (None, end.time)
+    handles = () if time is None or handle is None else (handle,)
     if time is None or handle is None:
         time, message = end.time, f"A handle exceeds {said(limit)} m/s: {peak}; {kept}."
     elif time - proven > EXCESS_KNOWN:
-        handles = (handle,)
         message = f"Handle {handle} exceeds {said(limit)} m/s at {time:.6f} s at the latest ({kept}); {peak}."
     else:
-        handles = (handle,)
         message = f"Handle {handle} first exceeds {said(limit)} m/s at {time:.6f} s; {peak}."
-    bracket = (proven, time)
-    return Failure(FailureKind.SPEED, time, handles, None, message, bracket, None, speed_then, then)
+    return Failure(FailureKind.SPEED, time, handles, None, message, (proven, time), None, *highest)
 
 
 def fold_failure(dragon: Dragon, end: RunEnd, head: HeadState) -> Failure:
     assert end.bench is not None
     where = f"the head at ({head.x:.6f}, {head.y:.6f}) m, theta = {head.theta:.6f} rad"
-    message = (
-        f"Bench {dragon.called(end.bench)} folds at {end.time:.6f} s, {where}: it cannot follow the spiral any further."
-    )
+    folds = f"Bench {dragon.called(end.bench)} folds at {end.time:.6f} s"
+    message = f"{folds}, {where}: it cannot follow the spiral any further."
     return Failure(FailureKind.FOLDS, end.time, (end.bench,), None, message)

@@ -101,9 +101,8 @@ def _checked(name: str, passage: object) -> Passage:
         raise InvalidValue(name, f"must be a Passage, got {passage!r:.60}")
     speed = checked_number(f"{name}.speed", passage.speed, "m/s", 0.0, HEAD_SPEED_MAX)
     if 0.0 < speed < HEAD_SPEED_MIN:
-        raise InvalidValue.of(
-            f"{name}.speed", f"must be 0, for a pause, or at least {HEAD_SPEED_MIN:g} m/s", speed, "m/s"
-        )
+        rule = f"must be 0, for a pause, or at least {HEAD_SPEED_MIN:g} m/s"
+        raise InvalidValue.of(f"{name}.speed", rule, speed, "m/s")
     place, time = passage.until_s, passage.until_time
     if (place is None) == (time is None):
         got = "neither" if place is None else "both"

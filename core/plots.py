@@ -43,9 +43,7 @@ def wanted_axes(axes: Axes | None, what: str) -> Axes:
 
     raises: ImportError naming the extra `figures` if matplotlib is not installed
     """
-    if axes is not None:
-        return axes
-    new: Axes = wanted("matplotlib.pyplot", "figures", what).subplots(layout="constrained")[1]
+    new: Axes = axes or wanted("matplotlib.pyplot", "figures", what).subplots(layout="constrained")[1]
     return new
 
 
@@ -58,10 +56,7 @@ def plan(axes: Axes) -> None:
 
 
 def draw_dance(axes: Axes, path: Spiral | Route, handles: Floats, outlines: Floats, linewidth: float = 0.5) -> None:
-    """Draw the path and every bench, faint, in metres.
-
-    handles: (n + 1, 2) [m]; outlines: corners (n, 4, 2) [m]
-    """
+    """Draw the path and every bench, faint, in metres. handles: (n + 1, 2) [m]; outlines: corners (n, 4, 2) [m]"""
     plan(axes)
     axes.plot(*path.drawn(handles).T, color=PALE, linewidth=0.6, zorder=1)
     _draw_benches(axes, outlines, facecolor="none", edgecolor=GREY, linewidth=linewidth, zorder=2)
@@ -75,10 +70,7 @@ def _draw_benches(axes: Axes, outlines: Floats, **style: Any) -> None:
 
 
 def draw_speeds(axes: Axes, handles: Floats, speed: Floats) -> None:
-    """Draw every handle, coloured by its speed, with a colour bar.
-
-    handles: (n + 1, 2) [m]; speed: (n + 1,) [m/s]
-    """
+    """Draw every handle, coloured by its speed, with a colour bar. handles: (n + 1, 2) [m]; speed: (n + 1,) [m/s]"""
     dots = axes.scatter(
         handles[:, 0], handles[:, 1], c=speed, s=16, cmap="cividis", zorder=3, linewidths=0,
         rasterized=len(handles) > SHAPES_MAX,

@@ -93,10 +93,7 @@ def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
 
 
 def extent(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
-    """The range of the values, or their common value.
-
-    values: (...), not empty
-    """
+    """The range of the values, or their common value. values: (...), not empty"""
     least, most = float(np.min(values)) + 0.0, float(np.max(values)) + 0.0  # no -0
     return f"{least:.{digits}g}{'' if least == most else f' to {most:.{digits}g}'} {unit}".rstrip()
 

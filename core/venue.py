@@ -32,10 +32,7 @@ FAULTS = {
 
 
 def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
-    """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone.
-
-    raises: InvalidValue
-    """
+    """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone. raises: InvalidValue"""
     edges = sum(max(len(ring) - 1, 1) for ring in rings)
     if edges > EDGES_MAX:
         raise InvalidValue("venue", f"must have at most {EDGES_MAX} edges, got {edges}")
@@ -59,21 +56,16 @@ class Area(Shown):
         if not rings:
             raise InvalidValue.in_words("venue", f"venue: {self.name!r} must have at least one ring")
         refuse_many_edges(rings)
-        points = tuple(
-            tuple(checked_point(f"venue.{k}.{i}", point) for i, point in enumerate(ring))
-            for k, ring in enumerate(rings)
-        )
-        object.__setattr__(self, "rings", points)
-        for ring in points:
+        points = [[checked_point(f"venue.{k}.{i}", at) for i, at in enumerate(ring)] for k, ring in enumerate(rings)]
+        object.__setattr__(self, "rings", tuple(map(tuple, points)))
+        for ring in self.rings:
             if len(ring) < 4 or ring[0] != ring[-1]:
                 words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
                 raise InvalidValue.in_words("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
         if found := polygon_fault(self.rings):
             reason, x, y = found
-            fault = FAULTS.get(reason, f"a fault ({reason})")
-            raise InvalidValue.in_words(
-                "venue", f"venue: {self.name!r} must be a valid polygon, got {fault} at ({x:g}, {y:g}) m"
-            )
+            got = f"{FAULTS.get(reason, f'a fault ({reason})')} at ({x:g}, {y:g}) m"
+            raise InvalidValue.in_words("venue", f"venue: {self.name!r} must be a valid polygon, got {got}")
 
     def _line(self) -> str:
         x, y = np.array(self.rings[0]).T

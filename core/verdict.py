@@ -148,9 +148,8 @@ def _judged(
     bend = sharpest_bend(dance, start=begin, stop=until, budget=budget) if details else None
     square, seen = _in_venue(dance, venue, (margin, strayed), (begin, until), budget, details)
     folds = dance.ends_by(until)
-    speed, excess = None, None
-    if details and not folds:
-        speed = highest_speed(dance, start=begin, stop=until, budget=budget)
+    speed = highest_speed(dance, start=begin, stop=until, budget=budget) if details and not folds else None
+    excess = None
     if limit is not None and not (speed and keeps_limit(speed, limit)):
         excess = first_excess(dance, limit, start=begin, stop=until, budget=budget)
     if excess and not folds and speed is None:
@@ -161,18 +160,15 @@ def _judged(
     failures += touch_failures(contact, least, margin)
     if folds:
         failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.place(end.time))))
-    if (
-        venue
-        and seen < until
-        and not is_clear_beyond(dance, venue, margin=margin, stray=strayed, start=begin, seen=seen)
-    ):
+    judged = {"margin": margin, "stray": strayed, "start": begin}
+    if venue and seen < until and not is_clear_beyond(dance, venue, **judged, seen=seen):
         message = f"From {seen:.6f} s on the spiral is too tight to compare the benches with the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
     told = tuple(replace(failure, head=dance.path.head(dance.clock.place(failure.time))) for failure in failures)
-    verdict = _judgement(told)
-    passed = verdict is Judgement.PASSES
-    return Report(begin, until, verdict, passed, told, contact, least, square, speed, bend)
+    failed = any(failure.kind is not FailureKind.UNDECIDED for failure in told)
+    verdict = Judgement.FAILS if failed else Judgement.UNDECIDED if told else Judgement.PASSES
+    return Report(begin, until, verdict, not told, told, contact, least, square, speed, bend)
 
 
 def _in_venue(
@@ -194,15 +190,5 @@ def _in_venue(
     seen = min(until, followed) if followed >= begin + MOMENT else begin
     if seen <= begin:
         return None, seen
-    margin, stray = kept
-    found = venue_clearance(
-        dance, venue, margin=margin, stray=stray, start=begin, stop=seen, nearest=nearest, budget=budget
-    )
-    return found, seen
-
-
-def _judgement(failures: tuple[Failure, ...]) -> Judgement:
-    if not failures:
-        return Judgement.PASSES
-    undecided = all(failure.kind is FailureKind.UNDECIDED for failure in failures)
-    return Judgement.UNDECIDED if undecided else Judgement.FAILS
+    asked = {"margin": kept[0], "stray": kept[1], "start": begin, "stop": seen}
+    return venue_clearance(dance, venue, **asked, nearest=nearest, budget=budget), seen

@@ -130,8 +130,11 @@ class _PitchSearch:
         raises: InvalidValue if that growth is beyond the largest allowed pitch, and that pitch is infeasible
         """
         lowest, growth = self.lowest / math.tau, SIZE_MAX / math.tau
-        clears = self.bands.straight.clears
-        if not clears(growth, self.radius, self.margin):
+
+        def clears(wide: float) -> bool:
+            return self.bands.straight.clears(wide, self.radius, self.margin)
+
+        if not clears(growth):
             if not self.is_clear(SIZE_MAX):
                 state, found = self.ways.march(SIZE_MAX)
                 if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
@@ -139,13 +142,7 @@ class _PitchSearch:
                 rule = f"must be larger for this dragon, which reaches such a circle at no pitch up to {SIZE_MAX:g} m"
                 raise InvalidValue.of("turning_radius", rule, self.radius, "m")
             return SIZE_MAX, SIZE_MAX
-        _, growth = bisected(
-            lambda wide: clears(wide, self.radius, self.margin),
-            0.5 * lowest,
-            growth,
-            relative=TOP_WIDTH,
-            middle=lambda low, high: math.sqrt(low * high),
-        )
+        _, growth = bisected(clears, 0.5 * lowest, growth, relative=TOP_WIDTH, middle=lambda a, b: math.sqrt(a * b))
         for factor in RANGES:
             while growth > lowest and self.bands.clears(factor * growth, growth, self.radius):
                 growth *= factor
@@ -323,28 +320,16 @@ def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
 def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
     """The result of a search."""
     top, proven_up_to = search.top()
-    infeasible = feasible = search.lowest
-    justified_by = "bound"
+    infeasible, feasible, justified_by = search.lowest, search.lowest, "bound"
     if top > search.lowest:
         infeasible, feasible, justified_by = search.descend(top)
-    if feasible <= search.lowest:
-        limited_by, pair, head_radius = LimitedBy.START, None, None
-        islands: tuple[tuple[float, float], ...] = ()
-    else:
+    limited_by, pair, head_radius = LimitedBy.START, None, None
+    islands: tuple[tuple[float, float], ...] = ()
+    if feasible > search.lowest:
         limited_by, pair, head_radius = search.limit(infeasible)
         islands = () if search.alone else search.islands(infeasible)
     folding = end_theta(dragon, Spiral(infeasible, search.start_turns))[1] if limited_by is LimitedBy.FOLD else None
-    return MinimumPitch(
-        feasible,
-        (infeasible, feasible),
-        limited_by,
-        pair,
-        folding,
-        head_radius,
-        islands,
-        justified_by,
-        search.scanned_from or feasible,
-        proven_up_to,
-        search.scan_step,
-        search.ways.marched + search.bands.marches,
-    )
+    limit = limited_by, pair, folding, head_radius
+    proven = justified_by, search.scanned_from or feasible, proven_up_to, search.scan_step
+    evaluations = search.ways.marched + search.bands.marches
+    return MinimumPitch(feasible, (infeasible, feasible), *limit, islands, *proven, evaluations)

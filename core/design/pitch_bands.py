@@ -6,6 +6,7 @@ The proof for one band is written above its loop in `core/kernels/band_march.py`
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -65,7 +66,6 @@ class Bands:
         # outside the circle the path curves so little that no handle moves backwards and no bench folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.rings.all_chord) / radius
         self.curved_little = most <= kernels.SINE_LIMIT
-        self.total = self.straight.total
         self._make_room(search.room)
 
     def clears(self, low: float, high: float, radius: float) -> bool:
@@ -74,7 +74,7 @@ class Bands:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """True if the ring bound excludes contacts from a head radius outwards for all growths in [low, high]."""
-        return bool(kernels.ring_clears(low, high, radius, self.margin, self.search.rings, self.total))
+        return bool(kernels.ring_clears(low, high, radius, self.margin, self.search.rings, self.straight.total))
 
     def _make_room(self, benches: int) -> None:
         self.rows = np.zeros((2, 2, benches + 1, kernels.CHAIN_COLUMNS))
@@ -139,9 +139,8 @@ class Bands:
         contact becomes a graze is searched for, and the band ends there instead.
         """
         proven, stopped = top, "lowest"
-        bands = [(lowest, top, math.inf)]
-        if lowest < FIRST_BAND * top:
-            bands = [(lowest, FIRST_BAND * top, math.inf), (FIRST_BAND * top, top, math.inf)]
+        edges = [lowest, FIRST_BAND * top, top] if lowest < FIRST_BAND * top else [lowest, top]
+        bands = [(low, high, math.inf) for low, high in pairwise(edges)]
         while bands:
             low, high, outer = bands.pop()
             state, found = self.prove(low, high, outer)
@@ -188,11 +187,9 @@ class Bands:
             gap, radius = self.dip(pitch, radius, pair)
             gap -= self.margin
             if gap > 0.0:
-                end, above, below = pitch, gap, 0.5 * below if last > 0 else below
-                last = 1
+                end, above, below, last = pitch, gap, 0.5 * below if last > 0 else below, 1
             else:
-                low, below, above = pitch, gap, 0.5 * above if last < 0 else above
-                last = -1
+                low, below, above, last = pitch, gap, 0.5 * above if last < 0 else above, -1
             if end and end - low <= BORDER_WIDTH:
                 break
             pitch = low + (end - low) * below / (below - above) if end else low - 1.5 * below + BORDER_WIDTH

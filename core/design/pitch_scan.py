@@ -100,17 +100,19 @@ class Stops:
         self.search: Search | None = None
 
     def radius(self, path: Spiral) -> float | None:
-        """The radius [m], None if nothing touches.
+        """The radius [m], None if nothing touches. raises: InvalidValue as Dance
 
         Its error is at most RADIUS_WIDTH. Near a graze, where rounding hides the beginning of the contact, the bracket
-        is wider (BRACKETS_GRAZING in core/contact/march.py).
-
-        A search is undecided if a graze is too close to the margin; then the radius is that of the graze.
-        raises: InvalidValue as Dance
+        is wider (BRACKETS_GRAZING in core/contact/march.py). A search is undecided if a graze is too close to the
+        margin; then the radius is that of the graze.
         """
         end = Dance(self.dragon, path).end
-        search = self._search(path)
-        to_fold = end.reason is EndReason.FOLD
+        if self.search is None:
+            self.search = Search(self.dragon, path, self.margin, budget=self.budget)
+        else:
+            self.search.use(path, self.margin)
+            self.search.work = WORK_BUDGET
+        search, to_fold = self.search, end.reason is EndReason.FOLD
         last = before_fold(end.time) if to_fold else end.time
         tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
         state, found = search.march(last, tolerance)
@@ -122,14 +124,6 @@ class Stops:
             return None
         travel = {Ended.TOUCHED: (found.touching or 0.0) - tolerance, Ended.STUCK: found.proven}.get(state, 0.0)
         return search.growth * search.theta_at(travel)
-
-    def _search(self, path: Spiral) -> Search:
-        if self.search is None:
-            self.search = Search(self.dragon, path, self.margin, budget=self.budget)
-        else:
-            self.search.use(path, self.margin)
-            self.search.work = WORK_BUDGET
-        return self.search
 
 
 def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
@@ -191,11 +185,9 @@ def pitch_scan(
 
 def _too_much(dragon: Dragon, pitch: float) -> str:
     """Advice when the budget ends before the scan does; pitch: the next one [m]."""
-    return (
-        f"must be fewer, or benches: the first contacts from a pitch of {pitch:g} m on were not found "
-        f"{{then}}; the {dragon.benches} chords are "
-        f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
-    )
+    missing = f"the first contacts from a pitch of {pitch:g} m on were not found {{then}}"
+    chords = f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
+    return f"must be fewer, or benches: {missing}; the {dragon.benches} chords are {chords}"
 
 
 def _checked_pitches(pitches: object) -> Floats:
@@ -251,7 +243,6 @@ def scan_near_minimum(
     pitches = np.sort(np.append(pitches_near(least, samples), least.pitch_bracket))
     terms = {"start_turns": start_turns, "margin": margin}
     try:
-        scan = pitch_scan(dragon, pitches, locate=locate, progress=progress, budget=budget, **terms)
+        return pitch_scan(dragon, pitches, locate=locate, progress=progress, budget=budget, **terms), least
     except TooMuchWork as error:
         raise error.named("samples", samples) from error
-    return scan, least

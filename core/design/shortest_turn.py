@@ -124,21 +124,23 @@ def shortest_turn(
         except Halted as halted:
             raise _too_much(budget, dragon, entry, radius) from halted
 
+    def decided(entry: float, clear: float | None) -> Touch | None:
+        touch = touching(entry, clear)
+        if touch == UNDECIDED and budget.left <= 0.0:
+            raise _too_much(budget, dragon, entry, radius)
+        return touch
+
     border, floor = _follow_border(dragon, turn_at, radius)
-    evaluations, limit = 1, touching(radius, None)
-    if limit == UNDECIDED and budget.left <= 0.0:
-        raise _too_much(budget, dragon, radius, radius)
+    evaluations, limit = 1, decided(radius, None)
     if limit is not None:
         raise InvalidValue.of("turning_radius", _refusal(limit, *kept), radius, "m")
     feasible = infeasible = radius
     while limit is None and infeasible > floor:
         feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
-        evaluations, limit = evaluations + 1, touching(infeasible, feasible)
-        if limit == UNDECIDED and budget.left <= 0.0:
-            raise _too_much(budget, dragon, infeasible, radius)
+        evaluations, limit = evaluations + 1, decided(infeasible, feasible)
     if limit is None:
         limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
-        bracket = (0.0 if border is None else border, floor)
+        bracket = (border or 0.0, floor)
         return ShortestTurn(turn_at(floor), bracket, limited_by, None, None, ENTRY_STEP * radius, evaluations)
 
     def is_clear(entry: float) -> bool | None:
@@ -164,11 +166,8 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
     raises: InvalidValue (turning_radius) if a chord cannot follow even at the circle
     """
     if not follows(dragon, turn_at(radius)):
-        tightest = 1.0 / turn_at(radius).sharpest[0]
-        rule = (
-            f"must be larger: a turn that begins on the circle bends to a radius of {tightest:.4g} m, too tight for "
-            f"the longest chord ({float(dragon.chords.max()):g} m)"
-        )
+        bend = f"a turn that begins on the circle bends to a radius of {1.0 / turn_at(radius).sharpest[0]:.4g} m"
+        rule = f"must be larger: {bend}, too tight for the longest chord ({float(dragon.chords.max()):g} m)"
         raise InvalidValue.of("turning_radius", rule, radius, "m")
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
     if follows(dragon, turn_at(low)):
@@ -228,15 +227,10 @@ def coils_of(danced: Turn) -> TwoCoils:
 
 def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
     """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
-    longest, shortest = float(dragon.chords.max()), float(dragon.chords.min())
-    return too_much(
-        budget,
-        "turning_radius",
-        f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all "
-        f"decided {{then}}; the {dragon.benches} chords are {shortest:g} to {longest:g} m long",
-        radius,
-        "m",
-    )
+    rule = f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all"
+    chords = f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
+    rule += f" decided {{then}}; the {dragon.benches} chords are {chords}"
+    return too_much(budget, "turning_radius", rule, radius, "m")
 
 
 def _refusal(touch: Touch, margin: float, stray: float) -> str:

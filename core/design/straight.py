@@ -97,8 +97,7 @@ class Straight:
     def least(self, growth: float, radius: float) -> float:
         """Lower bound of the separation of any two benches that share no handle [m], with the front handle of the inner
         one at the radius [m] or further out, on the spiral of this growth [m/rad] and on every wider one; NO_BOUND if
-        there is no bound.
-        """
+        there is no bound."""
         further = self._further(growth, radius)
         if further == NO_BOUND or self.gap >= FREE:
             return further
@@ -109,9 +108,7 @@ class Straight:
         """The bound for benches with at least two others between them, without rounding [m]; FREE if there are none."""
         width, diagonals = 2.0 * self.half_width, 2.0 * math.hypot(self.overhang, self.half_width)
         half_around = (1.0 - STRAIGHT_ROUNDING) * math.pi * radius
-        if (
-            2.0 * math.pi * growth <= diagonals and self.total >= half_around
-        ):  # neighbouring turns of the spiral may meet
+        if math.tau * growth <= diagonals and self.total >= half_around:  # neighbouring turns of the spiral may meet
             return NO_BOUND
         curvature = curvature_most(growth, radius)
         sine = 0.5 * curvature * self.chord

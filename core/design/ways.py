@@ -109,16 +109,12 @@ class Ways:
         return self.search.surely_within(self.search.travel_at(radius / self.search.growth), pair)
 
     def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
-        """True if benches a and b are within the margin at this pitch too, with the head at this radius.
-
-        False if that radius is not on the way.
-        """
+        """True if benches a and b are within the margin at this pitch too, with the head at this radius on the way."""
         growth, search = pitch / (2.0 * math.pi), self.search
         search.budget.look()
         if radius > pitch * self.start_turns:
             return False
-        place = growth * kernels.spiral_arc(radius / growth)
-        curve = kernels.spiral_curve(growth)
+        place, curve = growth * kernels.spiral_arc(radius / growth), kernels.spiral_curve(growth)
         scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
         scene.kinds = search.kinds
         return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
@@ -140,16 +136,10 @@ class Ways:
         """The error if the budget ends before the pitch is found."""
         dragon = self.search.dragon
         k = int(dragon.chords[: dragon.uniform_from + 1].argmin())
-        alike = all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs))
         field = f"dragon.lengths.{k}"
-        if alike:
+        if all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs)):
             field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
-        return too_much(
-            self.search.budget,
-            field,
-            "must be larger, or benches fewer: their minimum pitch was not found {then}; the shortest of "
-            f"{dragon.benches} chords is {float(dragon.chords[k]):g} m long, the turning circle "
-            f"{2.0 * self.radius:g} m across, and the last pitch tried was {self.tried:g} m",
-            float(dragon.lengths[k]),
-            "m",
-        )
+        rule = "must be larger, or benches fewer: their minimum pitch was not found {then}"
+        shortest = f"the shortest of {dragon.benches} chords is {float(dragon.chords[k]):g} m long"
+        circle = f"the turning circle {2.0 * self.radius:g} m across, and the last pitch tried was {self.tried:g} m"
+        return too_much(self.search.budget, field, f"{rule}; {shortest}, {circle}", float(dragon.lengths[k]), "m")

@@ -50,18 +50,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
-from core.kernels.constants import (
-    CHAIN_COLUMNS,
-    CHORD,
-    CORNER_PULL,
-    FREE,
-    HALF_LENGTH,
-    HALF_WIDTH,
-    MOTION_COLUMNS,
-    RADIUS,
-    SIZE_COLUMNS,
-)
-from core.paths.frame import Frame
+from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shapes.rectangles import bench_outlines
 from core.shown import Shown, counted
@@ -167,12 +156,10 @@ def envelope(
     cells = sum(part.cells for part in parts)
     proof = SweepProof(_method(found, cells, (begin, until), most), cells)
     area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
-    return Envelope(_in_world(polygons, dance.path.frame), most, area, begin, until, proof)
-
-
-def _in_world(polygons: Polygons, frame: Frame) -> Polygons:
-    """The polygons in the world frame, each ring still in its direction."""
-    return tuple(tuple(frame.points(ring)[:: 1 if frame.clockwise else -1] for ring in rings) for rings in polygons)
+    frame, onwards = dance.path.frame, slice(None, None, 1 if dance.path.frame.clockwise else -1)
+    # in the world frame, each ring still in its direction
+    polygons = tuple(tuple(frame.points(ring)[onwards] for ring in rings) for rings in polygons)
+    return Envelope(polygons, most, area, begin, until, proof)
 
 
 def _method(found: list[Track], cells: int, span: tuple[float, float], most: float) -> str:
@@ -214,16 +201,14 @@ class _Lone:
         dragon, path, bench = dance.dragon, dance.path, slice(track.bench, track.bench + 1)
         self.dragon = Dragon.of(dragon.lengths[bench], dragon.widths[bench], dragon.overhangs[bench])
         self.path, self.stretches, self.excess, self.budget = path, track.stretches, excess, budget
-        length, width, self.chord = (
-            float(column[0]) for column in (self.dragon.lengths, self.dragon.widths, self.dragon.chords)
-        )
+        columns = self.dragon.lengths, self.dragon.widths, self.dragon.chords
+        length, width, self.chord = (column.item() for column in columns)
         self.last = path.last_theta(self.chord)
         self.radius = 0.5 * math.hypot(length, width)
-        sizes, self.motion = np.zeros((2, SIZE_COLUMNS)), np.zeros((2, MOTION_COLUMNS))
-        columns = [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]
-        sizes[0, columns] = self.chord, 0.5 * length, 0.5 * width, self.radius
+        sizes, self.motion = np.zeros((2, kernels.SIZE_COLUMNS)), np.zeros((2, kernels.MOTION_COLUMNS))
+        sizes[0, [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]] = self.chord, 0.5 * length, 0.5 * width, self.radius
         scene = kernels.Scene(path.curve, path.place, kernels.Rings(), sizes, 1, 0)
-        before, after = np.zeros((2, 2, CHAIN_COLUMNS))
+        before, after = np.zeros((2, 2, kernels.CHAIN_COLUMNS))
         self.interval = kernels.Interval(scene, before, after, self.motion)
 
     def sweep(self) -> Iterator[_Part]:

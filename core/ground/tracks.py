@@ -20,7 +20,6 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -66,8 +65,8 @@ def tracks(dance: Dance, begin: float, until: float) -> list[Track]:
         alike = alike[np.argsort(lows[alike])]
         furthest = np.maximum.accumulate(highs[alike])
         apart = np.flatnonzero(lows[alike[1:]] > furthest[:-1]) + 1
-        parts = [slice(a, b) for a, b in pairwise([0, *apart.tolist(), alike.size])]
-        ends = ((lows[alike[part]].min(), highs[alike[part]].max(), spares[alike[part]].max()) for part in parts)
+        parts = np.split(alike, apart)
+        ends = ((lows[part].min(), highs[part].max(), spares[part].max()) for part in parts)
         found.append(Track(bench, tuple((float(low), float(high), float(spare)) for low, high, spare in ends)))
     return found
 

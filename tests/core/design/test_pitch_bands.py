@@ -150,7 +150,7 @@ def test_benches_of_a_short_dragon_are_no_closer_than_the_ring_bound(seed: int) 
     search, bounds = bands.search, 0
     for growth in np.geomspace(0.01, 0.2, 8):
         for radius in np.linspace(1.5, 8.0, 12):
-            bound = kernels.ring_least(growth, growth, radius, search.rings, bands.total)
+            bound = kernels.ring_least(growth, growth, radius, search.rings, bands.straight.total)
             bounds += bound > 0.0
             assert chain(search, growth, radius, dragon.benches)[0] >= bound
     assert bounds
