@@ -78,15 +78,10 @@ def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float
     alike = min(dragon.benches, dragon.uniform_from + 3)
     sizes = np.stack([dragon.chords, dragon.lengths, dragon.widths], axis=1)[:alike]
     triples = np.unique(np.stack([sizes[:-2], sizes[1:-1], sizes[2:]], axis=1), axis=0)
-    sines = 0.5 * _sharpest(dance, until) * triples[..., 0]
+    sines = 0.5 * (dance.path.sharpest_before(until) * (1.0 + ROUNDING)) * triples[..., 0]
     if len(triples) > TRIPLES_MOST or not (sines <= 1.0).all():
         return 0.0
     return max(0.0, _least_stray(triples, np.arcsin(sines), most + ROUNDING, budget) - ROUNDING)
-
-
-def _sharpest(dance: Dance, until: float) -> float:
-    """Upper bound of the path's curvature under the dragon, with its head at this travel or before it [1/m]."""
-    return dance.path.sharpest_before(until) * (1.0 + ROUNDING)
 
 
 def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) -> float:
@@ -94,8 +89,7 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
 
     triples: (K, 3, 3) chord, length and width of three benches [m]; leans: (K, 3) asin(k c / 2)
     """
-    chords = triples[..., 0]
-    joint_angles = leans[:, ::2] + leans[:, 1:2]
+    chords, joint_angles = triples[..., 0], leans[:, ::2] + leans[:, 1:2]
     places = _distances(chords, joint_angles)
     places[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(joint_angles)).sum(axis=1)
     pulls = sag_pulls(chords)
@@ -167,19 +161,18 @@ def touching_pose(triple: Floats, places: Floats) -> Floats | None:
     triple: (3, 3) chord, length and width; places: (4, 2) of the handles [m]; None if no shape overlaps by DEPTH
     """
     nominal = places @ [1.0, 1j]
-    aim = float(np.angle(nominal[1] - nominal[2]))
+    way = float(np.angle(nominal[1] - nominal[2]))
     turns = np.linspace(-math.pi, math.pi, SHAPES, endpoint=False)
-    a, b = (grid.ravel() for grid in np.meshgrid(turns, turns))
-    known = np.abs(np.array([nominal[0] - nominal[2], nominal[1] - nominal[3], nominal[0] - nominal[3]]))
-    headings = np.stack([a, b], axis=1)
-    needed = (known - _distances(np.broadcast_to(triple[:, 0], (a.size, 3)), headings)).max(axis=1)
+    headings = _grid(turns, turns)
+    known = np.abs(nominal[[0, 1, 0]] - nominal[[2, 3, 3]])
+    needed = (known - _distances(np.broadcast_to(triple[:, 0], (len(headings), 3)), headings)).max(axis=1)
     order = np.flatnonzero(_overlapping(triple, headings))
     headings = headings[order[np.argsort(needed[order])[:SHAPES_TRIED]]]
     if not len(headings):
         return None
     spans = [turns[1] - turns[0], turns[1] - turns[0], math.pi]
     tried = np.concatenate([np.insert(headings, 2, turn, axis=1) for turn in turns])
-    best, way, least = tried[0], aim, math.inf
+    best, least = tried[0], math.inf
     for _ in range(ROUNDS):
         tried = tried[_overlapping(triple, tried[:, :2])]
         radii, centres = smallest_circles(nominal - _laid(triple[:, 0], tried, way))
@@ -187,10 +180,13 @@ def touching_pose(triple: Floats, places: Floats) -> Floats | None:
         if at >= 0 and radii[at] < least:
             best, least, centre = tried[at], float(radii[at]), centres[at]
         spans = [NARROWER * span for span in spans]
-        grid = [np.linspace(x - span, x + span, GRID) for x, span in zip(best, spans, strict=True)]
-        tried = np.stack([axis.ravel() for axis in np.meshgrid(*grid)], axis=1)
+        tried = _grid(*(np.linspace(x - span, x + span, GRID) for x, span in zip(best, spans, strict=True)))
     moved = _laid(triple[:, 0], best[None], way)[0] + centre
     return np.stack([moved.real, moved.imag], axis=-1)
+
+
+def _grid(*axes: Floats) -> Floats:
+    return np.stack([grid.ravel() for grid in np.meshgrid(*axes)], axis=1)
 
 
 def _overlapping(triple: Floats, headings: Floats) -> NDArray[np.bool_]:

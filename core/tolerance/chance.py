@@ -93,17 +93,14 @@ class ContactProbability(Shown):
             f"them for at most {100.0 * (1.0 - CONFIDENCE):.3g} % of all seeds."
         )
         if self.union_bound is not None:
-            told += (
-                f" The probability of the model is at most {said(self.union_bound)} at these instants, whatever the "
-                "samples say: a union bound over all pairs and instants, in first order with bounds of the rest, "
-                "computed in doubles."
-            )
-        if not self.tolerance:
-            return told
-        return (
-            f"{told} While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches at "
-            f"any time, which is proven; in {self.samples - (self.strayed or 0)} samples none is at these instants."
-        )
+            most = f"is at most {said(self.union_bound)} at these instants, whatever the samples say"
+            order = "in first order with bounds of the rest, computed in doubles"
+            told += f" The probability of the model {most}: a union bound over all pairs and instants, {order}."
+        if self.tolerance:
+            safe = f"While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches"
+            within = f"in {self.samples - (self.strayed or 0)} samples none is at these instants"
+            told += f" {safe} at any time, which is proven; {within}."
+        return told
 
     def _line(self) -> str:
         low, high = self.limits
@@ -151,8 +148,7 @@ def contact_probability(
     times = np.linspace(begin, until, count)
     steady, at = dance.steady, dance.steady_times(times)  # people wobble in a pause too, so instants are even in time
     sampled = _Sampled(steady, model, at, math.exp(-step / model.correlation_time), seed, budget)
-    handles = dance.dragon.benches + 1
-    together = max(1, HANDLES_TOGETHER // handles)
+    together = max(1, HANDLES_TOGETHER // (dance.dragon.benches + 1))
     found = _Found(len(which))
     try:
         for first in range(0, len(which), together):
@@ -187,13 +183,10 @@ class _Sampled:
 
     def __init__(self, dance: Dance, model: Wobble, times: Floats, memory: float, seed: int, budget: Budget) -> None:
         self.nominal, self.model, self.times, self.budget = dance, model, times, budget
-        dragon = dance.dragon
-        benches = dragon.benches
+        dragon, benches = dance.dragon, dance.dragon.benches
         sizes = np.zeros((benches + 1, kernels.SIZE_COLUMNS))
-        sizes[:benches] = np.stack(
-            [dragon.chords, 0.5 * dragon.lengths, 0.5 * dragon.widths, 0.5 * np.hypot(dragon.lengths, dragon.widths)],
-            axis=1,
-        )
+        radii = 0.5 * np.hypot(dragon.lengths, dragon.widths)
+        sizes[:benches] = np.stack([dragon.chords, 0.5 * dragon.lengths, 0.5 * dragon.widths, radii], axis=1)
         chain, boxes = (np.zeros((benches + 1, columns)) for columns in (kernels.UY + 1, kernels.BOX_COLUMNS))
         loud = np.zeros(2 * benches + 2, dtype=np.int8)
         self.wobbler = kernels.Wobbler(sizes, budget, chain, boxes, loud)
@@ -206,12 +199,10 @@ class _Sampled:
 
     def dance(self, batch: range, found: _Found, first: int) -> Iterator[float]:
         """Let a batch of samples dance side by side, from entry `first` of `found` on; yields the share done."""
-        handles = self.nominal.dragon.benches + 1
+        handles, count = self.nominal.dragon.benches + 1, self.times.size
         state = np.zeros((len(batch), handles, 2))
-        play = self._play(batch)
-        pitches = self._pitches(batch)
+        play, pitches = self._play(batch), self._pitches(batch)
         going = list(range(len(batch)))
-        count = self.times.size
         found.instant[first : first + len(batch)] = count
         for part, low in enumerate(range(0, count, INSTANTS_PER_COUNTER), 2):
             if not going:
@@ -225,9 +216,8 @@ class _Sampled:
                 self.budget.afford(float(length * handles))
                 drawn = self.numbers.of(batch[k], part).standard_normal((length, handles, 2))
                 self.wobbler.furthest = found.strays[first + k]
-                clear = self.wobbler.dance(
-                    self.memory[low : low + length], drawn, play[k], places, tangents, rooms, state[k]
-                )
+                memory = self.memory[low : low + length]
+                clear = self.wobbler.dance(memory, drawn, play[k], places, tangents, rooms, state[k])
                 found.strays[first + k] = self.wobbler.furthest
                 if clear < length:
                     found.instant[first + k] = low + clear

@@ -42,10 +42,7 @@ class ToleranceCurve(Shown):
         return f"strays of {extent(self.stray, 'm')} at pitches of {extent(self.pitch, 'm')}"
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """One row for each pitch: pitch, stray [m], limited_by.
-
-        raises: ImportError without pandas, naming the extra
-        """
+        """One row for each pitch: pitch, stray [m], limited_by. raises: ImportError without pandas, naming the extra"""
         limits = np.array([one.limited_by.value for one in self.tolerances])
         columns = {"pitch": self.pitch, "stray": self.stray, "limited_by": limits}
         return data_frame("ToleranceCurve.to_dataframe()", columns, {})

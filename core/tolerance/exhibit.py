@@ -38,8 +38,6 @@ NARROWER, ROUNDS = 0.35, 16
 CHORD_WITHIN, CHORD_STEPS = 1e-13, 40
 # Largest stray that is tried, and the smallest and the largest step to it, relative to the safe one [1].
 TRIED_TO, TRIED_STEPS = 1.5, (0.001, 0.01)
-
-
 # Three benches in a row of different sizes that are tried beside the pair asked about, 0.1 s each [1].
 THREES_TRIED = 4
 
@@ -121,13 +119,11 @@ def nearest_rotated(a: Body, b: Body, bearing: float, stray: float) -> tuple[flo
     spans = [a.most_rotation(stray), b.most_rotation(stray), BEARING_RANGE]
     limits, gap = spans[:2], 0.0
     for _ in range(ROUNDS):
-        grid = [
-            np.linspace(centre - span, centre + span, count if span else 1)
-            for centre, span, count in zip(centres, spans, (ROTATIONS, ROTATIONS, BEARINGS), strict=True)
-        ]
-        rotation_a = np.clip(grid[0], -limits[0], limits[0])[:, None, None]
-        rotation_b = np.clip(grid[1], -limits[1], limits[1])[None, :, None]
-        ways = np.broadcast_to(grid[2], (rotation_a.size, rotation_b.size, grid[2].size))
+        grid = zip(centres, spans, (ROTATIONS, ROTATIONS, BEARINGS), strict=True)
+        axes = [np.linspace(centre - span, centre + span, count if span else 1) for centre, span, count in grid]
+        rotation_a = np.clip(axes[0], -limits[0], limits[0])[:, None, None]
+        rotation_b = np.clip(axes[1], -limits[1], limits[1])[None, :, None]
+        ways = np.broadcast_to(axes[2], (rotation_a.size, rotation_b.size, axes[2].size))
         faces = [a.faces(rotation_a, bearing), b.faces(rotation_b, bearing)]
         way = np.concatenate([ways, *(np.broadcast_to(face, (*ways.shape[:2], 1)) for face in faces)], axis=2)
         apart = (b.x - a.x) * np.cos(way) + (b.y - a.y) * np.sin(way)
@@ -179,8 +175,7 @@ def exhibit(
         wanted = {first: a.strays(way, rotation_a, stray)}
         if second is not None:
             wanted[second] = other.strays(way + math.pi, rotation_b, stray)
-        moved = extended(dragon.chords, handles, wanted)
-        shown = None if moved is None else _shown(dragon, handles, moved, (*pair, edge), time)
+        shown = _shown(dragon, handles, wanted, (*pair, edge), time)
         if shown is not None and shown.depth > 0.0:
             return shown
         stray += most if shown is None else min(max(least, -shown.depth / moving), most)
@@ -195,32 +190,27 @@ def _folded(dragon: Dragon, handles: Floats, first: int, time: float) -> Exhibit
     if pose is None:
         return None
     strays = pose - handles[first : first + 4]
-    moved = extended(dragon.chords, handles, {first: strays[:2], first + 2: strays[2:]})
-    shown = None if moved is None else _shown(dragon, handles, moved, (first, first + 2, None), time)
+    shown = _shown(dragon, handles, {first: strays[:2], first + 2: strays[2:]}, (first, first + 2, None), time)
     return shown if shown is not None and shown.depth > 0.0 else None
 
 
 def _shown(
-    dragon: Dragon, handles: Floats, moved: Floats, met: tuple[int, int | None, Body | None], time: float
-) -> Exhibit:
-    """The pose; it shows no contact if its depth is negative. met: the pair, and the edge in place of a second bench"""
-    depth = -_overlap(dragon, moved, met[:2], met[2])
+    dragon: Dragon, handles: Floats, wanted: dict[int, Floats], met: tuple[int, int | None, Body | None], time: float
+) -> Exhibit | None:
+    """The pose with strays as extended() takes them, None if it has none; it shows no contact if its depth is negative.
+
+    met: the pair, and the edge in place of a second bench
+    """
+    moved = extended(dragon.chords, handles, wanted)
+    if moved is None:
+        return None
+    first, second, edge = met
+    both = [body(dragon, moved, first), body(dragon, moved, second) if second is not None else edge]
+    poses = np.array([[one.x, one.y, one.heading] for one in both if one])
+    sizes = np.array([[2.0 * one.half_length, 2.0 * one.half_width] for one in both if one])
+    a, b = frames(poses, sizes)
+    depth = -float(frames_separation(a[None], b[None]).separation[0])
     return Exhibit(time, moved, met[:2], depth, float(np.hypot(*(moved - handles).T).max()))
-
-
-def _overlap(dragon: Dragon, handles: Floats, pair: tuple[int, int | None], edge: Body | None) -> float:
-    """Separation of a pair in a pose [m]."""
-    poses, sizes = [], []
-    for k in pair:
-        if k is None:
-            assert edge is not None
-            poses.append([edge.x, edge.y, edge.heading])
-            sizes.append([2.0 * edge.half_length, 0.0])
-        else:
-            poses.append(bench_poses(handles[k : k + 2])[0].tolist())
-            sizes.append([dragon.lengths[k], dragon.widths[k]])
-    both = frames(np.array(poses), np.array(sizes))
-    return float(frames_separation(both[:1], both[1:]).separation[0])
 
 
 def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floats | None:

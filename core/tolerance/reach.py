@@ -120,10 +120,8 @@ def simple_reach(dragon: Dragon, stray: float) -> Reach:
 
 @lru_cache(maxsize=4)  # a question asks several times, and so does someone who drags the pitch
 def reach(dragon: Dragon, stray: float) -> Reach:
-    """The ground that the benches of a dragon may cover while every hole is within the stray of its place [m].
-
-    raises: InvalidValue for a dragon with more than SIZES_MAX sizes of benches
-    """
+    """The ground that the benches of a dragon may cover while every hole is within the stray of its place [m]. raises:
+    InvalidValue for a dragon with more than SIZES_MAX sizes of benches"""
     return _reach(dragon, stray, supports)
 
 
@@ -136,7 +134,7 @@ def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Rea
         rule = f"must have at most {SIZES_MAX} different sizes of benches with a stray of {said(stray)} m"
         raise InvalidValue("dragon.lengths", f"{rule}, got {len(numbers)}")
     kinds = np.array(of, dtype=np.int64)
-    hulls = _hulls(np.stack([supports(*size, stray) for size in numbers], axis=1))
+    hulls = bench_hulls(np.stack([supports(*size, stray) for size in numbers], axis=1))
     half_lengths, half_widths = np.abs(hulls).max(axis=(1, 2)).T
     spread = np.full(dragon.benches, kinds[-1])
     spread[:alike] = kinds
@@ -162,16 +160,13 @@ def ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tupl
     return corners, float(outers[:, 1, :, 1].max()), within
 
 
-def bench_hulls(chord: float, overhang: float, half_width: float, stray: float) -> Floats:
-    """Corners (3, DIRECTIONS, 2) of the hulls of one bench's front end, middle and rear end [m]."""
-    hulls: Floats = _hulls(supports(chord, overhang, half_width, stray)[:, None])[0]
-    return hulls
-
-
-def _hulls(supports: Floats) -> Floats:
-    """bench_hulls() (n, 3, DIRECTIONS, 2) of benches with these supports (2, n, DIRECTIONS) [m]."""
+def bench_hulls(supports: Floats) -> Floats:
+    """Corners (..., 3, DIRECTIONS, 2) of the hulls of front end, middle and rear end [m] of benches with these supports
+    (2, ..., DIRECTIONS) [m]."""
     front, middle = _polygon(supports)
-    return np.stack([front, middle, _turned(front)], axis=1)
+    half = DIRECTIONS // 2
+    rear = -np.roll(front, -half, axis=-2)  # the same polygons, half a turn about the middle of the bench
+    return np.stack([front, middle, rear], axis=-3)
 
 
 # A bench is the same mirrored left to right: half of the directions are computed.
@@ -206,13 +201,6 @@ def _simple_supports(chord: float, overhang: float, half_width: float, stray: fl
 def _polygon(support: Floats) -> Floats:
     """Corners (..., DIRECTIONS, 2) of the half planes with these supports (..., DIRECTIONS)."""
     step = 2.0 * math.pi / DIRECTIONS
-    following = np.concatenate([support[..., 1:], support[..., :1]], axis=-1)
-    along = (following - support * math.cos(step)) / math.sin(step)
+    along = (np.roll(support, -1, axis=-1) - support * math.cos(step)) / math.sin(step)
     cosine, sine = directions().T
     return np.stack([support * cosine - along * sine, support * sine + along * cosine], axis=-1)
-
-
-def _turned(polygon: Floats) -> Floats:
-    """The same polygons, half a turn about the middle of the bench."""
-    half = DIRECTIONS // 2
-    return -np.concatenate([polygon[..., half:, :], polygon[..., :half, :]], axis=-2)

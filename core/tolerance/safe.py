@@ -19,15 +19,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from core.contact.clearance import (
-    PROFILE_STEP,
-    Dip,
-    Samples,
-    refined_dip,
-    sampled_least,
-    samples_between,
-    samples_where,
-)
+from core.contact import clearance
+from core.contact.clearance import PROFILE_STEP, Dip, refined_dip
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
 from core.contact.search import Search
@@ -82,14 +75,14 @@ class Field:
         return (1 if self.edges is not None else 2) * float(gains(self.dance.dragon).max())
 
     @cached_property
-    def in_place(self) -> Samples:
+    def in_place(self) -> clearance.Samples:
         """Clearances of the benches in their nominal places."""
-        return samples_between(self.search(0.0), *self.span)
+        return clearance.samples_between(self.search(0.0), *self.span)
 
     def sampled(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Dip:
         """The least clearance of the samples at which some ground can reach another."""
-        search = self.search(stray, covered)
-        return sampled_least(search, samples_where(search, self.in_place, SAMPLED_BEYOND * self.gain * stray))
+        search, near = self.search(stray, covered), SAMPLED_BEYOND * self.gain * stray
+        return clearance.sampled_least(search, clearance.samples_where(search, self.in_place, near))
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +108,8 @@ def held_stray(field: Field, most: float) -> Found:
     if safe.touches or field.edges is not None or safe.dip is None or safe.dip[2][1] != safe.dip[2][0] + 2:
         return found
     held = held_apart(field.dance, field.span[1], most, field.budget)
-    if held <= safe.stray:
-        return found
     others = Found(held, None, 0)
-    if field.dance.dragon.benches > 3:
+    if field.dance.dragon.benches > 3 and held > safe.stray:
         others = _safe_stray(replace(field, between=2), held)
     if others.stray <= safe.stray:
         return found

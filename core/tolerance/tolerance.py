@@ -81,9 +81,8 @@ class Tolerance(Shown):
         if shown is None or self.benches is None:
             return safe
         other = self.area if self.benches[1] is None else f"bench {self.benches[1]}"
-        return (
-            f"{safe}; with {worded(shown, 'm')} bench {self.benches[0]} and {other} touch at {worded(self.time, 's')}"
-        )
+        touch = f"bench {self.benches[0]} and {other} touch at {worded(self.time, 's')}"
+        return f"{safe}; with {worded(shown, 'm')} {touch}"
 
 
 @asked_of("dance", Dance, "how far people may stray was not found")
@@ -137,9 +136,9 @@ def tolerance(
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:
     fields, travels = [], (dance.clock.place(span[0]), dance.clock.place(span[1]))
     if dance.dragon.benches > 2:
-        to_fold = dance.nears_fold(span[1])
-        last = before_fold(travels[1]) if to_fold else travels[1]
-        fold = dance.end if to_fold else None
+        last, fold = travels[1], None
+        if dance.nears_fold(span[1]):
+            last, fold = before_fold(last), dance.end
         fields.append(Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:
         danced = replace(dance, path=venue_route(dance.path, travels[1]))
@@ -181,10 +180,8 @@ def _method(dance: Dance, found: Found, independent: float, span: tuple[float, f
     if independent < found.stray:
         between = " Two benches with one between them are held apart by it: distances of handles prove that."
     elif found.dip is not None and found.dip[2][1] == found.dip[2][0] + 2:
-        between = (
-            " The two benches that limit it have one between them, which is not counted on here: they are taken to "
-            "stray independently, so the stray is lower than it could be."
-        )
+        between = " The two benches that limit it have one between them, which is not counted on here: they are taken"
+        between += " to stray independently, so the stray is lower than it could be."
     return (
         f"{what}, while every hole is within {safe_words(found.stray)} m of its place and every chord keeps its "
         f"length, no bench touches another that it shares no handle with{square}. Proven in steps for the hulls of all "

@@ -18,6 +18,7 @@ than the stray, because it lies between two points that do not, and a side goes 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -61,12 +62,9 @@ def uncertain_tolerance(
     low, high = ((spiral.pitch + off) / (2.0 * np.pi) for off in (-spread, spread))
     longer, shorter = (Dragon.of(dragon.lengths + off, dragon.widths, dragon.overhangs) for off in (error, -error))
 
-    def covered(longer: Dragon, stray: float) -> Reach:
-        return _longer_reach(reach(shorter, stray), longer, stray)
-
     def touches(stray: float) -> bool:
         budget.afford(float(kernels.DIRECTIONS * min(dragon.uniform_from + 1, dragon.benches)))
-        search = Search(longer, spiral, 0.0, stray=stray, covered=covered)
+        search = Search(longer, spiral, 0.0, stray=stray, covered=partial(_longer_reach, shorter))
         search.rings.between_shortest -= 2.0 * error
         return not kernels.ring_clears(low, high, radius, 0.0, search.rings)
 
@@ -76,8 +74,9 @@ def uncertain_tolerance(
     return bisected(touches, 0.0, most, width=WIDTH * most)[0]
 
 
-def _longer_reach(ground: Reach, longer: Dragon, stray: float) -> Reach:
-    """Ground of benches with unknown chords, up to those of the dragon `longer`; ground: of the shortest chords [m]."""
+def _longer_reach(shorter: Dragon, longer: Dragon, stray: float) -> Reach:
+    """Ground of benches with unknown chords, between those of two dragons [m]."""
+    ground = reach(shorter, stray)
     alike = len(ground.kinds)
     hulls = ground.hulls.copy()
     further = np.empty(len(hulls))

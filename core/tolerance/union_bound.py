@@ -51,7 +51,7 @@ from core.values import Floats
 # [1].
 DEVIATIONS = (8.0, 7.0, 6.0, 5.0)
 NUMBERS = 4
-# Largest sine of the turn of a bench, and largest displacement relative to its chord, at which the bound is used [1].
+# Largest sine of the rotation of a bench, and largest displacement relative to its chord, at which the bound holds [1].
 STEEPEST = 0.5
 # Number of benches, over all instants, whose covariances are held at once [1]: 64 MB.
 BENCHES_TOGETHER = 250_000
@@ -78,9 +78,12 @@ def union_bound(dance: Dance, model: Wobble, times: Floats, budget: Budget) -> f
 
     raises: Halted
     """
+    from scipy.special import ndtr  # type: ignore[import-untyped]
+
     least, together = 1.0, max(1, BENCHES_TOGETHER // dance.dragon.benches)
     for deviations in DEVIATIONS:
-        bound = _beyond(deviations, times.size * dance.dragon.benches)
+        # the probability that the assumption fails for one of the benches, at most
+        bound = 2.0 * NUMBERS * (times.size * dance.dragon.benches) * float(ndtr(-deviations))
         if bound >= least:
             break
         for first in range(0, times.size, together):
@@ -92,13 +95,6 @@ def union_bound(dance: Dance, model: Wobble, times: Floats, budget: Budget) -> f
                 break
         least = min(least, bound)
     return least
-
-
-def _beyond(deviations: float, benches: int) -> float:
-    """Upper bound of the probability that the assumption fails for one of the benches."""
-    from scipy.special import ndtr  # type: ignore[import-untyped]
-
-    return 2.0 * NUMBERS * benches * float(ndtr(-deviations))
 
 
 def first_order(dragon: Dragon, model: Wobble, places: Floats, tangents: Floats) -> FirstOrder:
@@ -122,8 +118,7 @@ def first_order(dragon: Dragon, model: Wobble, places: Floats, tangents: Floats)
         joint[:, k, :2, :2], joint[:, k, :2, 2:] = covariance, onward
         joint[:, k, 2:, :2], joint[:, k, 2:, 2:] = onward.swapaxes(1, 2), following
         spread = wanted + covariance - mixed - mixed.swapaxes(1, 2)  # of v
-        numbers = ((u, covariance), (n, covariance), (u, spread), (n, spread))
-        for column, (way, of) in enumerate(numbers):
+        for column, (way, of) in enumerate(((u, covariance), (n, covariance), (u, spread), (n, spread))):
             deviations[:, k, column] = np.einsum("ti,tij,tj->t", way, of, way)
         with_z, covariance = kept @ z_next + taken @ want, following
     return FirstOrder(along, across, joint, np.sqrt(np.maximum(deviations, 0.0)))
@@ -132,7 +127,7 @@ def first_order(dragon: Dragon, model: Wobble, places: Floats, tangents: Floats)
 def left_out(dragon: Dragon, laid: FirstOrder, deviations: float) -> Floats | None:
     """Bounds (T, n, 4) of what e_k and e_{k+1} have beyond their first order, along and across bench k [m].
 
-    None where the assumption allows a turn beyond STEEPEST
+    None where the assumption allows a rotation beyond STEEPEST
     """
     bounds = np.zeros_like(laid.deviations)
     p = q = np.zeros(len(bounds))

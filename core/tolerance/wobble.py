@@ -49,22 +49,18 @@ class Wobble(Shown):
     def __post_init__(self) -> None:
         for name in ("lateral", "forward", "hole", "pin", "pitch_error"):
             object.__setattr__(self, name, checked_number(f"model.{name}", getattr(self, name), "m", 0.0, SIZE_MAX))
-        for name, unit in (("correlation_time", "s"), ("correlation_benches", "")):
-            value = checked_number(f"model.{name}", getattr(self, name), unit, 0.0, CORRELATION_MAX, open_low=True)
-            object.__setattr__(self, name, value)
-        if self.step is not None:
-            object.__setattr__(self, "step", self._checked_step(self.step))
+        for name, unit in (("correlation_time", "s"), ("correlation_benches", ""), ("step", "s")):
+            given = getattr(self, name)
+            if given is not None or name != "step":
+                value = checked_number(f"model.{name}", given, unit, 0.0, CORRELATION_MAX, open_low=True)
+                object.__setattr__(self, name, value)
+        most = self.correlation_time / INSTANTS_PER_TIME
+        if self.step is not None and self.step > most and not math.isclose(self.step, most):
+            rule = f"must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(self.step)} s"
+            raise InvalidValue("model.step", rule, time="model.correlation_time")
         if self.pin > self.hole:
             rule = f"must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
             raise InvalidValue("model.pin", rule, hole="model.hole")
-
-    def _checked_step(self, given: object) -> float:
-        step = checked_number("model.step", given, "s", 0.0, CORRELATION_MAX, open_low=True)
-        most = self.correlation_time / INSTANTS_PER_TIME
-        if step > most and not math.isclose(step, most):
-            rule = f"must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
-            raise InvalidValue("model.step", rule, time="model.correlation_time")
-        return step
 
     @property
     def play(self) -> float:
@@ -89,10 +85,8 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
         rule = f"must leave a play of at most {of} around its {{pin}}, got {model.play:.9g} m of play"
         raise InvalidValue("model.hole", rule, pin="model.pin")
     if model.pitch_error > 0.0:
-        if dance.path.spiral is None:
-            rule = "must be 0 on a path that is not a spiral"
-            raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
-        most = PITCH_PART * dance.path.spiral.pitch
+        spiral, rule = dance.path.spiral, "must be 0 on a path that is not a spiral"
+        most = PITCH_PART * spiral.pitch if spiral else 0.0
         if model.pitch_error > most:
-            rule = f"must be at most {PITCH_PART} of the pitch ({most:.9g} m)"
+            rule = f"must be at most {PITCH_PART} of the pitch ({most:.9g} m)" if spiral else rule
             raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")

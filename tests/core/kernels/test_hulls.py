@@ -10,7 +10,7 @@ import shapely
 
 from core import kernels
 from core.kernels.constants import DIRECTIONS, HALF_LENGTH, MX, MY, RADIUS, UX, UY
-from core.tolerance.reach import bench_hulls, directions
+from core.tolerance.reach import bench_hulls, directions, supports
 
 # The largest gap along an axis falls short of the distance by no more than this part of it [1].
 SHORT = 1.0 - math.cos(math.pi / DIRECTIONS)
@@ -28,13 +28,13 @@ def scene_of(poses: np.ndarray, edges: int) -> tuple[kernels.Scene, np.ndarray]:
         chain[row, [MX, MY, UX, UY]] = x, y, math.cos(heading), math.sin(heading)
     sizes[benches + 1 :, [HALF_LENGTH, RADIUS]] = 1.5
     scene = kernels.Scene(kernels.spiral_curve(0.1), 0.0, kernels.Rings(), sizes, benches, edges)
-    hulls = np.stack([bench_hulls(2.86, 0.275, 0.15, STRAY), bench_hulls(1.65, 0.275, 0.15, STRAY)])
+    hulls = np.stack([bench_hulls(supports(2.86, 0.275, 0.15, STRAY)), bench_hulls(supports(1.65, 0.275, 0.15, STRAY))])
     scene.kinds.lay(hulls.reshape(-1, 2), np.array([0, 1], dtype=np.int64), directions())
     return scene, chain
 
 
 def ground(kind: int, pose: np.ndarray) -> list[shapely.Polygon]:
-    hulls = bench_hulls(2.86 if kind == 0 else 1.65, 0.275, 0.15, STRAY)
+    hulls = bench_hulls(supports(2.86 if kind == 0 else 1.65, 0.275, 0.15, STRAY))
     c, s = math.cos(pose[2]), math.sin(pose[2])
     return [shapely.Polygon(hull @ np.array([[c, s], [-s, c]]) + pose[:2]) for hull in hulls]
 

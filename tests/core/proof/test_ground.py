@@ -11,7 +11,7 @@ import shapely
 from flint import acb, arb, ctx
 
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, Side, best_side
-from core.tolerance.reach import bench_hulls, directions
+from core.tolerance.reach import bench_hulls, directions, supports
 from tests.core.tolerance.places import moved_points, random_strays
 
 # Rounding of places and supports in doubles [m].
@@ -43,9 +43,9 @@ def test_every_place_lies_in_one_of_the_parts_and_in_the_whole(
 @pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
 def test_two_derivations_of_the_ground_agree(chord: float, overhang: float, width: float, stray: float) -> None:
     ground = ground_of(chord, overhang, width, stray)
-    hulls = bench_hulls(chord, overhang, 0.5 * width, stray)
-    supports = (hulls * directions()).sum(axis=-1)
-    assert ground.rough_supports[:WHOLE] == pytest.approx(supports, rel=0.0, abs=ROUNDING)
+    hulls = bench_hulls(supports(chord, overhang, 0.5 * width, stray))
+    furthest = (hulls * directions()).sum(axis=-1)
+    assert ground.rough_supports[:WHOLE] == pytest.approx(furthest, rel=0.0, abs=ROUNDING)
     assert ground.rough_corners[:WHOLE] == pytest.approx(hulls @ [1.0, 1.0j], rel=0.0, abs=ROUNDING)
     assert max(float(value.rad()) for row in ground.supports for value in row) < 1e-24
 

@@ -38,7 +38,7 @@ def test_a_point_moves_by_what_the_derivation_says() -> None:
 
 @pytest.mark.parametrize(("chord", "overhang", "width", "stray"), SHAPES, ids=IDS)
 def test_every_place_lies_in_one_of_the_hulls(chord: float, overhang: float, width: float, stray: float) -> None:
-    hulls = bench_hulls(chord, overhang, 0.5 * width, stray)
+    hulls = bench_hulls(supports(chord, overhang, 0.5 * width, stray))
     planes = (hulls * directions()).sum(axis=-1)
     strays = random_strays(np.random.default_rng(2), chord, stray, examples(4_000, 20_000))
     for point in outline(chord, overhang, 0.5 * width):
@@ -65,14 +65,14 @@ def test_supports_are_hardly_larger_than_what_places_reach(
 @given(scale=st.floats(0.1, 10.0), stray=st.floats(0.001, 0.8))
 def test_a_larger_bench_with_a_larger_stray_has_a_larger_ground(scale: float, stray: float) -> None:
     small, large = (
-        bench_hulls(1.65, 0.275, 0.15, stray),
-        bench_hulls(1.65 * scale, 0.275 * scale, 0.15 * scale, stray * scale),
+        bench_hulls(supports(1.65, 0.275, 0.15, stray)),
+        bench_hulls(supports(1.65 * scale, 0.275 * scale, 0.15 * scale, stray * scale)),
     )
     assert large == pytest.approx(small * scale, rel=1e-12, abs=1e-11)
 
 
 def test_corners_go_round_and_the_ends_mirror_each_other() -> None:
-    front, middle, rear = bench_hulls(1.65, 0.275, 0.15, 0.1)
+    front, middle, rear = bench_hulls(supports(1.65, 0.275, 0.15, 0.1))
     for hull in (front, middle, rear):
         edges = np.roll(hull, -1, axis=0) - hull
         following = np.roll(edges, -1, axis=0)
