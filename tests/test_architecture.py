@@ -299,7 +299,7 @@ ON_SPIRALS = {
     "core.contact.search": 3,  # bounds by radius instead of place
     "core.contact.near_graze": 2,  # the exact arc length of its start
     "core.tolerance.curve": 1,  # the time on a circle around the centre
-    "core.tolerance.wobble": 2,  # an error of the pitch
+    "core.tolerance.wobble": 1,  # an error of the pitch
     "core.tolerance.chance": 2,
     "core.proof.paths": 3,
     "core.proof.certificate": 2,  # proofs on spirals alone
