@@ -8,6 +8,9 @@ Bisections share halved() of fold.py. clear_radius(), Peak.refine(), crossing() 
 own, because what they test takes more than two numbers and goes on between the halvings: clear_radius() through
 bisected() of core/sampling.py takes 3.8 us instead of 0.7 us (measured 2026-11-23).
 
+Some functions take seven or eight parameters, because arrays go to them one by one. Modules up to hulls stand before
+Scene and Interval, which hold these arrays; and records are structs in C, which cannot hold an array.
+
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 
 constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on

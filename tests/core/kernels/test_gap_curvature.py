@@ -5,18 +5,28 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import kernels
+from core import Dragon, Spiral, kernels
+from core.contact.search import Search
 from core.kernels.constants import (
     CENTRE_PULL,
     CENTRE_SPEED,
     CORNER_PULL,
     CORNER_SPEED,
+    CURVATURE_HIGH,
+    CURVATURE_LOW,
     HALF_LENGTH,
     MX,
     MY,
     OMEGA,
+    OMEGA_LOW,
     OMEGA_PULL,
+    OMEGA_RATE,
     RADIUS,
+    RATE_HIGH,
+    RATE_LOW,
+    RATE_RATE,
+    THETA_HIGH,
+    THETA_LOW,
     UX,
     UY,
 )
@@ -80,3 +90,52 @@ def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_
     gap = along * np.cos(turn * times) + across * np.sin(turn * times)
     reached = (gap[2] - 2.0 * gap[1] + gap[0]) / step**2
     assert reached == pytest.approx(kernels.axis_curvature(1.0, 0, 2, distance, sizes, motion), rel=1e-5)
+
+
+def worst(a: np.ndarray, b: np.ndarray) -> float:
+    """The largest difference between a number in one range (low, high) and a number in another."""
+    return float(np.abs(a[:, None] - b).max())
+
+
+def turning_bound(growth: float, i: int, j: int, reach: float, radius: float, motion: np.ndarray) -> float:
+    """K against the rotation of bench i, term by term as its derivation in gap_curvature.py has it [1/m]."""
+    omega, other = motion[i, [OMEGA_LOW, OMEGA]], motion[j, [OMEGA_LOW, OMEGA]]
+    slips, pulls = [], []
+    for row in motion[[i, i + 1, j, j + 1]]:
+        rate, r = row[[RATE_LOW, RATE_HIGH]], growth * row[[THETA_LOW, THETA_HIGH]]
+        curvature = row[[CURVATURE_LOW, CURVATURE_HIGH]] / growth
+        slips.append(worst(rate, omega * r) + omega[1] * growth)
+        pulls.append(row[RATE_RATE] + worst(curvature * rate**2, omega**2 * r) + omega[1] ** 2 * growth)
+    slip = sum(slips) / 2 + worst(omega, other) * radius
+    pull = sum(pulls) / 2 + (worst(omega**2, other**2) + motion[j, OMEGA_RATE]) * radius
+    return float(pull + 2 * omega[1] * slip + motion[i, OMEGA_RATE] * reach)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_bound_has_every_term_of_its_derivation(seed: int) -> None:
+    random, growth, distance, radius = np.random.default_rng(seed), 0.09, 2.5, 1.1
+    motion, sizes = np.zeros((8, kernels.MOTION_COLUMNS)), np.zeros((8, kernels.SIZE_COLUMNS))
+    sizes[:, RADIUS] = radius
+    for low, high, least, most in (
+        (RATE_LOW, RATE_HIGH, 0.9, 1.0),
+        (THETA_LOW, THETA_HIGH, 40.0, 60.0),
+        (CURVATURE_LOW, CURVATURE_HIGH, 0.015, 0.025),
+        (OMEGA_LOW, OMEGA, 0.18, 0.25),
+    ):
+        motion[:, [low, high]] = np.sort(random.uniform(least, most, (8, 2)), axis=1)
+    motion[:, [RATE_RATE, OMEGA_RATE]] = random.uniform(0.1, 0.3, (8, 2))
+    turning = turning_bound(growth, 1, 5, distance + radius, radius, motion)
+    motion[:, OMEGA_PULL] = turning  # the bound in the resting frame is then the larger one
+    assert kernels.axis_curvature(growth, 1, 5, distance, sizes, motion) == pytest.approx(turning, rel=1e-12)
+
+
+def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move() -> None:
+    search = Search(Dragon(12), Spiral(), 0.0)
+    place, h, (a, b) = search.place - 400.0, 0.25, (0, 9)
+    found = kernels.pair_curvatures(search.scene, search.probe, place, h, a, b)
+    centres, motion = search.rows[2][:, [MX, MY]], search.motion
+    distance = np.linalg.norm(centres[b] - centres[a]) + h * motion[[a, b], CENTRE_SPEED].sum()
+    for pair, bound in zip(((a, b), (b, a)), found, strict=True):
+        assert bound == pytest.approx(
+            kernels.axis_curvature(search.growth, *pair, float(distance), search.sizes, motion), rel=1e-12
+        )
