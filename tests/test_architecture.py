@@ -303,7 +303,7 @@ ON_SPIRALS = {
     "core.tolerance.chance": 2,
     "core.proof.paths": 3,
     "core.proof.certificate": 2,  # proofs on spirals alone
-    "app.files.figures": 2,  # the pitch in a title
+    "app.files.figures": 1,  # the pitch in a title
     "app.plan.timing": 1,  # radius and angle of a mark
     "app.grade.geometry": 2,  # known errors on a spiral
     "app.grade.rings": 1,

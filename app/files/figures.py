@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from app.files.drawing import DRAWING, canvas, draw_venue, file_bytes, look_around
-from core import Budget, MinimumPitch, Route, Spiral, Venue, first_contact, trajectory
+from core import Budget, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
 from core.errors import said
@@ -28,12 +28,9 @@ def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float =
         if venue:
             draw_venue(axes, venue)
             look_around(figure, axes, result.position[0])
-        axes.set_title(f"Handles and their speeds at {time:g} s{_pitch_words(dance.path)}", fontsize=11)
+        words = "" if (spiral := dance.path.spiral) is None else f" (pitch {said(spiral.pitch)} m)"
+        axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
         return file_bytes(figure, format)
-
-
-def _pitch_words(path: Spiral | Route) -> str:
-    return f" (pitch {said(path.spiral.pitch)} m)" if path.spiral is not None else ""
 
 
 def contact_figure(

@@ -103,6 +103,9 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
             theta -= 1.0 / (b * math.sqrt(1.0 + theta**2))
         return np.array([found.get(float(one), start) for one in t])
 
+    def rounded(decimals: int, t: Floats) -> Floats:
+        return np.round(path.theta(t * dance.head_speed), decimals)
+
     right = of_dance(dance)
 
     def led_by(law: Callable[[Floats], Floats]) -> Motion:
@@ -113,13 +116,8 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
     yield Model("steady_angle", led_by(steady))
     yield Model("euler_steps", led_by(explicit))
     for decimals in ANGLE_DECIMALS if many else ():
-        rounded = led_by(partial(_rounded_head, dance, path, decimals))
-        yield Model("rounded_early", rounded, {"what": f"theta of the head, {decimals} decimals"})
-
-
-def _rounded_head(dance: Dance, path: Spiral, decimals: int, times: Floats) -> Floats:
-    """The head's polar angle, rounded to some decimals."""
-    return np.round(path.theta(times * dance.head_speed), decimals)
+        law = led_by(partial(rounded, decimals))
+        yield Model("rounded_early", law, {"what": f"theta of the head, {decimals} decimals"})
 
 
 def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:
