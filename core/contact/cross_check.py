@@ -188,30 +188,23 @@ def judged_contact(
 
     poses: (2, n, 3) just before and just after, or at a start and just after; sizes: (n, 2) length and width [m]
     """
-    if not whole:
-        words = {
-            engine: _word(JUDGES[engine](poses[:, list(pair)], sizes[list(pair)], margin), at_start)
-            for engine in able(margin)
-        }
-        if at_start:
-            _leave_out_blind(words, poses[:, list(pair)], sizes[list(pair)])
-        return _told(words, np.array(pair), ())
-    judged = judged_benches(poses[1], sizes, pair, margin)
-    if len(judged) == len(pair):
-        return judged_contact(poses, sizes, pair, margin=margin, whole=False, at_start=at_start)
-    found = {engine: _found(engine, poses[:, judged], sizes[judged], margin, judged, budget) for engine in able(margin)}
+    judged = judged_benches(poses[1], sizes, pair, margin) if whole else np.array(pair)
+    two, size = poses[:, list(pair)], sizes[list(pair)]
     together: set[Pair] = set()
-    if not at_start:
-        others = sorted(found[Engine.SEPARATING_AXIS][1] - {pair})
-        together = _meeting_together(others, poses, sizes, margin)
     words = {}
-    for engine, (before, after) in found.items():
-        if at_start:
-            words[engine] = _word([pair in before, pair in after], at_start)
-        else:
-            words[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
+    if len(judged) == len(pair):
+        words = {engine: _word(JUDGES[engine](two, size, margin), at_start) for engine in able(margin)}
+    else:
+        near, own = poses[:, judged], sizes[judged]
+        found = {engine: _found(engine, near, own, margin, judged, budget) for engine in able(margin)}
+        if not at_start:
+            together = _meeting_together(sorted(found[Engine.SEPARATING_AXIS][1] - {pair}), poses, sizes, margin)
+        for engine, (before, after) in found.items():
+            alone = pair in after and after <= together | {pair}
+            seen = [pair in before, pair in after]
+            words[engine] = _word(seen, at_start) if at_start else Verdict(bool(before), alone)
     if at_start:
-        _leave_out_blind(words, poses[:, list(pair)], sizes[list(pair)])
+        _leave_out_blind(words, two, size)
     return _told(words, judged, tuple(sorted(together)))
 
 

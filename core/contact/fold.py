@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.march import TOUCHES
-from core.contact.search import Search, joined
+from core.contact.search import Approached, Search, joined
 from core.dance import RunEnd
 from core.kernels import Ended
 from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_BOUND, NO_ROOT, THETA
@@ -34,13 +34,8 @@ STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 # run begins where the ring bound clears all pairs (`rings_reach`), that march need not follow all pairs again, because
 # everything before it is clear.
 def approach_fold(
-    search: Search,
-    begin: float,
-    stops: list[tuple[float, float]],
-    head_speed: float,
-    end: RunEnd,
-    marched: tuple[Ended, Marched, float],
-) -> tuple[Ended, Marched, float]:
+    search: Search, begin: float, stops: list[tuple[float, float]], head_speed: float, end: RunEnd, marched: Approached
+) -> Approached:
     """Search.approach() from a travel to a fold [m]; REACHED: clear up to the fold.
 
     stops: Search.fold_stops(); marched: Search.approach() to the first of them

@@ -13,7 +13,7 @@ should have one method.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from decimal import Decimal, localcontext
 from threading import Lock
@@ -215,7 +215,7 @@ def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:
     """Gap of two rectangles along an axis from its owner to the other one [m]; at most their separation."""
     own, other = (first, second) if axis.owner == 0 else (second, first)
     (x, y), (ux, uy) = _local(own, other.centre), other.along
-    along, left = _dot(own.along, (ux, uy)), own.along[0] * uy - own.along[1] * ux
+    along, left = own.along[0] * ux + own.along[1] * uy, own.along[0] * uy - own.along[1] * ux
     reach = abs(axis.along) * own.half_length + abs(axis.left) * own.half_width
     reach += abs(axis.along * along + axis.left * left) * other.half_length
     reach += abs(axis.left * along - axis.along * left) * other.half_width
@@ -245,10 +245,6 @@ def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, Axis
 def _local(bench: Bench, point: Vector) -> Vector:
     dx, dy = point[0] - bench.centre[0], point[1] - bench.centre[1]
     return dx * bench.along[0] + dy * bench.along[1], dy * bench.along[0] - dx * bench.along[1]
-
-
-def _dot(a: Sequence[Decimal], b: Sequence[Decimal]) -> Decimal:
-    return a[0] * b[0] + a[1] * b[1]
 
 
 def _distance(a: Vector, b: Vector) -> Decimal:
@@ -306,11 +302,9 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
     head_speed: speed that turns travels into times [m/s]
     """
     pair = ExactPair(search, found.benches)
-    if (
-        found.touching is None
-        or not pair.can_follow
-        or not others_clear(search, pair.pair, found.proven, found.touching)
-    ):
+    if found.touching is None or not pair.can_follow:
+        return None
+    if not others_clear(search, pair.pair, found.proven, found.touching):
         return None
     search.budget.take_time()
     with _in_turn(search.budget), localcontext() as context:

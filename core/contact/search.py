@@ -23,6 +23,9 @@ from core.paths.spiral import Spiral
 from core.tolerance.reach import Reach, directions, reach
 from core.values import Floats
 
+# End of a march, its result, and the half width of the bracket around its contact [m].
+Approached = tuple[Ended, Marched, float]
+
 MARGIN_MAX = 1e4  # [m]
 # Work after which a search gives up as undecided [1], see core/kernels/constants.py: 2 to 8 s for a first contact, and
 # about the same for a least distance, whose steps end near a bench or an edge and cost more. The default case takes
@@ -113,9 +116,7 @@ class Search:
 
     def travel_rounding(self, *travels: float) -> float:
         """Largest error of travels up to these, in the kernels and as times [m]."""
-        furthest = self.place
-        for travel in travels:
-            furthest = max(furthest, self.place - travel, abs(travel))
+        furthest = max(self.place, *(max(self.place - travel, abs(travel)) for travel in travels))
         return self.path.slide + self.timing + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:
@@ -210,9 +211,7 @@ class Search:
             touching = asked[0]
         return ended, found._replace(proven=proven, touching=touching)
 
-    def approach(
-        self, begin: float, until: float, head_speed: float, *, opening: bool = True
-    ) -> tuple[Ended, Marched, float]:
+    def approach(self, begin: float, until: float, head_speed: float, *, opening: bool = True) -> Approached:
         """march() between two travels [m] with a bracketed contact; the third value is the half width of it [m]."""
         tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
         state, found = self.march(until, tolerance, start=begin, opening=opening)

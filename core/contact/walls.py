@@ -136,18 +136,11 @@ def venue_clearance(
     path = replace(dance, path=venue_route(dance.path, clock.place(until))).path  # refuses a bend that is too tight
     strayed = checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)
-    areas = tuple(
-        _area_clearance(
-            Search(dance.dragon, path, margin, own_edges(area, frame), work=share, budget=budget, stray=strayed),
-            area.name,
-            (begin, until),
-            clock,
-            frame,
-            nearest,
-        )
-        for area in venue.areas
-    )
-    return VenueClearance(_misplaced(dance, venue, begin), areas)
+    areas = []
+    for area in venue.areas:
+        search = Search(dance.dragon, path, margin, own_edges(area, frame), work=share, budget=budget, stray=strayed)
+        areas.append(_area_clearance(search, area.name, (begin, until), clock, frame, nearest))
+    return VenueClearance(_misplaced(dance, venue, begin), tuple(areas))
 
 
 def own_edges(area: Area, frame: Frame) -> Floats:
@@ -190,9 +183,8 @@ def is_clear_beyond(
     outwards = arcs / rates  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
-    reach = (
-        ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max() + 0.5 * dragon.widths[:alike].max()
-    )
+    reach = ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max()
+    reach += 0.5 * dragon.widths[:alike].max()
     edges = np.concatenate([own_edges(area, frame) for area in venue.areas])
     along = edges[:, 2:] - edges[:, :2]
     share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
@@ -214,10 +206,8 @@ def _area_clearance(
         at_start = state is Ended.TOUCHED_AT_START
         assert found.touching is not None
         travel = found.touching - (0.0 if at_start else tolerance)
-        outcome, time = (
-            Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT,
-            begin if at_start else clock.time(travel),
-        )
+        outcome = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT
+        time = begin if at_start else clock.time(travel)
         bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))
         pair = found.benches
         bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, frame)

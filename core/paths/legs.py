@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_number, checked_point, checked_size, listed
+from core.errors import InvalidValue, checked_number, checked_size, listed
 from core.kernels import Budget
-from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints
+from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points
 from core.paths.route import Route
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point
@@ -56,11 +56,8 @@ class Legs(Route):
         start: float = 0.0,
         budget: Budget | None = None,
     ) -> None:
-        given = listed("path.points", points, "a list of points [x, y] in metres")
-        if len(given) < 2:
-            raise InvalidValue("path.points", f"must be at least 2 points, got {len(given)}")
-        self.points = tuple(checked_point(f"path.points.{k}", point) for k, point in enumerate(given))
-        self.straight = _checked_legs(straight, len(given) - 1)
+        self.points = checked_points("path.points", points)
+        self.straight = _checked_legs(straight, len(self.points) - 1)
         self.radius = checked_size("path.radius", radius)
         _refuse_near(self.points)
         ends = {"start_heading": start_heading, "end_heading": end_heading}

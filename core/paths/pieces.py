@@ -29,6 +29,14 @@ def _settle(piece: object, **checked: float | Point | tuple[Point, ...]) -> None
         object.__setattr__(piece, name, value)
 
 
+def checked_points(name: str, value: object) -> tuple[Point, ...]:
+    """The value as two points or more. raises: InvalidValue"""
+    given = listed(name, value, "a list of points [x, y] in metres")
+    if len(given) < 2:
+        raise InvalidValue(name, f"must be at least 2 points, got {len(given)}")
+    return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(given))
+
+
 def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
     row = np.zeros((1, kernels.PIECE_COLUMNS))
     known = (_KINDS[kind], start, end, *curvature, *parameters)
@@ -128,10 +136,7 @@ class Waypoints(Shown):
     end_heading: float | None = None
 
     def __post_init__(self) -> None:
-        given = listed("waypoints.points", self.points, "a list of points [x, y] in metres")
-        if len(given) < 2:
-            raise InvalidValue("waypoints.points", f"must be at least 2 points, got {len(given)}")
-        _settle(self, points=tuple(checked_point(f"waypoints.points.{k}", point) for k, point in enumerate(given)))
+        _settle(self, points=checked_points("waypoints.points", self.points))
         for name in ("start_heading", "end_heading"):
             if (heading := getattr(self, name)) is not None:
                 _settle(self, **{name: checked_angle(f"waypoints.{name}", heading)})
