@@ -105,8 +105,7 @@ class Clock:
 
     def speed(self, times: Floats) -> Floats:
         """Speed of the head at times (...) [m/s]; at a change the new speed."""
-        found: Floats = np.array(self.speeds)[np.searchsorted(self.times, times, side="right")]
-        return found
+        return np.array(self.speeds)[np.searchsorted(self.times, times, side="right")]
 
     def rounding(self, until: float) -> float:
         """Largest distance of the head from its place at a rounded time up to `until`, if there are passages [m]."""
@@ -174,8 +173,7 @@ class Dance(Shown):
 
     def steady_times(self, times: Floats) -> Floats:
         """Times (...) at which the steady dance is at the same places [s]; always inside its run, despite rounding."""
-        found: Floats = np.clip(self.clock.steady(times), self.steady.earliest, self.steady.end.time)
-        return found
+        return np.clip(self.clock.steady(times), self.steady.earliest, self.steady.end.time)
 
     def played(self, head_speed: float) -> Dance:
         """The whole dance faster or slower, with this head_speed [m/s]; all places stay the same."""

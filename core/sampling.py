@@ -77,5 +77,4 @@ def dips(samples: Floats, most: int) -> NDArray[np.intp]:
     array([3, 1])
     """
     inner = 1 + np.flatnonzero((samples[1:-1] <= samples[:-2]) & (samples[1:-1] <= samples[2:]))
-    lowest: NDArray[np.intp] = inner[np.argsort(samples[inner], kind="stable")[:most]]
-    return lowest
+    return inner[np.argsort(samples[inner], kind="stable")[:most]]

@@ -264,8 +264,7 @@ class _Lone:
         position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
         self.path.handles(s, self.last, self.dragon.chords, 1.0, (position, velocity, speed), self.budget)
         self.budget.look()
-        outlines: Floats = bench_outlines(self.dragon, position)[:, 0]
-        return outlines
+        return bench_outlines(self.dragon, position)[:, 0]
 
 
 def _swept(corners: Floats, moves: NDArray[np.bool_], flat: float) -> tuple[list[Floats], list[Floats], Floats]:
@@ -300,5 +299,4 @@ def _swept(corners: Floats, moves: NDArray[np.bool_], flat: float) -> tuple[list
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
-    crossed: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return crossed
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]

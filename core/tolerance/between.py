@@ -121,8 +121,7 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
 def _distances(chords: Floats, joint_angles: Floats) -> Floats:
     """Distances (N, 3) d_02, d_13, d_03 of three chords (N, 3) with headings a and b (N, 2) [m]."""
     first, last = chords[:, [0, 2]].T * np.exp(1j * joint_angles.T)
-    distances: Floats = np.abs(np.stack([first, last, first + last], axis=1) + chords[:, 1:2])
-    return distances
+    return np.abs(np.stack([first, last, first + last], axis=1) + chords[:, 1:2])
 
 
 def sag_pulls(chords: Floats) -> Floats:
@@ -151,8 +150,7 @@ def shape_gaps(triples: Floats, headings: Floats) -> Floats:
     centres = 0.5 * (chords[:, 1:2] + chords[:, ::2] * np.exp(1j * headings)) * [1.0, -1.0]
     poses = np.stack([centres.real, centres.imag, headings], axis=-1)
     both = frames(poses, triples[:, ::2, 1:])
-    separation: Floats = frames_separation(both[:, 0], both[:, 1]).separation
-    return separation
+    return frames_separation(both[:, 0], both[:, 1]).separation
 
 
 def touching_pose(triple: Floats, places: Floats) -> Floats | None:

@@ -81,8 +81,7 @@ class Body:
     def faces(self, rotation: Floats, bearing: float) -> Floats:
         """Direction of the turned body's normal that is nearest to a bearing [rad]."""
         square = 0.5 * math.pi
-        normal: Floats = self.heading + rotation + square * np.round((bearing - self.heading - rotation) / square)
-        return normal
+        return self.heading + rotation + square * np.round((bearing - self.heading - rotation) / square)
 
     def support(self, bearing: Floats, rotation: Floats, stray: float) -> Floats:
         """Support of all places at a rotation [rad] in a direction of the world [rad], from the nominal centre [m]."""
@@ -259,5 +258,4 @@ def _restored(chords: Floats, places: Floats, free: slice, first: int) -> bool:
 def _nearest(place: Floats, joined: Floats, chord: float) -> Floats:
     """The point at a chord's distance from a handle that is nearest to a place [m]."""
     way = place - joined
-    point: Floats = joined + way * (chord / math.hypot(*way.tolist()))
-    return point
+    return joined + way * (chord / math.hypot(*way.tolist()))

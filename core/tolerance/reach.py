@@ -103,8 +103,7 @@ def gain(chords: Floats, overhangs: Floats, half_widths: Floats) -> Floats:
     factor is convex in z, so it is largest in a corner.
     """
     near, far = np.hypot(overhangs, half_widths), np.hypot(chords + overhangs, half_widths)
-    most: Floats = (near + far) / chords
-    return most
+    return (near + far) / chords
 
 
 def gains(dragon: Dragon) -> Floats:
