@@ -247,14 +247,12 @@ class Dance(Shown):
         if wrong.size:
             raise InvalidValue.of(_instant(time, int(wrong[0])), "must be finite", time.flat[wrong[0]], "s")
         earliest = self.earliest
-        late = np.flatnonzero(time > self.end.time)
+        late, early = np.flatnonzero(time > self.end.time), np.flatnonzero(time < earliest)
         if late.size:
             raise self.after_the_end(time, int(late[0]))
-        early = np.flatnonzero(time < earliest)
         if early.size:
             k = int(early[0])
-            rule = f"must be at least {said_bound(earliest, 6, 1)} s, when the whole dragon is on the path"
-            raise OutsideRun.of(_instant(time, k), rule, time.flat[k], "s")
+            raise OutsideRun.of(_instant(time, k), self._told_start(), time.flat[k], "s")
         return time
 
     def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
@@ -265,8 +263,7 @@ class Dance(Shown):
         until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         begin = checked_number("start", self.default_start if start is None else start, "s", -TIME_MAX, TIME_MAX)
         if begin < self.earliest:
-            rule = f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
-            raise OutsideRun.of("start", rule, begin, "s")
+            raise OutsideRun.of("start", self._told_start(), begin, "s")
         if until > self.end.time:
             raise OutsideRun.of("stop", f"must be at most {self._told_end()}", until, "s")
         if until <= begin:
@@ -274,6 +271,9 @@ class Dance(Shown):
                 raise OutsideRun.of("start", f"must be before {self._told_end()}", begin, "s")
             raise InvalidValue.of("stop", f"must be after start ({said(begin)} s)", until, "s")
         return begin, until
+
+    def _told_start(self) -> str:
+        return f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
 
     def _told_end(self) -> str:
         return f"{said_bound(self.end.time, 9, -1)} s, when {self.end.why}"

@@ -71,15 +71,15 @@ def touch_failures(contact: FirstContact, least: LeastClearance | None, margin: 
 
 
 def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
+    meet = _meeting(margin, "come", "", contact.stray)
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
         time = contact.time_bracket[0]
-        message = f"Whether benches {_meeting(margin, 'come', '', contact.stray)} is not decided from {time:.6f} s on."
+        message = f"Whether benches {meet} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), None, message)]
     if contact.time is None or contact.benches is None:
         return []
     a, b = map(contact.dance.dragon.called, contact.benches)
-    meet = _meeting(margin, "come", "", contact.stray)
     message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin, 'overlap')}."
     return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
 
@@ -116,15 +116,14 @@ def venue_failures(
 
 
 def _area_failures(dragon: Dragon, area: AreaClearance, margin: float, stray: float) -> list[Failure]:
+    words = _meeting(margin, "comes", repr(area.name), stray)
     if area.outcome is Outcome.UNDECIDED:
         assert area.time_bracket is not None
         time = area.time_bracket[0]
-        words = _meeting(margin, "comes", repr(area.name), stray)
         message = f"Whether a bench {words} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), area.name, message)]
     if area.time is None or area.bench is None:
         return []
-    words = _meeting(margin, "comes", repr(area.name), stray)
     message = f"Bench {dragon.called(area.bench)} {words} at {area.time:.6f} s{_gap(area.gap, margin, 'overlaps it')}."
     return [Failure(FailureKind.VENUE, area.time, (area.bench,), area.name, message, area.time_bracket)]
 

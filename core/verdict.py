@@ -146,7 +146,12 @@ def _judged(
     if touch is not None:
         until = min(until, max(touch, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until, budget=budget) if details else None
-    square, seen = _in_venue(dance, venue, (margin, strayed), (begin, until), budget, details)
+    square, seen, about = None, until, {"margin": margin, "stray": strayed, "start": begin}
+    if venue is not None:  # as long as the benches can be followed
+        followed = venue_end(dance)
+        seen = min(until, followed) if followed >= begin + MOMENT else begin
+        if seen > begin:
+            square = venue_clearance(dance, venue, **about, stop=seen, nearest=details, budget=budget)
     folds = dance.ends_by(until)
     speed = highest_speed(dance, start=begin, stop=until, budget=budget) if details and not folds else None
     excess = None
@@ -160,8 +165,7 @@ def _judged(
     failures += touch_failures(contact, least, margin)
     if folds:
         failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.place(end.time))))
-    judged = {"margin": margin, "stray": strayed, "start": begin}
-    if venue and seen < until and not is_clear_beyond(dance, venue, **judged, seen=seen):
+    if venue and seen < until and not is_clear_beyond(dance, venue, **about, seen=seen):
         message = f"From {seen:.6f} s on the spiral is too tight to compare the benches with the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
@@ -169,26 +173,3 @@ def _judged(
     failed = any(failure.kind is not FailureKind.UNDECIDED for failure in told)
     verdict = Judgement.FAILS if failed else Judgement.UNDECIDED if told else Judgement.PASSES
     return Report(begin, until, verdict, not told, told, contact, least, square, speed, bend)
-
-
-def _in_venue(
-    dance: Dance,
-    venue: Venue | None,
-    kept: tuple[float, float],
-    span: tuple[float, float],
-    budget: Budget | None,
-    nearest: bool,
-) -> tuple[VenueClearance | None, float]:
-    """Clearance of the benches in the venue, as long as they can be followed, and the end of that time [s].
-
-    kept: margin and stray [m]
-    """
-    begin, until = span
-    if venue is None:
-        return None, until
-    followed = venue_end(dance)
-    seen = min(until, followed) if followed >= begin + MOMENT else begin
-    if seen <= begin:
-        return None, seen
-    asked = {"margin": kept[0], "stray": kept[1], "start": begin, "stop": seen}
-    return venue_clearance(dance, venue, **asked, nearest=nearest, budget=budget), seen

@@ -40,13 +40,7 @@ class Ways:
     """
 
     def __init__(
-        self,
-        dragon: Dragon,
-        radius: float,
-        start_turns: float,
-        margin: float,
-        stray: float = 0.0,
-        budget: Budget | None = None,
+        self, dragon: Dragon, radius: float, start_turns: float, margin: float, stray: float, budget: Budget | None
     ) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)

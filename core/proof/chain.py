@@ -199,12 +199,7 @@ class Pose(Benches):
 
     def grow_to(self, count: int) -> None:
         """Place at least this number of benches, if the dragon has as many."""
-        self.grow(count - len(self.deltas))
-
-    def grow(self, benches: int = 1) -> None:
-        """Place the next benches, if the dragon has more."""
-        first = self.bench + len(self.deltas)
-        for k in range(first, min(first + benches, self.chain.count)):
+        for k in range(self.bench + len(self.deltas), min(self.bench + count, self.chain.count)):
             self.deltas.append(delta(self.thetas[-1], self.chain.needed[k]))
             self.thetas.append(self.thetas[-1] + self.deltas[-1])
             self.rotations.append(self.rotations[-1] + self.deltas[-1])

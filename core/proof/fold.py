@@ -20,7 +20,7 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
     """The bench that can no longer follow when the head goes from one theta to another [rad]. raises: Unproven"""
     pose = chain.pose_at(0, after)
     try:
-        pose.grow(chain.count)
+        pose.grow_to(chain.count)
     except Unproven:
         bench = len(pose.deltas)
     else:
@@ -35,7 +35,7 @@ def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     raises: Unproven
     """
     pose = chain.pose_at(0, after)
-    pose.grow(bench)
+    pose.grow_to(bench)
     highest = before
     if bench:
         stretch = Stretch(chain, 0, below(after), above(before), chain.count)
@@ -44,7 +44,7 @@ def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
         highest = stretch.thetas[bench]
     needed, lowest = chain.needed[bench], pose.thetas[bench]
     start = chain.pose_at(0, before)
-    start.grow(bench + 1)
+    start.grow_to(bench + 1)
     wall = _wall(float(lowest), float(start.deltas[bench]))
     if not (start.deltas[bench] < wall and _moved(highest, arb(wall)) < needed):
         raise Unproven(f"no wall is found behind bench {bench}")

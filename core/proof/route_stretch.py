@@ -79,15 +79,15 @@ class RouteStretch:
         if centre is None:
             return None
         after, before = self.ends
-        radii = []
-        for k in range(2):
-            (piece, t), first = before.handles[k], self.chain.path.pieces[0]
-            if piece is first and after.handles[k][0] is first and isinstance(piece, Coil):
-                radii.append(piece.growth * t)
-                continue
+
+        def radius(k: int) -> arb:
+            piece, t = before.handles[k]
+            if piece.index == after.handles[k][0].index == 0 and isinstance(piece, Coil):
+                return piece.growth * t
             distances = abs(before.points[k] - centre) + abs(after.points[k] - centre)
-            radii.append((distances + before.places[k] - after.places[k]) / 2)
-        return radii[0].max(radii[1]) + after.sizes[0].reach
+            return (distances + before.places[k] - after.places[k]) / 2
+
+        return radius(0).max(radius(1)) + after.sizes[0].reach
 
     @property
     def complete(self) -> bool:

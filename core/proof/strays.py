@@ -107,10 +107,5 @@ def recorded_pose(exhibit: Exhibit) -> tuple[dict[str, Any], float]:
     if exhibit.benches[1] is None:
         raise InvalidValue("exhibit", "must be a pose of two benches: a venue is not part of a proof")
     links = exhibit.handles[:-1] - exhibit.handles[1:]
-    record = {
-        "benches": list(exhibit.benches),
-        "time": exhibit.time,
-        "head": exhibit.handles[0].tolist(),
-        "headings": np.arctan2(links[:, 1], links[:, 0]).tolist(),
-    }
-    return record, exhibit.stray + SHOWN_ROUNDING
+    pose = {"head": exhibit.handles[0].tolist(), "headings": np.arctan2(links[:, 1], links[:, 0]).tolist()}
+    return {"benches": list(exhibit.benches), "time": exhibit.time} | pose, exhibit.stray + SHOWN_ROUNDING

@@ -53,13 +53,11 @@ def _faces(stretch: AnyStretch) -> Tile:
     directions = []
     while not stretch.complete:
         stretch.grow()
-        partner = len(stretch.placed) - 1
-        if partner < 2:
+        if (partner := len(stretch.placed) - 1) < 2:
             continue
         face, direction = _face(stretch, partner)
         faces += face if isinstance(face, str) else [face]
-        if face == DIRECTION:
-            directions.append(direction)
+        directions += [direction] if face == DIRECTION else []
     return stretch.high, stretch.low, faces, directions
 
 

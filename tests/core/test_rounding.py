@@ -264,7 +264,7 @@ def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
 def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_infeasible() -> None:
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
     dragon, found = Dragon(60), minimum_pitch(Dragon(60))
-    ways = Ways(dragon, 4.5, 16.0, 0.0)
+    ways = Ways(dragon, 4.5, 16.0, 0.0, 0.0, None)
     ways.bands.graze = found.benches, found.head_radius
     low, high = found.pitch_bracket
     while low < (middle := 0.5 * (low + high)) < high:

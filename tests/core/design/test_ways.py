@@ -24,7 +24,7 @@ GAP = 1e-9
 @pytest.mark.parametrize("margin", [0.0, 0.07])
 def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin: float) -> None:
     dragon = Dragon(14)
-    ways, said = Ways(dragon, RADIUS, TURNS, margin), []
+    ways, said = Ways(dragon, RADIUS, TURNS, margin, 0.0, None), []
     for pitch in np.linspace(0.4, 0.7, 6).tolist():
         said.append(ways.is_clear(pitch))
         assert said[-1] == (SlowWay.of(dragon, pitch, TURNS, RADIUS).least() > margin), pitch
@@ -32,7 +32,7 @@ def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin: float) -> None:
 
 
 def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() -> None:
-    ways, pitch = Ways(Dragon(14), RADIUS, TURNS, 0.0), 0.44
+    ways, pitch = Ways(Dragon(14), RADIUS, TURNS, 0.0, 0.0, None), 0.44
     state, found = ways.march(pitch, CONTACT_WIDTH)
     assert state is Ended.TOUCHED
     assert found.touching is not None
@@ -41,14 +41,14 @@ def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() 
     radius = dance.head(found.touching) * dance.growth
     assert ways.still_touches(pitch, radius - 1e-6, *found.benches)
     assert not ways.still_touches(1.1 * pitch, radius, *found.benches)
-    later = Ways(Dragon(14), RADIUS, 0.999 * radius / pitch, 0.0)
+    later = Ways(Dragon(14), RADIUS, 0.999 * radius / pitch, 0.0, 0.0, None)
     assert not later.still_touches(pitch, radius - 1e-6, *found.benches)  # its way begins further in
     assert ways.march(pitch)[0] in TOUCHES
 
 
 @pytest.mark.parametrize(("more", "ended"), [(-1e-6, Ended.BENCH_FOLDED), (1e-6, Ended.REACHED)])
 def test_a_way_folds_below_the_pitch_at_which_the_head_folds_on_the_circle(more: float, ended: Ended) -> None:
-    ways = Ways(FOLDING, 0.85, 5.0, 0.0)
+    ways = Ways(FOLDING, 0.85, 5.0, 0.0, 0.0, None)
     assert ways.march(FOLDS_AT + more)[0] is ended
     assert ways.is_clear(FOLDS_AT + more) is (more > 0.0)
 

@@ -32,7 +32,7 @@ def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name: str) -> No
         stretch = Stretch(chain, bench, low, high, dragon.benches)
         poses = [Pose(chain, bench, arb(theta)) for theta in np.linspace(low, high, 9)]
         for pose in poses:
-            pose.grow(4)
+            pose.grow_to(4)
         for _ in range(3):
             stretch.grow()
         assert stretch.rising == (name != "handle 1 turns back")
@@ -53,7 +53,7 @@ def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
     dragon, chain = Dragon(), Chain(Dragon(), arb(0.55), 16.0)
     for theta in (27.0, 60.0, 100.0):
         pose = Pose(chain, 0, arb(theta))
-        pose.grow(120)
+        pose.grow_to(120)
         shapes = [
             shapely.Polygon(
                 [(float(z.real), float(z.imag)) for z in (centre + along * corner for corner in size.corners)]
