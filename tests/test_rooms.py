@@ -24,7 +24,7 @@ TOGETHER = {
     "grade/test_diagnosis.py": "grade/chains grade/geometry grade/rings grade/rubric",
     "grade/test_layout.py": "grade/labels grade/report grade/verdict",
     "grade/test_reading.py": "grade/expected grade/grid grade/workbook",
-    "grade/test_service.py": "files/workbooks service/graders service/grading",
+    "grade/test_service.py": "files/workbooks service/graders service/uploads",
     "grade/test_words.py": "grade/errors",
     "jobs/test_command.py": "command/jobs jobs/places",
     "jobs/test_disk.py": "jobs/reserve",
@@ -34,7 +34,7 @@ TOGETHER = {
     "jobs/test_store.py": "files/flush jobs/job",
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
-    " maps/marks maps/places questions/maps service/places",
+    " maps/marks maps/places questions/maps",
     "plan/test_plan.py": "files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
     "questions/test_envelope.py": "command/envelope files/outlines",
     "questions/test_paper.py": "grade/paper",

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import sys
-import tempfile
 import tomllib
 from collections.abc import Sequence
 from datetime import time
@@ -16,11 +14,10 @@ from typing import Any
 
 import orjson
 
+from app.files.flush import new_file
 from app.wire.messages import OBJECT, shown
 from core import InvalidValue
 
-# Permissions of a new file, before the user's mask.
-NEW_FILE = 0o666
 # Endings of a file that describes a dance.
 DANCE_ENDINGS = (".toml", ".json")
 
@@ -62,27 +59,10 @@ def write_whole(file: Path, data: bytes) -> None:
         if target.exists() and not target.is_file():
             target.write_bytes(data)
         else:
-            _replace(target, data)
+            with new_file(target.parent, f".{target.name[:100]}-", target) as sink:
+                sink.write(data)
     except OSError as error:
         raise _refused(error.errno, file) from error
-
-
-def _replace(target: Path, data: bytes) -> None:
-    mask = os.umask(0)
-    os.umask(mask)
-    mode = target.stat().st_mode & 0o7777 if target.exists() else NEW_FILE & ~mask
-    handle, name = tempfile.mkstemp(prefix=f".{target.name[:100]}-", dir=target.parent)
-    try:
-        with os.fdopen(handle, "wb") as sink:
-            os.fchmod(sink.fileno(), mode)
-            sink.write(data)
-            sink.flush()
-            os.fsync(sink.fileno())
-        os.replace(name, target)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(name)
-        raise
 
 
 def _refused(number: int | None, file: Path) -> OSError:

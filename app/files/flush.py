@@ -1,9 +1,41 @@
-"""Names of files, safe on the disk."""
+"""Files and their names, safe on the disk."""
 
 from __future__ import annotations
 
 import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
+
+# Permissions of a new file, before the user's mask.
+NEW_FILE = 0o666
+
+
+@contextmanager
+def new_file(folder: Path, prefix: str, target: Path | None = None) -> Iterator[BinaryIO]:
+    """A new file in a folder, safe on the disk after the context; it then replaces the target in one step, if any.
+
+    An existing target keeps its mode. Nothing remains of a file that is not complete.
+    raises: OSError
+    """
+    handle, name = tempfile.mkstemp(prefix=prefix, dir=folder)
+    os.close(handle)
+    try:
+        with open(name, "wb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        if target is not None:
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(name, target.stat().st_mode & 0o7777 if target.exists() else NEW_FILE & ~mask)
+            os.replace(name, target)
+    except BaseException:
+        with suppress(FileNotFoundError):
+            os.unlink(name)
+        raise
 
 
 def flush_folder(folder: Path) -> None:

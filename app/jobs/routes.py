@@ -34,11 +34,11 @@ from app.jobs.wire import (
     status,
 )
 from app.questions.registry import CALLS, QUESTIONS
+from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
 from app.service.middleware import client_of
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
-from app.service.routes import FILE, SCHEMAS, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
@@ -62,20 +62,15 @@ NOT_KEPT = {"Cache-Control": "no-store"}
 READ_AT_ONCE = 1_000_000
 # Every form that a result may have. JSON comes first, because a generated client reads the first form that it knows.
 RESULT_FORMS = (JSON, *sorted({*SWEEP_FORMS, *(form for one in QUESTIONS.values() for form in one.forms)} - {JSON}))
-RESULT = {form: SCHEMAS.get(form, FILE) for form in RESULT_FORMS}
-PROBLEMS = {
-    400: "The body is not JSON",
-    401: "The token of this service is missing",
+RESULT = {form: routes.SCHEMAS.get(form, routes.FILE) for form in RESULT_FORMS}
+PROBLEMS = routes.PROBLEMS | {
     403: "This service lists no jobs",
     404: "There is no such job, or no such format",
     406: "The question has no answer in this form",
     409: "The job is not finished",
     410: "The result is removed, or there will be none",
-    413: "The body is too long",
-    415: "The body is not of type application/json",
     422: "A value is outside its limits, or a name is unknown",
     429: "This client has reached its limit of unfinished jobs",
-    500: "The service failed",
     503: "No more jobs are accepted now",
     507: "The data folder is full",
 }
@@ -141,7 +136,7 @@ def told(name: str, *statuses: int, model: type[BaseModel] | None = None, conten
         "summary": name.replace("_", " ").capitalize(),
         "response_class": Response if model is None else JSONResponse,  # FastAPI writes no schema for a plain Response.
         "response_model": model,
-        "responses": {**answer, **refusals(statuses, PROBLEMS)},
+        "responses": {**answer, **routes.refusals(statuses, PROBLEMS)},
         "openapi_extra": {"security": WITHOUT if 401 in statuses else []},
     }
 

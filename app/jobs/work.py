@@ -16,7 +16,6 @@ import logging
 import os
 import shutil
 import sys
-import tempfile
 from collections.abc import Iterator
 from contextlib import closing
 from importlib import import_module
@@ -25,6 +24,7 @@ from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
 
+from app.files.flush import new_file
 from app.jobs.job import SWEEP
 from app.jobs.reports import Reports
 from app.jobs.runner import end_group
@@ -77,20 +77,13 @@ def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> by
 
 def written(found: bytes | Path, folder: Path) -> Path:
     """A new file with the answer, or with a copy of a file, safe on the disk. raises: OSError, and leaves no file"""
-    handle, name = tempfile.mkstemp(prefix=".", dir=folder)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            if isinstance(found, Path):
-                with found.open("rb") as source:
-                    shutil.copyfileobj(source, file)
-            else:
-                file.write(found)
-            file.flush()
-            os.fsync(file.fileno())
-    except BaseException:
-        os.unlink(name)
-        raise
-    return Path(name)
+    with new_file(folder, ".") as file:
+        if isinstance(found, Path):
+            with found.open("rb") as source:
+                shutil.copyfileobj(source, file)
+        else:
+            file.write(found)
+    return Path(file.name)
 
 
 def do(store: Store, job: str, settings: Settings, reports: Reports) -> dict[str, object]:

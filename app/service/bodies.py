@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import re
+from contextlib import suppress
 from typing import Annotated, Any
 
 from anyio import CapacityLimiter, to_thread
@@ -59,7 +60,8 @@ class BodyRoute(WatchedRoute):
 
         async def small(request: Request) -> Response:
             if ESCAPES.search(await request.body()):
-                _refuse_no_text(await _value(request))
+                with suppress(ValueError, RecursionError):  # It is not JSON, which the answer reports.
+                    _refuse_no_text(await request.json())
             return await answer(request)
 
         async def in_thread(request: Request) -> Response:
@@ -85,14 +87,6 @@ class BodyRoute(WatchedRoute):
         return handled
 
 
-async def _value(request: Request) -> Any:
-    """The body as JSON; None if it is not JSON, which the answer reports."""
-    try:
-        return await request.json()
-    except (ValueError, RecursionError):
-        return None
-
-
 def _refuse_no_text(value: Any) -> None:
     """raises: Refused (422) when a text in the body, or a name, holds NUL or half a character"""
     left = [value]
@@ -107,12 +101,17 @@ def _refuse_no_text(value: Any) -> None:
             raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
 
 
+def content_type(request: Request) -> str:
+    """Media type of the body without its parameters; empty if the request states none."""
+    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
+
+
 async def reply_body(request: Request) -> Reply:
     """Reply to a call that takes a JSON body and no query.
 
     raises: Refused 415 for a body of another type, 422 for a query
     """
-    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    kind = content_type(request)
     has_body = request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
     if has_body and kind != JSON:
         detail = f"The body must be {JSON}, got {kind or 'no Content-Type'}: send the header Content-Type: {JSON}."

@@ -27,20 +27,11 @@ import core
 from app.jobs import routes as jobs
 from app.jobs.keeper import kept
 from app.jobs.metrics import JobMetrics
-from app.service import grading, places, problems, routes
+from app.service import middleware as layers
+from app.service import problems, routes, uploads
 from app.service.bodies import refuse_query
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
-from app.service.middleware import (
-    HeadAsGet,
-    Lanes,
-    Metrics,
-    Mistakes,
-    OriginForm,
-    RequestId,
-    RequestLimits,
-    SafetyHeaders,
-)
 from app.service.pages import add_pages
 from app.service.reply import Glances, KeptAnswers
 from app.service.version import VERSION, build
@@ -64,17 +55,14 @@ DESCRIPTION = """Place and speed of every bench of a bench dragon, first contact
 spiral. SI units and radians throughout. A collision is an answer, never an error; errors are problem details
 (RFC 9457). An answer depends on its request alone and carries a strong ETag.
 """
-TAGS = [
-    {
-        "name": "Questions",
-        "description": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
-    },
-    {"name": "Figures", "description": "Answers as pictures, films, maps and plans: files."},
-    {"name": "Grading", "description": "Right and wrong cells of a student's workbook, and the errors behind them."},
-    {"name": "Maps", "description": "The square and the path in a map file."},
-    {"name": "Jobs", "description": "Answers computed later; no kill of a process loses them."},
-    {"name": "Service", "description": "Liveness and readiness."},
-]
+TAGS = {
+    "Questions": "Answers in numbers. GET takes a query, POST a body with a dragon and a path.",
+    "Figures": "Answers as pictures, films, maps and plans: files.",
+    "Grading": "Right and wrong cells of a student's workbook, and the errors behind them.",
+    "Maps": "The square and the path in a map file.",
+    "Jobs": "Answers computed later; no kill of a process loses them.",
+    "Service": "Liveness and readiness.",
+}
 
 # Known answers for the self-test, computed once in 256-bit ball arithmetic: first contact of the default dance [s]
 # and x of its handle 1 at the start [m].
@@ -121,8 +109,6 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
 # default of 5 ms, four such threads delayed /healthz by 1.6 s; with this value by 0.8 s, most of it in the client
 # (2026-11-22).
 SWITCH_SECONDS = 5e-4
-
-
 # Size from which glibc returns freed blocks to the system [bytes]. By default glibc raises this size to that of the
 # largest block freed, 24 MB for a table: five times 24 tables left 847 MB behind, and 206 MB with this fixed size
 # (2026-11-22).
@@ -131,10 +117,8 @@ RETURNED_BYTES, M_MMAP_THRESHOLD = 1_000_000, -3
 
 def return_memory() -> None:
     """Return the memory of large tables to the system, if the C library is glibc."""
-    if sys.platform == "linux":
-        mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
-        if mallopt:
-            mallopt(M_MMAP_THRESHOLD, RETURNED_BYTES)
+    if sys.platform == "linux" and (mallopt := getattr(ctypes.CDLL(None), "mallopt", None)):
+        mallopt(M_MMAP_THRESHOLD, RETURNED_BYTES)
 
 
 def create_app(settings: Settings | None = None) -> FastAPI:
@@ -147,26 +131,23 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         description=DESCRIPTION,
         servers=[{"url": "/", "description": "This service"}],
         license_info={"name": "MIT", "identifier": "MIT"},
-        openapi_tags=TAGS,
+        openapi_tags=[{"name": name, "description": words} for name, words in TAGS.items()],
         openapi_url=None,
         docs_url=None,
         redoc_url=None,
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
-            Middleware(OriginForm),
-            Middleware(RequestId),
-            Middleware(SafetyHeaders),
-            Middleware(HeadAsGet),
-            Middleware(Metrics, registry=registry),
-            Middleware(Mistakes),
-            Middleware(RequestLimits, settings=settings),
+            *map(Middleware, (layers.OriginForm, layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
+            Middleware(layers.Metrics, registry=registry),
+            Middleware(layers.Mistakes),
+            Middleware(layers.RequestLimits, settings=settings),
         ],
     )
     app.state.settings = settings
     app.state.fault = "it has not run"
     app.state.jobs, app.state.later = "it has not started", jobs.later
-    app.state.lanes = Lanes(settings, registry)
+    app.state.lanes = layers.Lanes(settings, registry)
     app.state.glances = Glances()
     app.state.answers = KeptAnswers(settings.kept_bytes_max, registry)
     sys.setswitchinterval(SWITCH_SECONDS)
@@ -177,8 +158,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     problems.install(app)
     routes.add_calls(app.router)
     app.include_router(jobs.asking)
-    app.include_router(grading.router)
-    app.include_router(places.router)
+    app.include_router(uploads.grading)
+    app.include_router(uploads.maps)
     app.include_router(jobs.router)
     app.add_exception_handler(sqlite3.Error, jobs.store_problem)
     _add_health(app)

@@ -47,17 +47,29 @@ CHEAP = 0.1
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 
 
-class RequestLimits:
+class Layer:
+    """A layer around every call; what is no call, as the start of the service, passes it."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        await (self.answer if scope["type"] == "http" else self.app)(scope, receive, send)
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        raise NotImplementedError
+
+
+class RequestLimits(Layer):
     """Answers 414 to a long query, 400 to a length stated twice, and 413 as soon as a body is too long."""
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
-        self.app, self.bytes_max, self.query_max = app, settings.body_bytes_max, settings.query_bytes_max
+        super().__init__(app)
+        self.bytes_max, self.query_max = settings.body_bytes_max, settings.query_bytes_max
         # Paths of the calls that take a file, which have limits of their own.
         self.files_max = {"/grade": settings.grade_bytes_max, "/places": settings.places_bytes_max}
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
-            return await self.app(scope, receive, send)
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         read, most = 0, self.files_max.get(scope["path"], self.bytes_max)
 
         async def counted() -> Message:
@@ -88,28 +100,20 @@ class RequestLimits:
         return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], CLOSE)
 
 
-class OriginForm:
+class OriginForm(Layer):
     """Takes the target in absolute form as in origin form: GET http://host/turn as GET /turn (RFC 9112, 3.2.2)."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] == "http" and (found := ABSOLUTE.fullmatch(scope["raw_path"])):
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if found := ABSOLUTE.fullmatch(scope["raw_path"]):
             path = found[1] or b"/"
             scope = {**scope, "raw_path": path, "path": unquote(path.decode("ascii"))}
         await self.app(scope, receive, send)
 
 
-class RequestId:
+class RequestId(Layer):
     """Gives each request a name, in the answer and in the log: that of its client in X-Request-ID, or a new one."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
-            return await self.app(scope, receive, send)
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         given = Headers(scope=scope).get("x-request-id", "")
         name = given if REQUEST_ID.fullmatch(given) else uuid.uuid4().hex
         request_id.set(name)
@@ -119,17 +123,14 @@ class RequestId:
                 message["headers"] = [*message["headers"], (b"x-request-id", name.encode())]
             await send(message)
 
-        return await self.app(scope, receive, named)
+        await self.app(scope, receive, named)
 
 
-class HeadAsGet:
+class HeadAsGet(Layer):
     """Answers HEAD like GET without the body, with the same headers; it makes no job, as HEAD changes nothing."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http" or scope["method"] != "HEAD":
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["method"] != "HEAD":
             return await self.app(scope, receive, send)
 
         async def without_body(message: Message) -> None:
@@ -141,15 +142,10 @@ class HeadAsGet:
         return await self.app({**scope, "method": "GET", "headers": headers}, receive, without_body)
 
 
-class SafetyHeaders:
+class SafetyHeaders(Layer):
     """Tells browsers to load only from this service and to trust the stated content type."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
-            return await self.app(scope, receive, send)
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         policy = DOCS_POLICY if scope["path"] == "/docs" else SELF_ONLY
         added = [
             (b"content-security-policy", policy.encode()),
@@ -165,16 +161,13 @@ class SafetyHeaders:
                     headers.append((b"cache-control", b"no-cache"))
             await send(message)
 
-        return await self.app(scope, receive, guarded)
+        await self.app(scope, receive, guarded)
 
 
-class Mistakes:
+class Mistakes(Layer):
     """Answers 500 when the service itself fails, keeps the connection, and writes the traceback only to the log."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         started = False
 
         async def noted(message: Message) -> None:
@@ -185,23 +178,21 @@ class Mistakes:
         try:
             await self.app(scope, receive, noted)
         except Exception:
-            if started or scope["type"] != "http":
+            if started:
                 raise
             logger.exception("%s %s failed", scope["method"], scope["path"])
             await server_problem()(scope, receive, send)
 
 
-class Metrics:
+class Metrics(Layer):
     """Counts requests by path and status, and their times by path."""
 
     def __init__(self, app: ASGIApp, registry: CollectorRegistry) -> None:
-        self.app = app
+        super().__init__(app)
         self.requests = Counter("bench_dragon_requests", "Requests answered", ("path", "status"), registry=registry)
         self.seconds = Histogram("bench_dragon_request_seconds", "Time to answer", ("path",), registry=registry)
 
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
-            return await self.app(scope, receive, send)
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         started, status = time.perf_counter(), 500
 
         async def noted(message: Message) -> None:
@@ -270,24 +261,20 @@ class Lanes:
     """The lanes of one process."""
 
     def __init__(self, settings: Settings, registry: CollectorRegistry) -> None:
+        labels = ("lane",)
         running = Gauge(
-            "bench_dragon_computations",
-            "Computations running",
-            ("lane",),
-            registry=registry,
-            multiprocess_mode="livesum",
+            "bench_dragon_computations", "Computations running", labels, registry=registry, multiprocess_mode="livesum"
         )
-        refused = Counter("bench_dragon_refused", "Computations refused by a full lane", ("lane",), registry=registry)
+        refused = Counter("bench_dragon_refused", "Computations refused by a full lane", labels, registry=registry)
         self.stopped = Counter("bench_dragon_stopped", "Computations ended early", ("reason",), registry=registry)
-        self._cheap, self._heavy, self._workbook, self.large_bodies = (
-            Lane(name, most, of_client, settings.retry_after, running, refused)
-            for name, most, of_client in (
-                ("cheap", settings.cheap_max, settings.cheap_max),
-                ("heavy", settings.heavy_max, settings.heavy_client_max),
-                ("workbook", settings.workbooks_max, settings.workbooks_max),
-                ("large body", settings.large_bodies_max, settings.large_bodies_max),
-            )
-        )
+
+        def lane(name: str, most: int, of_client: int) -> Lane:
+            return Lane(name, most, of_client, settings.retry_after, running, refused)
+
+        self._cheap = lane("cheap", settings.cheap_max, settings.cheap_max)
+        self._heavy = lane("heavy", settings.heavy_max, settings.heavy_client_max)
+        self._workbook = lane("workbook", settings.workbooks_max, settings.workbooks_max)
+        self.large_bodies = lane("large body", settings.large_bodies_max, settings.large_bodies_max)
 
     def of(self, cost: float, media_type: str) -> Lane:
         """The lane of a computation. cost: its estimated time [s]"""

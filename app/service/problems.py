@@ -62,10 +62,8 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
     """Answer to a request whose fields do not fit the schema, or to a body that is not JSON."""
     found = error.errors()
     if found[0]["type"] == "json_invalid":
-        position, why = found[0]["loc"][-1], found[0]["ctx"]["error"]
-        detail = (
-            f"The body is not JSON: {why.removesuffix(' at')} at character {position}. Send an object such as {{}}."
-        )
+        position, why = found[0]["loc"][-1], found[0]["ctx"]["error"].removesuffix(" at")
+        detail = f"The body is not JSON: {why} at character {position}. Send an object such as {{}}."
         return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
     if found[0]["loc"][0] == "path":
         return await http_problem(request, HTTPException(404))

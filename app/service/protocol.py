@@ -21,7 +21,6 @@ from app.settings import Settings
 # Size of the pieces in which chunked bodies are read, with other work in between [bytes]: 700 chunks of one byte, 6 ms.
 PIECE = 4096
 
-
 # Read once, because reading the environment takes 2 ms and a connection may ask only one question.
 _settings = cache(Settings)
 
@@ -59,7 +58,9 @@ class Protocol(H11Protocol):
         self._watch()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._stop()
+        for timer in (self._owing, self._stalled):
+            if timer is not None:
+                timer.cancel()
         self.left.clear()
         super().connection_lost(exc)
 
@@ -129,11 +130,6 @@ class Protocol(H11Protocol):
             self._refuse(408, "request-timeout", f"The head of the request was not complete within {seconds:g} s.")
         else:
             self.transport.abort()
-
-    def _stop(self) -> None:
-        for timer in (self._owing, self._stalled):
-            if timer is not None:
-                timer.cancel()
 
     def send_400_response(self, msg: str) -> None:
         self._refuse(400, "malformed-http", "The request is not valid HTTP/1.1.")

@@ -244,10 +244,7 @@ class Reply:
 
 
 async def reply_query(request: Request) -> Reply:
-    """Reply to a call that takes its values from the query.
-
-    raises: Refused (422) for a name that is given twice
-    """
+    """Reply to a call that takes its values from the query. raises: Refused (422) for a name that is given twice"""
     given = request.query_params.multi_items()
     if len(given) > len(request.query_params):
         times = collections.Counter(name for name, _ in given)

@@ -31,11 +31,6 @@ class Column:
     kind: type
     as_json: bool = False
 
-    @property
-    def field(self) -> pa.Field:
-        """Name and type in Arrow."""
-        return pa.field(self.name, TYPES[self.kind])
-
     def value(self, answer: Any) -> Any:
         """Value of this column in an answer; None if the answer has none."""
         for step in self.steps:

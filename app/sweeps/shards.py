@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import re
-import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import orjson
 import pyarrow as pa
@@ -18,7 +17,7 @@ import pyarrow.parquet as pq
 from pydantic import BaseModel
 
 import core
-from app.files.flush import flush_folder
+from app.files.flush import flush_folder, new_file
 from app.sweeps.columns import TYPES, Column, answer_columns, value_type
 from app.sweeps.designs import designs
 from app.sweeps.questions import Question, refusal
@@ -67,7 +66,7 @@ class Piece:
         """
         if core.__version__ != self.version:
             words = f"must be {self.version} on every worker, as at the start of the sweep, got {core.__version__}"
-            raise OtherVersion("bench-dragon", f"{words}")
+            raise OtherVersion("bench-dragon", words)
         question, request = self.question, self.spec.request
         columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
         nothing = (None,) * len(columns)
@@ -99,14 +98,12 @@ def kept_columns(spec: Spec, question: Question) -> list[Column]:
 
 def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
     """The table of a piece. rows: code and message of the error, then a value for each column"""
-    fields = [pa.field("error.code", pa.string()), pa.field("error.message", pa.string())]
-    fields += [column.field for column in columns]
-    arrays = {
-        "design": pa.array(range(piece.start, piece.stop), pa.int64()),
-        **{name: _parameter(piece.spec, name, values) for name, values in asked.items()},
-    }
-    for field, values in zip(fields, zip(*rows, strict=True), strict=True):
-        arrays[field.name] = pa.array(values, field.type)
+    kinds = {"error.code": pa.string(), "error.message": pa.string()}
+    kinds |= {column.name: TYPES[column.kind] for column in columns}
+    arrays = {"design": pa.array(range(piece.start, piece.stop), pa.int64())}
+    arrays |= {name: _parameter(piece.spec, name, values) for name, values in asked.items()}
+    for (name, kind), values in zip(kinds.items(), zip(*rows, strict=True), strict=True):
+        arrays[name] = pa.array(values, kind)
     return pa.table(arrays)
 
 
@@ -148,26 +145,17 @@ def write_part(folder: Path, spec: Spec, shard: int, pieces: Iterable[bytes]) ->
 
 def write_durably(file: Path, data: bytes) -> None:
     """Write a file completely or not at all; it is safe on the disk after the return."""
-    handle, name = tempfile.mkstemp(prefix=TEMPORARY, dir=file.parent)
-    try:
-        with os.fdopen(handle, "wb") as sink:
-            sink.write(data)
-            sink.flush()
-            os.fsync(sink.fileno())
-        keep(Path(name), file)
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(name)
-        raise
+    with written(file) as sink:
+        sink.write(data)
 
 
-def keep(temporary: Path, file: Path) -> None:
-    """Rename a written file to its final name, safely on the disk."""
-    mask = os.umask(0)
-    os.umask(mask)
-    temporary.chmod(0o666 & ~mask)
-    os.replace(temporary, file)
-    flush_folder(file.parent)
+@contextmanager
+def written(file: Path) -> Iterator[BinaryIO]:
+    """A file to write to, which has its name, safe on the disk, when it is complete. raises: OSError"""
+    target = file.resolve()
+    with new_file(target.parent, TEMPORARY, target) as sink:
+        yield sink
+    flush_folder(target.parent)
 
 
 def parts(folder: Path) -> set[int]:
@@ -182,9 +170,8 @@ def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
     try:
         opened = pq.ParquetFile(file)
     except (pa.ArrowInvalid, OSError) as error:
-        raise InvalidValue.in_words(
-            "folder", f"{file} is not part of a sweep: remove it and run the sweep again"
-        ) from error
+        words = f"{file} is not part of a sweep: remove it and run the sweep again"
+        raise InvalidValue.in_words("folder", words) from error
     if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
         opened.close()
         raise InvalidValue.in_words("folder", f"{file} belongs to another sweep: remove it and run the sweep again")

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from app.sweeps.table import Sweep
+from app.sweeps.table import Sweep, is_number
 from core import InvalidValue
 from core.values import Floats
 
@@ -17,7 +17,7 @@ from core.values import Floats
 def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
     """A column as numbers, NaN where a row has none. raises: InvalidValue for a column without numbers"""
     column = table[name]
-    if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
+    if not is_number(column.type):
         raise InvalidValue("value", f"must be a column of numbers, got {name}: {sweep.numbers()}")
     found: Floats = column.cast(pa.float64()).to_numpy().astype(np.float64)
     return found

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
-import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,9 +23,12 @@ from core.tables import data_frame
 if TYPE_CHECKING:
     import pandas
 
-
 # Rows in a group of the joined file: the smallest part that can be read.
 GROUP = 100_000
+
+
+def is_number(kind: pa.DataType) -> bool:
+    return bool(pa.types.is_floating(kind) or pa.types.is_integer(kind))
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,17 +82,12 @@ class Sweep:
 
     def numbers(self) -> str:
         """Names of the columns of numbers, for messages."""
-        schema = next(self.tables()).schema
-        kinds = (pa.types.is_floating, pa.types.is_integer)
-        return ", ".join(field.name for field in schema if any(kind(field.type) for kind in kinds))
+        return ", ".join(field.name for field in next(self.tables()).schema if is_number(field.type))
 
     def to_dataframe(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
-        """One row for each answered design.
-
-        raises: ImportError without pandas, naming the extra; InvalidValue
-        """
-        found: dict[str, Any] = {name: column.to_numpy() for name, column in _columns(self.table(columns))}
-        return data_frame("Sweep.to_dataframe()", found, {})
+        """One row for each answered design. raises: ImportError without pandas, naming the extra; InvalidValue"""
+        table = self.table(columns)
+        return data_frame("Sweep.to_dataframe()", {name: table[name].to_numpy() for name in table.column_names}, {})
 
     def compact(self) -> Path:
         """Join all parts into one file, which replaces them; its bytes do not depend on the division of work.
@@ -100,22 +96,16 @@ class Sweep:
         """
         whole = self.folder / TABLE_FILE
         if not whole.exists():
-            self._check_complete()
-            self._write_whole(whole)
+            marks = {"bench-dragon sweep": self.spec.name}
+            tables = (table.replace_schema_metadata(marks) for table in _gathered(self.tables()))
+            self._write(whole, tables, partial(pq.ParquetWriter, compression="zstd"))
         for shard in shards.parts(self.folder):
             (self.folder / shards.part_name(shard)).unlink()
         return whole
 
     def to_csv(self, file: Path) -> None:
         """Write the table as CSV, completely or not at all. raises: InvalidValue if parts are missing; OSError"""
-        self._check_complete()
-        with _written(file) as name:
-            writer = None
-            for table in self.tables():
-                writer = writer or pa_csv.CSVWriter(name, table.schema)
-                writer.write_table(table)
-            assert writer is not None
-            writer.close()
+        self._write(file, self.tables(), pa_csv.CSVWriter)
 
     def to_json(self, file: Path) -> None:
         """Write the table as JSON, a list for each column, completely or not at all.
@@ -123,7 +113,7 @@ class Sweep:
         raises: InvalidValue if parts are missing; OSError
         """
         self._check_complete()
-        with _written(file) as name, open(name, "wb") as sink:
+        with shards.written(file) as sink:
             for k, column in enumerate(next(self.tables()).column_names):
                 sink.write((b"," if k else b"{") + orjson.dumps(column) + b":")
                 sink.write(orjson.dumps(self.table([column])[column].to_pylist()))
@@ -134,13 +124,14 @@ class Sweep:
             words = f"{self.missing} of {self.spec.shards} shards are missing"
             raise InvalidValue.in_words("folder", f"{self.folder} is not complete, {words}: run the sweep again")
 
-    def _write_whole(self, whole: Path) -> None:
-        with _written(whole) as name:
+    def _write(self, file: Path, tables: Iterable[pa.Table], begun: Callable[..., Any]) -> None:
+        """Write the rows with a writer of pyarrow, begun with a file and the schema. raises: InvalidValue; OSError"""
+        self._check_complete()
+        with shards.written(file) as sink:
             writer = None
-            for table in _gathered(self.tables()):
-                plain = table.replace_schema_metadata({"bench-dragon sweep": self.spec.name})
-                writer = writer or pq.ParquetWriter(name, plain.schema, compression="zstd")
-                writer.write_table(plain)
+            for table in tables:
+                writer = writer or begun(sink, table.schema)
+                writer.write_table(table)
             assert writer is not None
             writer.close()
 
@@ -155,23 +146,3 @@ def _gathered(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
             held = []
     if held:
         yield pa.concat_tables(held).combine_chunks()
-
-
-def _columns(table: pa.Table) -> Iterator[tuple[str, pa.ChunkedArray]]:
-    return zip(table.column_names, table.columns, strict=True)
-
-
-@contextlib.contextmanager
-def _written(file: Path) -> Iterator[str]:
-    """A temporary name to write to; the file gets its final name when it is complete."""
-    handle, name = tempfile.mkstemp(prefix=shards.TEMPORARY, dir=file.resolve().parent)
-    os.close(handle)
-    try:
-        yield name
-        with open(name, "rb+") as written:
-            os.fsync(written.fileno())
-        shards.keep(Path(name), file.resolve())
-    except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.unlink(name)
-        raise

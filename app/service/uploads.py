@@ -1,0 +1,168 @@
+"""POST /grade and POST /places: a file as the body, read in the memory of another process; nothing of it is kept or
+logged.
+
+The file is the whole body, not a part of a form, so that its length is limited before it is read, and any HTTP client
+sends it with one option. Further values are in the query.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine
+from contextlib import AbstractContextManager
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query, Request, Response
+from pydantic import BaseModel, Field
+
+from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
+from app.grade.report import GradeAnswer, graded, too_long, typed
+from app.grade.shortcuts import UNITS
+from app.maps.places import Places, read_places
+from app.questions.maps import FORMS
+from app.service.bodies import WatchedRoute, content_type
+from app.service.graders import Graders
+from app.service.middleware import Lanes, client_of
+from app.service.problems import Refused
+from app.service.routes import FILE, refusals
+from app.service.token import TOKEN, WITHOUT, guard
+from app.settings import Settings
+from app.wire.problem import ErrorItem
+from app.wire.question import JSON, Answer, Coordinates, Wire, measure
+from core.errors import too_much
+from core.kernels import Halted
+
+FILE_TYPE = "application/octet-stream"
+GRADED = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
+# Accepted media types of maps; the form of a map follows from its first bytes, whichever of these is given.
+MAPS = (
+    *(FILE_TYPE, *FORMS, JSON, "application/vnd.google-earth.kmz", "application/toml", "application/dxf"),
+    *("text/plain", "text/xml", "application/xml"),
+)
+# Estimated time of a file, for the Retry-After of a full lane [s].
+COST = 1.0
+STATUSES = (401, 413, 414, 415, 422, 429, 500, 503)
+# A number as it was typed, because its digits show its rounding.
+TYPED = r"^[0-9]{1,6}(\.[0-9]{1,15})?$"
+
+
+class GradeQuery(Wire):
+    """Query parameters beside the file."""
+
+    name: str = Field("upload", min_length=1, max_length=200, description="Name of the file, as result1.xlsx")
+    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh")
+    collision_time: str | None = measure("s", "Time of first contact", None, pattern=TYPED)
+    pitch: str | None = measure("m", "Minimum pitch", None, pattern=TYPED)
+    turn_length: str | None = measure("m", "Length of the turn", None, pattern=TYPED)
+    speed: str | None = measure("m/s", "Maximum speed of the head", None, pattern=TYPED)
+
+
+class PlacesQuery(Wire):
+    """Query parameters beside the file."""
+
+    name: str | None = Field(None, max_length=200, description="Name of the file; its form is told by its bytes")
+    units: Coordinates | None = Field(
+        None, description="Unit of its coordinates: metres or degrees; null: as the file says, or as they look"
+    )
+    language: Language = Field(Language.ENGLISH, description="Language of the notes: en or zh")
+
+
+class GradeRoute(WatchedRoute):
+    """A call whose body is a file."""
+
+    takes_file = True
+
+    def seconds(self, settings: Settings) -> float:
+        return settings.grade_seconds
+
+
+class MapRoute(GradeRoute):
+    """A call whose body is a map."""
+
+    def seconds(self, settings: Settings) -> float:
+        return settings.places_seconds
+
+
+def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any, bytes]]:
+    """A function that returns the body of a request. It raises Refused: 401 without the token, 415 for another type."""
+
+    async def uploaded(request: Request) -> bytes:
+        data = await request.body()
+        if data:
+            guard(request)
+        kind = content_type(request)
+        if data and kind not in types:
+            known = " or ".join(types)
+            detail = f"The body must be the file itself, of type {known}, got {kind or 'no Content-Type'}."
+            item = ErrorItem(name="Content-Type", detail=detail)
+            raise Refused(415, detail, [item], {"Accept-Post": ", ".join(types)})
+        return data
+
+    return uploaded
+
+
+def told(name: str, model: type[BaseModel], *, required: bool) -> dict[str, Any]:
+    """OpenAPI description of a call. required: whether it needs the file"""
+    answer = {"description": "The answer", "model": model, "content": {JSON: {}}}
+    body = {"required": required, "content": {FILE_TYPE: FILE}}
+    return {
+        "operation_id": name,
+        "response_class": Response,
+        "dependencies": [TOKEN],
+        "responses": {200: answer, **refusals(STATUSES)},
+        "openapi_extra": {"security": WITHOUT, "requestBody": body},
+    }
+
+
+def in_lane(request: Request) -> AbstractContextManager[None]:
+    """A place among the computations for one file. raises: Refused (429, 503)"""
+    lanes: Lanes = request.app.state.lanes
+    return lanes.of(COST, JSON).taken(COST, client_of(request))
+
+
+def reply_of(answer: Answer) -> Response:
+    return Response(answer.to_json(), headers={"Cache-Control": "no-store"}, media_type=JSON)
+
+
+grading = APIRouter(tags=["Grading"], route_class=GradeRoute)
+maps = APIRouter(tags=["Maps"], route_class=MapRoute)
+
+
+@grading.post("/grade", **told("grade", GradeAnswer, required=False))
+def grade(
+    request: Request, data: Annotated[bytes, Depends(file_body(GRADED))], wanted: Annotated[GradeQuery, Query()]
+) -> Response:
+    """Right and wrong cells of a contest workbook, and the known error that explains the wrong ones."""
+    given = {name: text for name in UNITS if (text := getattr(wanted, name)) is not None}
+    if not data and not given:
+        detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."
+        raise Refused(422, detail, [ErrorItem(name="name", detail=detail)])
+    graders: Graders = request.app.state.graders
+    budget = request.state.budget
+    with in_lane(request):
+        answers = [typed(name, text, wanted.language) for name, text in given.items()]
+        try:
+            files = [graders.asked(budget, graded, wanted.name, data, wanted.language)] if data else []
+        except Halted:
+            raise too_long(data, budget) from None
+    return reply_of(GradeAnswer(files=files, answers=answers))
+
+
+@maps.post("/places", **told("places", Places, required=True))
+def places(
+    request: Request, data: Annotated[bytes, Depends(file_body(MAPS))], wanted: Annotated[PlacesQuery, Query()]
+) -> Response:
+    """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON."""
+    if not data:
+        detail = "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON."
+        raise Refused(422, detail, [ErrorItem(name="file", detail=detail)])
+    graders: Graders = request.app.state.graders
+    budget = request.state.budget
+    with in_lane(request):
+        try:
+            found = graders.asked(budget, read_places, data, wanted.units, wanted.language)
+        except Halted:
+            raise too_much(budget, "file", "must be smaller: it was not read {then}", len(data), "bytes") from None
+    if not isinstance(found, Places):
+        refused, field, message = found
+        raise refused.in_words(field, message)
+    return reply_of(found)
