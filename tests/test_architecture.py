@@ -236,7 +236,6 @@ ORDER = (
     "app.sweeps.processes",
     "app.sweeps.run",
     "app.sweeps.table",
-    "app.sweeps.summary",
     "app.sweeps.maps",
     "app.sweeps.cluster",
     "app.sweeps.call",

@@ -43,7 +43,6 @@ TOGETHER = {
     "questions/test_tolerance.py": "command/strays questions/tolerance_curve",
     "service/test_problems.py": "wire/faults wire/problem",
     "sweeps/test_command.py": "command/sweep",
-    "sweeps/test_maps.py": "sweeps/summary",
     "sweeps/test_run.py": "sweeps/engines sweeps/processes sweeps/worker",
     "sweeps/test_shards.py": "sweeps/questions",
     "test_answers.py": "wire/answers",

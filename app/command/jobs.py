@@ -15,7 +15,7 @@ from app.command import show
 from app.files.disk import checked_output, write_whole
 
 if TYPE_CHECKING:
-    from app.jobs.places import Jobs
+    from app.jobs.places import InFolder, OfService
 
 jobs = typer.Typer(help="The jobs of a data folder, or of a service.", no_args_is_help=True, add_completion=False)
 
@@ -26,7 +26,7 @@ Token = Annotated[str, typer.Option(help="Token of that service.", envvar="BENCH
 Json = Annotated[bool, typer.Option("--json", help="The service's JSON instead of a table.")]
 
 
-def _at(data: Path | None, url: str, token: str) -> Jobs:
+def _at(data: Path | None, url: str, token: str) -> InFolder | OfService:
     from app.jobs.places import place  # The import takes 60 ms, and no other command needs it.
 
     return place(data, url, token)

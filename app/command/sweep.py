@@ -97,7 +97,7 @@ def show(
 
         write(output, file_bytes(value_map(sweep, column), ending[1:]))
         return
-    from app.sweeps.summary import summary
+    from app.sweeps.table import summary
 
     for name, said in summary(sweep, column).lines():
         print(f"{name:<24} {said}")

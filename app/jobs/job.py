@@ -88,15 +88,6 @@ def _instant(seconds: float | None) -> str | None:
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
-@dataclass(frozen=True)
-class Room:
-    """Limits of a store: number of jobs, unfinished jobs of one client, bytes of all calls and results."""
-
-    jobs: int
-    of_client: int
-    bytes: int
-
-
 class Full(Exception):
     """The store has as many jobs as it may hold."""
 

@@ -71,17 +71,13 @@ class Keeper:
     def _keep(self) -> None:
         while not self.leaving.is_set():
             try:
-                self._see_to_it()
+                ended = self._runner is None or self._runner.poll() is not None
+                if ended and self._lock.take() and self.store.has_work(self.settings.job_days_max):
+                    self._runner = start("app.jobs.runner", str(self.store.folder))
             except (OSError, sqlite3.Error):
                 logger.exception("No runner could be started for the jobs")
             self._wake.wait(KEEP_SECONDS)
             self._wake.clear()
-
-    def _see_to_it(self) -> None:
-        if self._runner is not None and self._runner.poll() is None:
-            return
-        if self._lock.take() and self.store.has_work(self.settings.job_days_max):
-            self._runner = start("app.jobs.runner", str(self.store.folder))
 
 
 def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess.Popen[bytes]:

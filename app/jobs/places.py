@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, cast
 from urllib.error import HTTPError, URLError
 from urllib.request import Request, urlopen
 
@@ -26,26 +26,13 @@ class NoJob(BenchDragonError):
     code = "no-job"
 
 
-class Jobs(Protocol):
-    """A place that holds jobs. raises: NoJob if a job or a result is missing"""
-
-    def list(self) -> list[dict[str, Any]]: ...
-
-    def show(self, job: str) -> dict[str, Any]: ...
-
-    def cancel(self, job: str) -> str: ...
-
-    def result(self, job: str) -> bytes: ...
-
-
 class InFolder:
-    """The jobs of a data folder, whether or not the service runs."""
+    """The jobs of a data folder, whether or not the service runs. raises: NoJob if a job or a result is missing"""
 
     def __init__(self, folder: Path) -> None:
         if not (folder / "jobs.sqlite").is_file():
-            raise InvalidValue.in_words(
-                "data", f"--data must be a data folder of the service, got {folder} without jobs"
-            )
+            rule = f"--data must be a data folder of the service, got {folder} without jobs"
+            raise InvalidValue.in_words("data", rule)
         self.store = Store(folder)
 
     def list(self) -> list[dict[str, Any]]:
@@ -73,7 +60,7 @@ class InFolder:
 
 
 class OfService:
-    """The jobs of a service at an address."""
+    """The jobs of a service at an address. raises: as InFolder"""
 
     def __init__(self, url: str, token: str) -> None:
         if not url.startswith(("http://", "https://")):
@@ -84,8 +71,7 @@ class OfService:
         headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
         try:
             with urlopen(Request(self.url + path, method=method, headers=headers), timeout=PATIENCE) as answer:
-                data: bytes = answer.read()
-                return data
+                return cast(bytes, answer.read())
         except HTTPError as error:
             try:
                 detail = orjson.loads(error.read())["detail"]
@@ -96,12 +82,10 @@ class OfService:
             raise InvalidValue.in_words("url", f"--url {self.url} does not answer: {error.reason}") from error
 
     def list(self) -> list[dict[str, Any]]:
-        found: list[dict[str, Any]] = orjson.loads(self._ask("/jobs"))["jobs"]
-        return found
+        return cast(list[dict[str, Any]], orjson.loads(self._ask("/jobs"))["jobs"])
 
     def show(self, job: str) -> dict[str, Any]:
-        found: dict[str, Any] = orjson.loads(self._ask(f"/jobs/{job}"))
-        return found
+        return cast(dict[str, Any], orjson.loads(self._ask(f"/jobs/{job}")))
 
     def cancel(self, job: str) -> str:
         return JobState.DISMISSED if self._ask(f"/jobs/{job}", "DELETE") else "removed"
@@ -110,7 +94,7 @@ class OfService:
         return self._ask(f"/jobs/{job}/result")
 
 
-def place(data: Path | None, url: str, token: str) -> Jobs:
+def place(data: Path | None, url: str, token: str) -> InFolder | OfService:
     """The place in the options. raises: InvalidValue if they name none"""
     if url and data is not None:
         raise InvalidValue.in_words("url", "--url takes the place of --data: give one of the two")
@@ -118,7 +102,6 @@ def place(data: Path | None, url: str, token: str) -> Jobs:
         return OfService(url, token)
     folder = data or Settings().data
     if folder is None:
-        raise InvalidValue.in_words(
-            "data", "--data or --url must say where the jobs are, or BENCH_DRAGON_DATA in the environment"
-        )
+        rule = "--data or --url must say where the jobs are, or BENCH_DRAGON_DATA in the environment"
+        raise InvalidValue.in_words("data", rule)
     return InFolder(folder)

@@ -19,7 +19,7 @@ from pydantic import BaseModel, ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.types import Receive, Scope, Send
 
-from app.jobs.job import ID_PATTERN, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
+from app.jobs.job import ID_PATTERN, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState
 from app.jobs.keeper import Keeper
 from app.jobs.task import Task
 from app.jobs.wire import (
@@ -89,8 +89,7 @@ def take(request: Request, task: Task) -> Response:
     keeper = keeper_of(request)
     limits = keeper.settings
     try:
-        room = Room(limits.jobs_max, limits.jobs_client_max, limits.jobs_bytes_max)
-        job = keeper.store.create(task.call, task.to_bytes(), client_of(request), room)
+        job = keeper.store.create(task.call, task.to_bytes(), client_of(request), limits)
     except FullForClient as error:
         detail = f"{limits.jobs_client_max} of your jobs are not finished, the limit: wait for one or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error

@@ -94,12 +94,8 @@ class Work:
                 self.process.kill()
 
 
-@dataclass(frozen=True)
-class Word:
-    """A message of a process: a line, or None when it has ended."""
-
-    work: Work
-    said: dict[str, Any] | None
+# A process, and a message of it, or None when it has ended.
+Word = tuple[Work, dict[str, Any] | None]
 
 
 class Runner:
@@ -132,7 +128,7 @@ class Runner:
         """Process messages, end dismissed jobs, start waiting ones."""
         self._listen()
         while self._unheeded:
-            self._heed(self._unheeded[0])
+            self._heed(*self._unheeded[0])
             self._unheeded.popleft()
         wanted = self.store.running()
         for job, work in self.works.items():
@@ -149,13 +145,10 @@ class Runner:
             taken = self.store.take(self.settings.sweeps_running_max)
             if taken is None:
                 break
-            self._start(taken)
-
-    def _start(self, job: str) -> None:
-        known, settings = self.store.get(job), self.settings
-        most = settings.sweep_seconds_max if known and known.question == SWEEP else settings.job_seconds_max
-        work = self.works[job] = self._free()
-        work.give(job, most)
+            known = self.store.get(taken)
+            sweeps = known is not None and known.question == SWEEP
+            work = self.works[taken] = self._free()
+            work.give(taken, self.settings.sweep_seconds_max if sweeps else self.settings.job_seconds_max)
 
     def _free(self) -> Work:
         """A process without a job: one that has done others, or else a new one."""
@@ -173,9 +166,9 @@ class Runner:
             for line in lines:
                 # A killed process may leave half a line.
                 with contextlib.suppress(orjson.JSONDecodeError):
-                    self._words.put(Word(work, orjson.loads(line)))
+                    self._words.put((work, orjson.loads(line)))
         work.process.wait()
-        self._words.put(Word(work, None))
+        self._words.put((work, None))
 
     def _listen(self) -> None:
         with contextlib.suppress(queue.Empty):
@@ -183,13 +176,13 @@ class Runner:
             while True:
                 self._unheeded.append(self._words.get_nowait())
 
-    def _heed(self, word: Word) -> None:
-        work, job = word.work, word.work.job
-        if word.said is None:
+    def _heed(self, work: Work, said: dict[str, Any] | None) -> None:
+        job = work.job
+        if said is None:
             self._bury(work)
             return
         assert job is not None  # A process without a job sends no message.
-        match word.said:
+        match said:
             case {"share": float(share), "rate": rate, "done": int(done), "total": int(total), "size": int(size)}:
                 self.store.proceed(job, share, rate, done=done, total=total, size=size)
             case {"share": float(share)}:

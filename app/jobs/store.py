@@ -26,8 +26,9 @@ from typing import Any
 import orjson
 
 from app.files.flush import flush_folder
-from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState, Room
+from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState
 from app.jobs.reserve import Reserve
+from app.settings import Settings
 
 # Longest wait of a change for that of another process [s].
 PATIENCE = 5.0
@@ -66,11 +67,9 @@ class Store:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder.absolute()
-        self.results = self.folder / "results"
-        self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        self.sweeps = self.folder / "sweeps"
-        for inner in (self.results, self.sweeps):
-            inner.mkdir(mode=0o700, exist_ok=True)
+        self.results, self.sweeps = self.folder / "results", self.folder / "sweeps"
+        for place in (self.folder, self.results, self.sweeps):
+            place.mkdir(mode=0o700, parents=True, exist_ok=True)
         file = self.folder / "jobs.sqlite"
         file.touch(mode=0o600)  # Other users must not read the names of jobs, which give access to the results.
         self._reserve = Reserve(self.folder / "reserve")
@@ -149,18 +148,18 @@ class Store:
 
     # Calls for every process.
 
-    def create(self, question: str, call: bytes, client: str, room: Room) -> Job:
+    def create(self, question: str, call: bytes, client: str, limits: Settings) -> Job:
         """A new job, safe on the disk. raises: Full if there is no room for it"""
         now, job = time.time(), secrets.token_hex(ID_BYTES)
         with self._change() as run:
             kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
             jobs, used = run.execute(kept).fetchone()
             own = "SELECT count(*) FROM jobs WHERE client = ? AND state IN ('accepted', 'running')"
-            if run.execute(own, (client,)).fetchone()[0] >= room.of_client:
+            if run.execute(own, (client,)).fetchone()[0] >= limits.jobs_client_max:
                 raise FullForClient
-            if jobs >= room.jobs:
+            if jobs >= limits.jobs_max:
                 raise Full
-            if used >= room.bytes:
+            if used >= limits.jobs_bytes_max:
                 raise FullOfBytes
             run.execute(
                 "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
@@ -214,19 +213,9 @@ class Store:
 
     def dismiss(self, job: str) -> bool:
         """Dismiss an unfinished job: True if it was unfinished. The runner ends its process."""
-        now, words = time.time(), "It was dismissed before it was done."
-        with self._reserve.given(), self._change() as run:
-            return self._move(
-                run,
-                job,
-                "state IN ('accepted', 'running')",
-                state=JobState.DISMISSED,
-                finished=now,
-                message=words,
-                time_left=None,
-                client="",
-                size=0,
-            )
+        dismissed, words = {"time_left": None, "size": 0}, "It was dismissed before it was done."
+        with self._reserve.given():
+            return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
 
     def remove(self, job: str) -> None:
         """Remove a job with its events and its result."""
@@ -283,8 +272,7 @@ class Store:
 
         more: for a sweep the designs `done` of the `total`, and the `size` of its shards [bytes]
         """
-        left = (1.0 - share) / rate if rate else None
-        percent = 100.0 * rate if rate else None
+        left, percent = ((1.0 - share) / rate, 100.0 * rate) if rate else (None, None)
         with self._change() as run:
             self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left, **more)
 
@@ -311,24 +299,23 @@ class Store:
         failed = {"rate": None, "time_left": None, "problem": problem, "size": 0}
         self._finish(job, JobState.FAILED, orjson.loads(problem)["detail"], failed)
 
-    def _finish(self, job: str, state: JobState, message: str, more: dict[str, Any]) -> bool:
-        """End a running job: True if it was running."""
+    def _finish(
+        self, job: str, state: JobState, message: str, more: dict[str, Any], where: str = "state = 'running'"
+    ) -> bool:
+        """End a job if the condition `where` holds; True if it held."""
         ended = more | {"state": state, "finished": time.time(), "message": message, "client": ""}
         with self._change() as run:
-            return self._move(run, job, "state = 'running'", **ended)
+            return self._move(run, job, where, **ended)
 
     def die(self, job: str, problem: bytes) -> None:
         """Record a job's dead process: the job is tried again, but fails with this problem after DEATHS_MAX deaths."""
         found = self.get(job)
-        if found is None:
-            return None
-        deaths = found.deaths + 1
-        if deaths >= DEATHS_MAX:
-            return self.fail(job, problem)
-        words = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
-        with self._change() as run:
-            self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
-        return None
+        if found is not None and (deaths := found.deaths + 1) < DEATHS_MAX:
+            words = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
+            with self._change() as run:
+                self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
+        elif found is not None:
+            self.fail(job, problem)
 
     def expire(self, days: float) -> None:
         """Remove calls and results of jobs this many days after their end, and the jobs after twice as many."""

@@ -21,7 +21,7 @@ from typing import BinaryIO, TypeVar, cast
 
 from app.jobs.keeper import start
 from app.jobs.work import NICENESS
-from app.sweeps.worker import receive, send
+from app.sweeps.worker import end, receive, send
 from core import Budget
 from core.kernels import Halted
 
@@ -54,20 +54,20 @@ class Graders:
                     send(cast(BinaryIO, process.stdin), (read, given))
                     answer: Answer = pickle.loads(receive(cast(BinaryIO, process.stdout)))
             except (EOFError, OSError):
-                _end(process)
+                end(process)
                 if budget.stopped:
                     raise Halted(budget) from None
                 continue
             self._waiting.append(process)
             if len(self._waiting) > WAITING:
-                _end(self._waiting.pop())
+                end(self._waiting.pop())
             return answer
         raise EOFError(f"a file ended {TRIES} processes that read it")
 
     def close(self) -> None:
         """End the processes that wait."""
         while self._waiting:
-            _end(self._waiting.pop())
+            end(self._waiting.pop())
 
 
 @contextlib.contextmanager
@@ -88,15 +88,6 @@ def _ended_with(process: subprocess.Popen[bytes], budget: Budget) -> Iterator[No
     finally:
         done.set()
         watcher.join()
-
-
-def _end(process: subprocess.Popen[bytes]) -> None:
-    process.kill()
-    process.wait()
-    for stream in (process.stdin, process.stdout):
-        # A pipe that nobody reads any more cannot be flushed.
-        with contextlib.suppress(OSError):
-            cast(BinaryIO, stream).close()
 
 
 def main() -> None:

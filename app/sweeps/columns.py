@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import lru_cache
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin
 
@@ -46,10 +47,11 @@ def _dumped(value: Any) -> Any:
     return value.model_dump(mode="json")
 
 
-def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> list[Column]:
+@lru_cache(maxsize=16)
+def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> tuple[Column, ...]:
     """A column for every number, text and truth value of an answer: dotted names for inner objects and pairs, JSON for
     lists of any length."""
-    return [column for column in _columns_of(model, ()) if column.name not in left_out]
+    return tuple(column for column in _columns_of(model, ()) if column.name not in left_out)
 
 
 def _columns_of(kind: Any, steps: tuple[str | int, ...]) -> Iterator[Column]:

@@ -31,18 +31,13 @@ def designs(spec: Spec, start: int, stop: int) -> dict[str, list[Any]]:
     for name, count in reversed(spec.counts.items()):
         rest, place = np.divmod(rest, count)
         axis = spec.over[name]
-        found[name] = _grid_values(axis, place) if isinstance(axis, Range) else [axis[k] for k in place.tolist()]
+        at = place.tolist()
+        found[name] = [axis.at(k / (count - 1)) for k in at] if isinstance(axis, Range) else [axis[k] for k in at]
     if spec.samples:
         points = sample_points(spec.samples, len(spec.sampled), rest)
         for column, (name, axis) in zip(points.T, spec.sampled.items(), strict=True):
             found[name] = [axis.at(share) for share in column.tolist()]
     return {name: found[name] for name in spec.over}
-
-
-def _grid_values(axis: Range, place: Indices) -> list[float]:
-    assert axis.count is not None
-    last = axis.count - 1
-    return [axis.at(k / last) for k in place.tolist()]
 
 
 def sample_points(samples: Samples, dimensions: int, indices: Indices) -> Floats:

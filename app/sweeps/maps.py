@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 
 from app.files.drawing import canvas
 from app.sweeps.spec import Range
-from app.sweeps.summary import numbers_of
-from app.sweeps.table import Sweep
+from app.sweeps.table import Sweep, numbers_of
 from core import InvalidValue
 from core.plots import BLUE, GREY
 from core.values import Floats

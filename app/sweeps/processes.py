@@ -15,7 +15,7 @@ from typing import Any, cast
 from app.settings import usable_cores
 from app.sweeps.engines import Done, arrived
 from app.sweeps.shards import Piece
-from app.sweeps.worker import receive, send
+from app.sweeps.worker import end, receive, send
 from core import BenchDragonError
 
 # Message in place of an answer when a process has ended.
@@ -40,7 +40,7 @@ class _Worker:
         self.ready = False
         self._events = events
         # In a new session, so that Ctrl-C stops the sweep and does not interrupt the workers one by one.
-        self._process = subprocess.Popen(
+        self.process = subprocess.Popen(
             [sys.executable, "-P", "-m", "app.sweeps.worker"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -49,34 +49,20 @@ class _Worker:
         )
         threading.Thread(target=self._listen, daemon=True).start()
 
-    @property
-    def pid(self) -> int:
-        """Process id."""
-        return self._process.pid
-
     def give(self, piece: Piece) -> None:
         """Send a piece to the process; the thread reports the answer, or that the process died."""
         self.piece = piece
         with contextlib.suppress(OSError):
-            send(cast(Any, self._process.stdin), piece)
+            send(cast(Any, self.process.stdin), piece)
 
     def _listen(self) -> None:
         while True:
             try:
-                answer = pickle.loads(receive(cast(Any, self._process.stdout)))
+                answer = pickle.loads(receive(cast(Any, self.process.stdout)))
             except (EOFError, OSError, ValueError):
                 self._events.put((self, GONE))
                 return
             self._events.put((self, answer))
-
-    def leave(self) -> None:
-        """End the process and wait for it."""
-        self._process.kill()
-        self._process.wait(PATIENCE)
-        for stream in (self._process.stdin, self._process.stdout):
-            # A pipe without a reader cannot be flushed.
-            with contextlib.suppress(OSError):
-                cast(Any, stream).close()
 
 
 class Processes:
@@ -99,7 +85,7 @@ class Processes:
     @property
     def pids(self) -> list[int]:
         """Process ids."""
-        return [worker.pid for worker in self._all]
+        return [worker.process.pid for worker in self._all]
 
     def submit(self, piece: Piece) -> None:
         """Take a piece, now or when a process is idle."""
@@ -120,7 +106,7 @@ class Processes:
         """End all processes."""
         self._waiting.clear()
         for worker in self._all:
-            worker.leave()
+            end(worker.process, PATIENCE)
 
     def _hand_out(self) -> None:
         while self._waiting and self._idle:
@@ -139,7 +125,7 @@ class Processes:
         return [arrived(piece, answer)]
 
     def _replace(self, worker: _Worker) -> None:
-        worker.leave()
+        end(worker.process, PATIENCE)
         self._all.discard(worker)
         if worker in self._idle:
             self._idle.remove(worker)

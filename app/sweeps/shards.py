@@ -7,14 +7,12 @@ import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 from typing import Any, BinaryIO
 
 import orjson
 import pyarrow as pa
 import pyarrow.parquet as pq
-from pydantic import BaseModel
 
 import core
 from app.files.flush import flush_folder, new_file
@@ -86,14 +84,9 @@ class Piece:
         return _stream(_table(self, asked, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
 
 
-@lru_cache(maxsize=16)
-def _all_columns(answer: type[BaseModel], left_out: frozenset[str]) -> tuple[Column, ...]:
-    return tuple(answer_columns(answer, left_out))
-
-
 def kept_columns(spec: Spec, question: Question) -> list[Column]:
     """The columns of the answer, except those that repeat a parameter of the sweep."""
-    return [column for column in _all_columns(question.answer, question.left_out) if column.name not in spec.over]
+    return [column for column in answer_columns(question.answer, question.left_out) if column.name not in spec.over]
 
 
 def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:

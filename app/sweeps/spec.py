@@ -82,13 +82,9 @@ class Samples(_Told):
     seed: int = Field(0, ge=0, lt=2**63, description="Seed of philox")
 
 
-def _shape_of_axis(value: Any) -> str:
-    return "list" if isinstance(value, list) else AXIS
-
-
 Axis = Annotated[
     Annotated[Range, Tag(AXIS)] | Annotated[list[Any], Field(min_length=1, max_length=VALUES_MAX), Tag("list")],
-    Discriminator(_shape_of_axis),
+    Discriminator(lambda value: "list" if isinstance(value, list) else AXIS),
 ]
 
 
@@ -128,12 +124,11 @@ class Spec(_Told):
     @classmethod
     def read(cls, file: Path) -> Self:
         """The spec in a .toml or .json file. raises: InvalidValue, TooLarge, OSError"""
+        data, toml = file.read_bytes(), file.suffix.lower() == ".toml"
         try:
-            data = file.read_bytes()
-            told = tomllib.loads(data.decode()) if file.suffix.lower() == ".toml" else orjson.loads(data)
+            told = tomllib.loads(data.decode()) if toml else orjson.loads(data)
         except (tomllib.TOMLDecodeError, orjson.JSONDecodeError, UnicodeDecodeError) as error:
-            kind = "TOML" if file.suffix.lower() == ".toml" else "JSON"
-            raise InvalidValue.in_words("spec", f"{file} is not {kind}: {error}") from error
+            raise InvalidValue.in_words("spec", f"{file} is not {'TOML' if toml else 'JSON'}: {error}") from error
         return cls.of(told)
 
     @property

@@ -6,14 +6,16 @@ pickle. The first answer, None, says that it is ready. It ends when its input en
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import os
 import pickle
 import queue
 import struct
+import subprocess
 import sys
 import threading
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, cast
 
 LENGTH = struct.Struct("<Q")
 
@@ -35,6 +37,16 @@ def receive(stream: BinaryIO) -> bytes:
     if len(data) < length:
         raise EOFError
     return data
+
+
+def end(process: subprocess.Popen[bytes], patience: float | None = None) -> None:
+    """Kill a process and wait for its end, at most so long [s]."""
+    process.kill()
+    process.wait(patience)
+    for stream in (process.stdin, process.stdout):
+        # A pipe that nobody reads any more cannot be flushed.
+        with contextlib.suppress(OSError):
+            cast(BinaryIO, stream).close()
 
 
 def main() -> None:

@@ -12,10 +12,11 @@ from threading import Timer
 import orjson
 import pytest
 
-from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState, Room
+from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState
 from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, TABLES, Store
+from app.settings import Settings
 
-ROOM = Room(jobs=10, of_client=10, bytes=1_000)
+ROOM = Settings(jobs_max=10, jobs_client_max=10, jobs_bytes_max=1_000)
 PROBLEM = orjson.dumps({"detail": "It does not work."})
 
 
@@ -132,13 +133,13 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store: Store) -> No
 @pytest.mark.parametrize(
     ("room", "error"),
     [
-        (Room(jobs=1, of_client=10, bytes=1_000), Full),
-        (Room(jobs=10, of_client=1, bytes=1_000), FullForClient),
-        (Room(jobs=10, of_client=10, bytes=6), FullOfBytes),
+        (Settings(jobs_max=1, jobs_client_max=10, jobs_bytes_max=1_000), Full),
+        (Settings(jobs_max=10, jobs_client_max=1, jobs_bytes_max=1_000), FullForClient),
+        (Settings(jobs_max=10, jobs_client_max=10, jobs_bytes_max=6), FullOfBytes),
     ],
     ids=["jobs", "of_client", "bytes"],
 )
-def test_no_job_is_taken_where_there_is_no_room(store: Store, room: Room, error: type[Full]) -> None:
+def test_no_job_is_taken_where_there_is_no_room(store: Store, room: Settings, error: type[Full]) -> None:
     job = make(store)
     store.take()
     if error is FullOfBytes:

@@ -13,8 +13,7 @@ from app.sweeps import shards
 from app.sweeps.maps import value_map
 from app.sweeps.run import begin
 from app.sweeps.spec import Spec
-from app.sweeps.summary import summary
-from app.sweeps.table import Sweep
+from app.sweeps.table import Sweep, summary
 from core import InvalidValue
 from tests.app.sweeps.odd_questions import LAND
 
