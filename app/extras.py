@@ -34,6 +34,5 @@ def require(extra: str, field: str, what: str) -> None:
     """raises: MissingPackage, at the field and with what to install, when a module of the extra is missing"""
     for module in MODULES[extra]:
         if find_spec(module) is None:
-            raise MissingPackage.in_words(
-                field, f"{what} needs the package {module}, which is not installed: pip install 'bench-dragon[{extra}]'"
-            )
+            words = f"{what} needs the package {module}, which is not installed"
+            raise MissingPackage.in_words(field, f"{words}: pip install 'bench-dragon[{extra}]'")

@@ -51,9 +51,8 @@ def check(
 ) -> None:
     """Verdict on a dance: contacts, limits and venue. The exit code is 0, also for a dance that fails."""
     if time is not None and figure is None:
-        raise InvalidValue.in_words(
-            "time", "--time is the instant that --figure draws: give --figure too, or leave --time out"
-        )
+        words = "--time is the instant that --figure draws: give --figure too, or leave --time out"
+        raise InvalidValue.in_words("time", words)
     if figure:
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""

@@ -65,13 +65,11 @@ def trajectory(
     """Position and speed of every handle."""
     ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
     if ending and given(context, "handles"):
-        raise InvalidValue.in_words(
-            "handles", "--handles chooses rows of the table: leave it out with --output or --json"
-        )
+        words = "--handles chooses rows of the table: leave it out with --output or --json"
+        raise InvalidValue.in_words("handles", words)
     if output and json:
-        raise InvalidValue.in_words(
-            "json", "--json prints the answer and --output writes it to a file: give one of the two"
-        )
+        words = "--json prints the answer and --output writes it to a file: give one of the two"
+        raise InvalidValue.in_words("json", words)
     if ending != ".xlsx":
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
     clock = asked.start_clock if isinstance(asked, TrajectoryRequest) else None

@@ -56,9 +56,8 @@ def process_count(asked: int | None, platform: str = sys.platform) -> int:
     if platform != "win32":
         return asked or min(usable_cores(), WORKERS_MAX)
     if asked not in (None, 1):
-        raise InvalidValue.in_words(
-            "workers", f"--workers must be 1 on Windows, where the service is one process, got {asked}"
-        )
+        rule = "--workers must be 1 on Windows, where the service is one process"
+        raise InvalidValue.in_words("workers", f"{rule}, got {asked}")
     return 1
 
 

@@ -162,7 +162,6 @@ class Cluster:
             except (OSError, TimeoutError, ValueError) as error:
                 if time.monotonic() >= until:
                     words = "start one there, or name another, and run the sweep again: it continues"
-                    raise NoScheduler.in_words(
-                        "dask", f"no Dask scheduler answers at {self._address}: {words}"
-                    ) from error
+                    told = f"no Dask scheduler answers at {self._address}: {words}"
+                    raise NoScheduler.in_words("dask", told) from error
                 time.sleep(AGAIN)

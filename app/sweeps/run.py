@@ -141,9 +141,8 @@ def begin(folder: Path, spec: Spec) -> None:
             raise InvalidValue.in_words("output", f"{folder} has files but no sweep: name an empty or a new folder")
         shards.write_durably(kept, spec.canonical())
     elif kept.read_bytes() != spec.canonical():
-        raise InvalidValue.in_words(
-            "output", f"{folder} has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder"
-        )
+        words = f"has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder"
+        raise InvalidValue.in_words("output", f"{folder} {words}")
 
 
 def missing_shards(folder: Path, spec: Spec) -> list[int]:

@@ -97,10 +97,8 @@ def _columns(words: Iterable[str], number: int) -> list[str]:
         plain = word.partition("[")[0].partition("(")[0].strip().lower()
         column = next((column for column, known in WORDS.items() if plain in known), None)
         if column is None or column in found:
-            what = "named once" if column else "name, length, width or overhang"
-            raise InvalidValue.in_words(
-                "dragon.csv", f"line {number}: a column must be {what}, got {word!r:.{LONGEST_WORD}}"
-            )
+            rule = f"a column must be {'named once' if column else 'name, length, width or overhang'}"
+            raise InvalidValue.in_words("dragon.csv", f"line {number}: {rule}, got {word!r:.{LONGEST_WORD}}")
         found.append(column)
     if missing := [column for column in SIZES if column not in found]:
         raise InvalidValue.in_words("dragon.csv", f"line {number}: the column {missing[0]} is missing")

@@ -102,9 +102,8 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         raise InvalidValue("venue.crs", f"must be left out or name CRS84, got {named!r:.60}: {words}")
     if named is not None and coordinates == ("metres" if geographic else "degrees"):
         meant = "longitude and latitude" if geographic else "something else"
-        raise InvalidValue(
-            "coordinates", f"must agree with venue.crs, which is {named!r:.60}: {meant}, got {coordinates!r}"
-        )
+        rule = f"must agree with venue.crs, which is {named!r:.60}: {meant}"
+        raise InvalidValue("coordinates", f"{rule}, got {coordinates!r}")
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))
     things = read_things(geometry)
@@ -119,10 +118,9 @@ def _told_origin(told: object) -> Origin | None:
         return None
     if not isinstance(told, Mapping) or set(told) != {"longitude", "latitude"}:
         raise InvalidValue("venue.origin", "must have longitude and latitude in degrees, or be left out")
-    limits = zip(("longitude", "latitude"), DEGREES[1:], strict=True)
-    return Origin(
-        *(checked_number(f"venue.origin.{name}", told[name], "degrees", -most, most) for name, most in limits)
-    )
+    limits = {"longitude": DEGREES[1], "latitude": DEGREES[2]}
+    places = (checked_number(f"venue.origin.{name}", told[name], "degrees", -m, m) for name, m in limits.items())
+    return Origin(*places)
 
 
 def named_system(geometry: Mapping[str, object]) -> str | None:

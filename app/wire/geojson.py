@@ -111,9 +111,8 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
         return [(name or own, where, rings, width) for own, where, rings, width in inner]
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
-        raise InvalidValue(
-            f"{field}.type", f"must be Polygon, Feature, FeatureCollection or GeometryCollection, got {kind!r}"
-        )
+        rule = "must be Polygon, Feature, FeatureCollection or GeometryCollection"
+        raise InvalidValue(f"{field}.type", f"{rule}, got {kind!r}")
     items = _listed(f"{field}.{members}", geometry.get(members))
     each = (_polygons(f"{field}.{members}.{k}", item, depth + 1) for k, item in enumerate(items))
     return [found for polygons in each for found in polygons]
