@@ -40,11 +40,8 @@ def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     tightest, bench = tightest_bend(dragon)
     chord = float(dragon.chords[bench])
     x, y = path.position(s)
-    raise InvalidValue(
-        "path",
-        f"must not bend tighter than a radius of {tightest:.4g} m for the chord of "
-        f"bench {bench} ({chord:g} m), got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m",
-    )
+    rule = f"must not bend tighter than a radius of {tightest:.4g} m for the chord of bench {bench} ({chord:g} m)"
+    raise InvalidValue("path", f"{rule}, got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m")
 
 
 def earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
@@ -64,9 +61,7 @@ def earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
     low, straight = tail_begin, float(dragon.chords.sum())
     high = low + 0.5 * math.pi * straight
     if not has_room(high):
-        raise InvalidValue(
-            "path",
-            f"is too short for the whole dragon, which takes {straight:.9g} m of it from handle 0 to handle "
-            f"{dragon.benches} (more along bends), got {path.end - path.begin:.9g} m",
-        )
+        taken = f"{straight:.9g} m of it from handle 0 to handle {dragon.benches} (more along bends)"
+        found = f"got {path.end - path.begin:.9g} m"
+        raise InvalidValue("path", f"is too short for the whole dragon, which takes {taken}, {found}")
     return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)

@@ -158,10 +158,8 @@ class Waypoints(Shown):
         short = np.flatnonzero(steps < WAYPOINT_GAP)
         if short.size:
             k = int(short[0])
-            raise InvalidValue(
-                f"{name}.points.{k + 1}",
-                f"must be at least {WAYPOINT_GAP:g} m from the point before it, got {steps[k]:g} m",
-            )
+            rule = f"must be at least {WAYPOINT_GAP:g} m from the point before it, got {steps[k]:g} m"
+            raise InvalidValue(f"{name}.points.{k + 1}", rule)
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
         rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)

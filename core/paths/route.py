@@ -116,13 +116,11 @@ class Route(Shown):
         name = f"path.pieces.{k}"
         where = f"the joint of path.pieces[{k - 1}] and path.pieces[{k}]"
         if gap > JOINT_GAP:
-            raise InvalidValue.in_words(
-                name, f"{where} must close: ({x:.9g}, {y:.9g}) m is {gap:.3g} m from ({x2:.9g}, {y2:.9g}) m"
-            )
+            words = f"must close: ({x:.9g}, {y:.9g}) m is {gap:.3g} m from ({x2:.9g}, {y2:.9g}) m"
+            raise InvalidValue.in_words(name, f"{where} {words}")
         if kink > JOINT_KINK:
-            raise InvalidValue.in_words(
-                name, f"{where} must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
-            )
+            words = f"must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
+            raise InvalidValue.in_words(name, f"{where} {words}")
 
     def __repr__(self) -> str:
         listed = f"Route({list(self.pieces)!r}, start={self.start!r})"

@@ -183,9 +183,8 @@ def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes
     try:
         shape = np.broadcast_shapes(a.shape, b.shape)
     except ValueError as error:
-        raise InvalidValue.in_words(
-            "poses_b", f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
-        ) from error
+        words = f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
+        raise InvalidValue.in_words("poses_b", words) from error
     return frames_separation(np.broadcast_to(a, shape), np.broadcast_to(b, shape))
 
 
@@ -251,7 +250,5 @@ def _checked_frames(suffix: str, poses: ArrayLike, sizes: ArrayLike) -> Floats:
     try:
         return frames(pose, size)
     except ValueError as error:
-        raise InvalidValue.in_words(
-            f"sizes{suffix}",
-            f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}",
-        ) from error
+        words = f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}"
+        raise InvalidValue.in_words(f"sizes{suffix}", words) from error

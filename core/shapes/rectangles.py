@@ -315,9 +315,8 @@ def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, 
     raises: InvalidValue for a margin that is not 0
     """
     if margin != 0.0:
-        raise InvalidValue(
-            "margin", f"must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m"
-        )
+        rule = f"must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m"
+        raise InvalidValue("margin", rule)
     for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
         pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)
         batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]
