@@ -16,11 +16,6 @@ from numpy.typing import NDArray
 from core.values import Floats
 
 
-def mean(a: float, b: float) -> float:
-    """The arithmetic mean of two numbers."""
-    return 0.5 * (a + b)
-
-
 def bisected(
     holds: Callable[[float], bool | None],
     low: float,
@@ -28,7 +23,7 @@ def bisected(
     *,
     width: float = 0.0,
     relative: float = 0.0,
-    middle: Callable[[float, float], float] = mean,
+    middle: Callable[[float, float], float] = lambda a, b: 0.5 * (a + b),
 ) -> tuple[float, float]:
     """Both ends of a bracket around the border beyond which a claim holds.
 

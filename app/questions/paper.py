@@ -30,7 +30,7 @@ from app.grade.words import say
 from app.wire.question import Answer, Question, Terms, Wire
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
-from core.design.pitch_scan import stop_radius
+from core.design.pitch_scan import Stops
 from core.sampling import bisected
 from core.shapes.rectangles import corners, literal_corners
 
@@ -200,7 +200,7 @@ def _minimum_pitch() -> _Number:
 
 def _contact_radius(pitch: float) -> float:
     """Radius of the default dragon's head at first contact, as a scan finds it [m]; 0 without a contact."""
-    return stop_radius(Dragon(), Spiral(pitch)) or 0.0
+    return Stops(Dragon(), 0.0).radius(Spiral(pitch)) or 0.0
 
 
 def paper(asked: PaperQuery, terms: Terms) -> PaperTable:

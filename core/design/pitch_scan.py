@@ -126,11 +126,6 @@ class Stops:
         return search.growth * search.theta_at(travel)
 
 
-def stop_radius(dragon: Dragon, path: Spiral, *, margin: float = 0.0) -> float | None:
-    """Radius of the head at first contact [m]; None if nothing touches. See Stops."""
-    return Stops(dragon, margin).radius(path)
-
-
 @asked_of("dragon", Dragon)
 def pitch_scan(
     dragon: Dragon,

@@ -219,21 +219,25 @@ def extended(chords: Floats, handles: Floats, wanted: dict[int, Floats]) -> Floa
         four strays also keep the chord of that bench, which shares a hole with either
     """
     moved = handles.copy()
+
+    def follow(places: range, joined: int) -> None:
+        """Each handle at its chord from the one `joined` (1 or -1) further on, as near to its own place as possible."""
+        for k in places:
+            way = handles[k] - moved[k + joined]
+            chord = float(chords[min(k, k + joined)])
+            moved[k] = moved[k + joined] + way * (chord / math.hypot(*way.tolist()))
+
     for k, strays in wanted.items():
         moved[k : k + 2] = handles[k : k + 2] + strays
     first, last = min(wanted), max(wanted)
     between = slice(first + 2, last) if last > first + 2 else slice(first, last + 2)
     middle = (first + last + 3) // 2
-    for k in range(first + 2, middle):
-        moved[k] = _nearest(handles[k], moved[k - 1], float(chords[k - 1]))
-    for k in range(last - 1, middle - 1, -1):
-        moved[k] = _nearest(handles[k], moved[k + 1], float(chords[k]))
+    follow(range(first + 2, middle), -1)
+    follow(range(last - 1, middle - 1, -1), 1)
     if last > first and not _restored(chords[first : last + 1], moved[first : last + 2], between, first):
         return None
-    for k in range(first - 1, -1, -1):
-        moved[k] = _nearest(handles[k], moved[k + 1], float(chords[k]))
-    for k in range(last + 2, len(handles)):
-        moved[k] = _nearest(handles[k], moved[k - 1], float(chords[k - 1]))
+    follow(range(first - 1, -1, -1), 1)
+    follow(range(last + 2, len(handles)), -1)
     return moved
 
 
@@ -253,9 +257,3 @@ def _restored(chords: Floats, places: Floats, free: slice, first: int) -> bool:
         moving = slope[:, start:stop].reshape(len(chords), -1)
         places[start:stop] += np.linalg.lstsq(moving, wrong, rcond=None)[0].reshape(-1, 2)
     return False
-
-
-def _nearest(place: Floats, joined: Floats, chord: float) -> Floats:
-    """The point at a chord's distance from a handle that is nearest to a place [m]."""
-    way = place - joined
-    return joined + way * (chord / math.hypot(*way.tolist()))

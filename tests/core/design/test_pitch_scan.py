@@ -9,7 +9,7 @@ import pytest
 
 import core.design.pitch_scan
 from core import Dance, Dragon, InvalidValue, Spiral, TooMuchWork, first_contact, minimum_pitch
-from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum, stop_radius
+from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum
 from tests.depth import some
 
 SMALL = Dragon(benches=30)
@@ -82,7 +82,7 @@ def test_a_run_to_a_fold_is_told_from_a_contact_as_by_first_contact(
     dragon: Dragon, pitch: float, margin: float
 ) -> None:
     head = first_contact(Dance(dragon, Spiral(pitch)), margin=margin).head
-    radius = stop_radius(dragon, Spiral(pitch), margin=margin)
+    radius = Stops(dragon, margin).radius(Spiral(pitch))
     assert (radius is None) == (head is None)
     assert head is None or radius == pytest.approx(head.radius, rel=0.0, abs=RADIUS_WIDTH)
 
