@@ -46,7 +46,9 @@ def refuse_malformed(certificate: Any) -> None:
     on_spiral = "path" not in claim or claim["path"]["kind"] == "spiral"
     letters = ALL_FACES + (DIRECTION if optional else "") + ("" if on_spiral else CIRCLES)
     if certificate["sweeps"] != []:  # A contact at the very start leaves nothing to sweep.
-        _each(_sweep(_strayed_stretch if strays else _stretch(letters, on_spiral)))("sweeps", certificate["sweeps"])
+        stretch = _strayed_stretch if strays else _stretch(letters, on_spiral)
+        sweep: dict[str, Rule] = {"bench": _whole, "stretches": _each(stretch)}
+        _each(lambda name, value: _object(name, value, sweep))("sweeps", certificate["sweeps"])
 
 
 def _malformed(name: str, must: str, got: Any) -> ProofRefused:
@@ -167,10 +169,6 @@ def _by_kind(members: Mapping[str, dict[str, Rule]]) -> Rule:
         _object(name, value, {"kind": _text} | members[value["kind"]])
 
     return checked
-
-
-def _sweep(stretch: Rule) -> Rule:
-    return lambda name, value: _object(name, value, {"bench": _whole, "stretches": _each(stretch)})
 
 
 def _strayed_stretch(name: str, value: Any) -> None:

@@ -99,7 +99,11 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
     """The dragon on the path, in balls."""
     if record["kind"] == "spiral":
         return Chain(dragon, arb(record["pitch"]), record["start_turns"], margin)
-    return RouteChain(dragon, _turn_path(record) if record["kind"] == "turn" else _route_path(record), margin)
+    if record["kind"] == "turn":
+        return RouteChain(dragon, _turn_path(record), margin)
+    given = [_piece(piece) for piece in record["pieces"]]
+    path = Path([piece for piece, _, _ in given], (0, arb(record["start"])), *given[0][1:])
+    return RouteChain(dragon, path, margin)
 
 
 # The arcs of a Turn: S = R sqrt(1 + theta^2) / theta. With T the direction of travel at the entry E and n to the right
@@ -114,11 +118,6 @@ def _turn_path(record: Record) -> Path:
     coils = Coil.between(growth, start, theta), Coil.between(growth, -theta, -start)
     arcs = Piece(-1 / radii[0], radii[0] * angle), Piece(1 / radii[1], radii[1] * angle)
     return Path((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
-
-
-def _route_path(record: Record) -> Path:
-    given = [_piece(piece) for piece in record["pieces"]]
-    return Path([piece for piece, _, _ in given], (0, arb(record["start"])), *given[0][1:])
 
 
 def _piece(record: Record) -> tuple[Piece, acb, acb]:
