@@ -154,7 +154,7 @@ class RouteStretch:
         to_move = limit.rotation * (velocity - TO_LEFT * rate_a * place)
         axis_move = limit.rotation * TO_LEFT * (rate_b - rate_a) * along
         ends = (pose.seen(a, b) for pose in reversed(self.ends))
-        return limit.clears(along, (to_move, axis_move), ends, self.width, self.chain.margin)
+        return limit.clears(limit.rotation * along, (to_move, axis_move), ends, self.width, self.chain.margin)
 
 
 def half_angle(low: arb, high: arb, chord: arb) -> arb:
