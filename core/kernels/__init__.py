@@ -47,7 +47,7 @@ from core.kernels.clearance import bottom_between, clearance_at, clearance_left,
 from core.kernels.constants import *
 from core.kernels.excess import Excess
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
-from core.kernels.gap_curvature import axis_curvature, pair_curvatures
+from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature
 from core.kernels.hulls import Kinds, largest_supports
 from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding

@@ -23,6 +23,7 @@ cpdef (double, double) pair_curvatures(
     Scene scene, Interval interval, double place, double h, Py_ssize_t a, Py_ssize_t b
 ) noexcept nogil
 
+cpdef double shift_curvature(Py_ssize_t i, Py_ssize_t j, double distance, Rows sizes, Rows shifts) noexcept nogil
 cdef Curvatures band_curvatures(Scene scene, Band band, Py_ssize_t i, Py_ssize_t j, double distance) noexcept nogil
 
 cdef double band_between(

@@ -114,14 +114,21 @@ def pair_curvatures(scene, interval, place, h, a, b):
 
 def band_curvatures(scene, band, i, j, distance):
     """Bounds on the second derivatives of a gap along an axis of bench i over a band."""
-    omega = band.shifts[i, SHIFT_OMEGA]
     return Curvatures(
         axis_curvature(scene.curve.growth, i, j, distance, scene.sizes, band.low.motion),
         axis_curvature(band.high.scene.curve.growth, i, j, distance, scene.sizes, band.high.motion),
-        band.shifts[i, SHIFT_PULL]
-        + band.shifts[j, SHIFT_PULL]
-        + 2.0 * omega * (band.shifts[i, SHIFT_CORNER] + band.shifts[j, SHIFT_CORNER])
-        + omega * omega * (distance + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS]),
+        shift_curvature(i, j, distance, scene.sizes, band.shifts),
+    )
+
+
+def shift_curvature(i, j, distance, sizes, shifts):
+    """Bound K of band_march.py on the second derivative by the growth of a gap along a normal of bench i [rad^2/m]."""
+    omega = shifts[i, SHIFT_OMEGA]
+    return (
+        shifts[i, SHIFT_PULL]
+        + shifts[j, SHIFT_PULL]
+        + 2.0 * omega * (shifts[i, SHIFT_CORNER] + shifts[j, SHIFT_CORNER])
+        + omega * omega * (distance + sizes[i, RADIUS] + sizes[j, RADIUS])
     )
 
 

@@ -25,6 +25,9 @@ from core.kernels.constants import (
     RATE_HIGH,
     RATE_LOW,
     RATE_RATE,
+    SHIFT_CORNER,
+    SHIFT_OMEGA,
+    SHIFT_PULL,
     THETA_HIGH,
     THETA_LOW,
     UX,
@@ -79,17 +82,29 @@ def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int
             assert found <= bound * apart**2 + rounding
 
 
+def worst_bend(turn: float, speed: float, pull: float, reach: float, step: float = 1e-3) -> float:
+    """Second difference quotient of a gap whose axis turns, while a corner moves across it and is pulled along it."""
+    times = np.array([-step, 0.0, step])
+    gap = (0.5 * pull * times**2 - reach) * np.cos(turn * times) + speed * times * np.sin(turn * times)
+    return float((gap[2] - 2.0 * gap[1] + gap[0]) / step**2)
+
+
 def test_a_gap_bends_as_much_as_its_bound_where_everything_moves_as_badly_as_it_may() -> None:
-    """Bench 0 turns, and the corner behind it moves across its axis and is pulled along it."""
-    turn, centre, corner, pulls, distance, radius, step = 0.7, 1.1, 1.6, (0.4, 0.9), 3.0, 0.5, 1e-3
+    turn, centre, corner, pulls, distance, radius = 0.7, 1.1, 1.6, (0.4, 0.9), 3.0, 0.5
     motion, sizes = np.zeros((3, kernels.MOTION_COLUMNS)), np.zeros((3, kernels.SIZE_COLUMNS))
     motion[0, [OMEGA, OMEGA_PULL, CENTRE_SPEED, CENTRE_PULL]] = turn, turn**2, centre, pulls[0]
     motion[2, [CORNER_SPEED, CORNER_PULL]], sizes[2, RADIUS] = (corner, pulls[1]), radius
-    times = np.array([-step, 0.0, step])
-    along, across = 0.5 * sum(pulls) * times**2 - distance - radius, (centre + corner) * times
-    gap = along * np.cos(turn * times) + across * np.sin(turn * times)
-    reached = (gap[2] - 2.0 * gap[1] + gap[0]) / step**2
+    reached = worst_bend(turn, centre + corner, sum(pulls), distance + radius)
     assert reached == pytest.approx(kernels.axis_curvature(1.0, 0, 2, distance, sizes, motion), rel=1e-5)
+
+
+def test_a_gap_bends_across_growths_as_much_as_its_bound_where_benches_shift_as_badly_as_they_may() -> None:
+    turn, corners, pulls, distance, radii = 0.7, (1.1, 1.6), (0.4, 0.9), 3.0, (0.5, 0.8)
+    shifts, sizes = np.zeros((3, kernels.SHIFT_COLUMNS)), np.zeros((3, kernels.SIZE_COLUMNS))
+    shifts[[0, 2], SHIFT_CORNER], shifts[[0, 2], SHIFT_PULL], shifts[0, SHIFT_OMEGA] = corners, pulls, turn
+    sizes[[0, 2], RADIUS] = radii
+    reached = worst_bend(turn, sum(corners), sum(pulls), distance + sum(radii))
+    assert reached == pytest.approx(kernels.shift_curvature(0, 2, distance, sizes, shifts), rel=1e-5)
 
 
 def worst(a: np.ndarray, b: np.ndarray) -> float:
