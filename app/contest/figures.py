@@ -33,7 +33,7 @@ COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0
 CURVE = 400
 # The clearance is drawn over this last part of the way to first contact [1].
 CLEARANCE_FROM = 0.72
-# Text beside a point [points]; a white edge keeps it readable on a line.
+# Text beside a point, by an offset in points; a white edge keeps it readable on a line.
 BESIDE: dict[str, Any] = {
     "textcoords": "offset points",
     "path_effects": [withStroke(linewidth=3.0, foreground="white")],

@@ -79,8 +79,10 @@ def write_kit(
         _write(unfinished, solved, kit, say, shot, progress)
         _take_over(folder, kit.files)
     finally:
-        shutil.rmtree(unfinished, ignore_errors=True)
-        lock.give_back()
+        try:
+            shutil.rmtree(unfinished, ignore_errors=True)
+        finally:
+            lock.give_back()
     return kit
 
 

@@ -108,7 +108,17 @@ def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]
         why = error.message
     progress(1.0)
     meeting = core.trajectory(spiral, [met_at], budget=terms.budget)
-    return Solved(asked, spiral, inwards, contact, met_at, meeting, least, turned, why)
+    return Solved(
+        asked,
+        spiral,
+        inwards=inwards,
+        contact=contact,
+        met_at=met_at,
+        meeting=meeting,
+        pitch=least,
+        turned=turned,
+        why_no_turn=why,
+    )
 
 
 def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
@@ -122,7 +132,7 @@ def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
         even = core.shortest_turn(dragon, asked.turn_pitch, radius, EVEN, **about, budget=terms.budget)
     around = core.trajectory(dance, seconds(-asked.span, asked.span), budget=terms.budget)
     fastest = core.maximum_head_speed(dance, asked.speed_limit, budget=terms.budget)
-    return Turned(path, dance, shortest, even, around, fastest)
+    return Turned(path, dance, shortest=shortest, even=even, around=around, fastest=fastest)
 
 
 def seconds(start: float, stop: float) -> Floats:

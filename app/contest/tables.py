@@ -63,6 +63,7 @@ class Table:
 
 
 def in_markdown(lines: Iterable[Sequence[str]]) -> str:
+    """A table in Markdown: its head, the rule below it ("---" in each column), its rows."""
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 

@@ -21,9 +21,8 @@ def new_file(folder: Path, prefix: str, target: Path | None = None) -> Iterator[
     raises: OSError
     """
     handle, name = tempfile.mkstemp(prefix=prefix, dir=folder)
-    os.close(handle)
     try:
-        with open(name, "wb") as file:
+        with os.fdopen(handle, "wb") as file:
             yield file
             file.flush()
             os.fsync(file.fileno())

@@ -112,8 +112,9 @@ def _finding(model: Model, fit: _Fit, one: Judgement) -> Finding:
 def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budget) -> list[Finding]:
     either = position or speed
     assert either is not None
-    dance, findings = dance_of(either.workbook), list[Finding]()
+    dance = dance_of(either.workbook)
     base: Motion | None = of_dance(dance)
+    findings: list[Finding] = []
     if position and position.is_off:
         found = _best(position, position.times, geometries(dance, position.times, _head(position)), budget)
         base = found[0].motion if found else None
@@ -154,7 +155,7 @@ def speed_errors(motion: Motion) -> Iterator[Model]:
 
 
 def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Floats:
-    """A motion whose speeds are its difference quotients over an interval around each time [s]."""
+    """Numbers (T, H, 3) of a motion, with speeds from its places `before` and `after` each time [s]."""
     first, last = motion(times + before), motion(times + after)
     last[..., SPEED] = np.linalg.norm(last[..., :2] - first[..., :2], axis=-1) / (after - before)
     return last

@@ -1,4 +1,4 @@
-"""The right content of the contest's workbooks."""
+"""The right content of the contest's workbooks, and the motion of any dance in their columns."""
 
 from __future__ import annotations
 

@@ -103,7 +103,7 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
             theta -= 1.0 / (b * math.sqrt(1.0 + theta**2))
         return np.array([found.get(float(one), start) for one in t])
 
-    def rounded(decimals: int, t: Floats) -> Floats:
+    def rounded_head(decimals: int, t: Floats) -> Floats:
         return np.round(path.theta(t * dance.head_speed), decimals)
 
     right = of_dance(dance)
@@ -116,8 +116,8 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
     yield Model("steady_angle", led_by(steady))
     yield Model("euler_steps", led_by(explicit))
     for decimals in ANGLE_DECIMALS if many else ():
-        law = led_by(partial(rounded, decimals))
-        yield Model("rounded_early", law, {"what": f"theta of the head, {decimals} decimals"})
+        what = f"theta of the head, {decimals} decimals"
+        yield Model("rounded_early", led_by(partial(rounded_head, decimals)), {"what": what})
 
 
 def _rounded_spirals(dance: Dance, path: Spiral) -> Iterator[Model]:

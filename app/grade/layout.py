@@ -170,6 +170,7 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
 def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
     """Handle of every line, by its label and by its order. The tail follows the last body bench with a label."""
     named = [label.handle for _, label in lines if label.handle is not None]
+    assert len(named) == len(lines)
     last = max([BENCHES - 2, *named])
     by_label = [handle if handle >= 0 else last - handle for handle in named]
     order = {handle: n for n, handle in enumerate(dict.fromkeys(by_label))}

@@ -60,7 +60,9 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
 
 def _decoded(data: bytes) -> str:
     is_wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
-    for coding in ("utf-16",) if is_wide else () if b"\0" in data else CODINGS:
+    if b"\0" in data and not is_wide:
+        raise Unreadable(note("no_csv"))
+    for coding in ("utf-16",) if is_wide else CODINGS:
         with suppress(UnicodeDecodeError):
             return data.decode(coding)
     raise Unreadable(note("no_csv"))

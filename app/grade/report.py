@@ -220,7 +220,8 @@ def _title(one: Judgement, language: Language) -> str:
 
 
 def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer:
-    (t, h, c), row, column = at, int(one.table.row[at]), int(one.table.column[at])
+    t, h, c = at
+    row, column = int(one.table.row[at]), int(one.table.column[at])
     return CellAnswer(
         sheet=_title(one, language),
         cell=cell_name(row, column),

@@ -16,7 +16,7 @@ import numpy as np
 
 import core
 from app.grade import contacts
-from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, RESOLUTION, TURNING_RADIUS, angle_sum_time, circle_pitch
+from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, RESOLUTION, TURNING_RADIUS
 from app.grade.expected import PITCH, Motion, Workbook, contact_time, dance_of, of_dance, right_turn
 from app.grade.geometry import geometries
 from app.grade.labels import SPEED
@@ -163,8 +163,10 @@ def _collision_times() -> Iterator[Shortcut]:
     for error, dragon in _other_dragons():
         if (time := core.first_contact(Dance(dragon, Spiral())).time) is not None:
             yield Shortcut(error, time, {})
-    yield Shortcut("loose_angle", angle_sum_time(corners, LOOSE_ANGLE), {"angle": f"{360.0 - LOOSE_ANGLE:.1f}"})
-    yield Shortcut("literal_corners", angle_sum_time(literal_corners, EXACT_ANGLE), {})
+    yield Shortcut(
+        "loose_angle", contacts.angle_sum_time(corners, LOOSE_ANGLE), {"angle": f"{360.0 - LOOSE_ANGLE:.1f}"}
+    )
+    yield Shortcut("literal_corners", contacts.angle_sum_time(literal_corners, EXACT_ANGLE), {})
 
 
 def _other_dragons() -> Iterator[tuple[str, Dragon]]:
@@ -175,9 +177,9 @@ def _other_dragons() -> Iterator[tuple[str, Dragon]]:
 
 
 def _pitches() -> Iterator[Shortcut]:
-    yield Shortcut("pose_on_circle", circle_pitch(contacts.any_touch_at_start), {})
-    yield Shortcut("pose_on_circle_head", circle_pitch(contacts.head_touches_at_start), {})
-    yield Shortcut("one_corner", circle_pitch(contacts.corner_at_start), {})
+    yield Shortcut("pose_on_circle", contacts.circle_pitch(contacts.any_touch_at_start), {})
+    yield Shortcut("pose_on_circle_head", contacts.circle_pitch(contacts.head_touches_at_start), {})
+    yield Shortcut("one_corner", contacts.circle_pitch(contacts.corner_at_start), {})
     for step in STEPS[:4]:
         yield Shortcut("pitch_time_steps", contacts.stepped_pitch(step, right_answer("pitch")), {"step": f"{step:g}"})
     for error, dragon in _other_dragons():

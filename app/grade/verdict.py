@@ -156,9 +156,20 @@ def judged(table: Table, workbook: Workbook) -> Judgement:
     if missing and present:
         absent, late = set(range(HANDLES)) - {*handles.tolist()}, {*times_of(workbook).tolist()} - {*times.tolist()}
         notes.append(note("missing", count=missing, handles=len(absent), times=len(late)))
-    decimals, written = None if largest <= RIGHT else decimals, _decimals(values)
     return Judgement(
-        table, workbook, verdict, decimals, written, cells, right, missing, times, handles, values, wanted, notes
+        table,
+        workbook,
+        verdict,
+        decimals=None if largest <= RIGHT else decimals,
+        written=_decimals(values),
+        cells=cells,
+        right=right,
+        missing=missing,
+        times=times,
+        handles=handles,
+        values=values,
+        wanted=wanted,
+        notes=notes,
     )
 
 
@@ -189,5 +200,5 @@ def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) ->
 def _decimals(values: Floats) -> int:
     """Number of decimals of the numbers."""
     some = values[np.isfinite(values)].ravel()[:5000]
-    units = enumerate(some * 10.0**k for k in range(DECIMALS_MOST))
-    return next((k for k, scaled in units if np.all(np.abs(scaled - np.round(scaled)) < 1e-6)), DECIMALS_MOST)
+    scalings = enumerate(some * 10.0**k for k in range(DECIMALS_MOST))
+    return next((k for k, scaled in scalings if np.all(np.abs(scaled - np.round(scaled)) < 1e-6)), DECIMALS_MOST)

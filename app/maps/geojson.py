@@ -141,5 +141,6 @@ def geometry_of(feature: Feature) -> dict[str, object]:
     rings = [[list(point) for point in ring] for ring in feature.rings]
     if feature.shape == "polygon":
         return {"type": "Polygon", "coordinates": rings}
-    is_point = feature.shape == "point"
-    return {"type": "Point" if is_point else "LineString", "coordinates": rings[0][0] if is_point else rings[0]}
+    if feature.shape == "point":
+        return {"type": "Point", "coordinates": rings[0][0]}
+    return {"type": "LineString", "coordinates": rings[0]}

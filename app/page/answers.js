@@ -83,7 +83,8 @@ export const instantWords = (time, { answer, end }) => (time === end && answer.t
 
 function contactLine(answer, asked) {
   const { time_bracket, point, benches: both, head, end, gap } = answer;
-  const [{ benches }, state] = [asked, stateOf(answer)];
+  const { benches } = asked;
+  const state = stateOf(answer);
   if (state === "undecided") return say("undecidedFrom", { time: bound(time_bracket[0], 9, -1) });
   if (state === "folds") return sayOf("foldsUntil", asked, { name: benchName(end.bench, benches) });
   if (state === "clear") return end ? sayOf("clearUntil", asked, { time: end.time.toFixed(6) }) : sayOf("clearAll", asked);

@@ -1,4 +1,4 @@
-/** Charts drawn by uPlot: clearance over time; stray and radius at first contact against the pitch. */
+/** Charts drawn by uPlot (clearance over time; stray and radius at first contact against the pitch), and ticks of all axes. */
 
 import { colours, make } from "./elements.js";
 import { say } from "./text.js";

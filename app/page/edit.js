@@ -106,8 +106,8 @@ export class Editor {
   }
 
   #knot(k) {
-    const [onpointerdown, onpointermove, drop] = [(event) => this.#grab(event), (event) => this.#pull(event), () => this.#drop()];
-    const drag = { onpointerdown, onpointermove, onpointerup: drop, onpointercancel: drop };
+    const drop = () => this.#drop();
+    const drag = { onpointerdown: (event) => this.#grab(event), onpointermove: (event) => this.#pull(event), onpointerup: drop, onpointercancel: drop };
     const keys = { onkeydown: (event) => this.#key(event, k), onfocus: () => this.#reveal(k) };
     this.#knots.push(make("button", { type: "button", className: "knot", textContent: k + 1, ...drag, ...keys }));
     return this.#knots.at(-1);

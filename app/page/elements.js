@@ -1,4 +1,4 @@
-/** Helpers that find, make and listen to elements of the document. */
+/** Helpers that find, make and listen to elements of the document, read its colours, and save a file. */
 
 export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];

@@ -64,7 +64,10 @@ export class SweepMap {
     const context = canvas.getContext("2d");
     Object.assign(canvas, { width: canvas.clientWidth * devicePixelRatio, height: HEIGHT * devicePixelRatio });
     context.scale(devicePixelRatio, devicePixelRatio);
-    if (!this.#table) return (this.reading.textContent = say("mapNone"));
+    if (!this.#table) {
+      this.reading.textContent = say("mapNone");
+      return;
+    }
     const { columns, over, axes } = this.#table;
     const values = columns[this.select.value];
     const colour = colours();

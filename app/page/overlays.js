@@ -1,4 +1,4 @@
-/** Elements over the picture and the page: the inset, the mark of the contact, temporary messages. */
+/** Elements over the picture and the page: the inset, the mark of the contact, temporary messages, the banner of a lost service. */
 
 import { Problem, Superseded } from "./api.js";
 import { $ } from "./elements.js";

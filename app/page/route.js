@@ -31,7 +31,10 @@ export class RouteForm {
     this.limit = number("speedLimit", (limit) => this.#take({ limit: limit > 0 ? limit : null }));
     this.begin = number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
     this.origin = ["latitude", "longitude"].map((key) => number(key, () => this.#placed()));
-    [this.rows, this.list, this.pointsTitle, this.thingsTitle] = ["tbody", "ul", "summary", "summary"].map((tag) => make(tag));
+    this.rows = make("tbody");
+    this.list = make("ul");
+    this.pointsTitle = make("summary");
+    this.thingsTitle = make("summary");
     this.note = make("p", { className: "hint", id: "route-note", role: "status" });
     const heads = ["knotNumber", "x", "y", "straightOn", "remove"].map((key) => (key.length === 1 ? make("th", { scope: "col", textContent: `${key} [m]` }) : said("th", key, { scope: "col" })));
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);

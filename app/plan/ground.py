@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from matplotlib.patches import Rectangle
@@ -227,25 +227,25 @@ def draw_legend(sheet: Sheet, ground: Ground, left: float, right: float, bottom:
     """Draw the meaning of colours and lines, in a cell of the title block."""
     say, wide = sheet.say, right - left - 14.0
     spacing = ground.timing.marks.spacing
-    # Look of an area, and its words; {}: the line of the path; None: with a mark on it.
-    rows: list[tuple[dict[str, Any] | None, str]] = [
+    # Look of an area, or the kind of a line, and its words.
+    rows: list[tuple[dict[str, Any] | Literal["path", "mark"], str]] = [
         (IN_SWEPT, say("ground swept by benches", "板凳扫过之地")),
         (IN_CLEAR, say(f"keep clear, {ground.width:g} m", f"保持清空，{ground.width:g} m")),
-        ({}, say("path of the handles", "把手的路线")),
+        ("path", say("path of the handles", "把手的路线")),
     ]
     if benches:
         rows += [(IN_BENCH, say("bench", "板凳")), (IN_HEAD, say("head", "龙头"))]
     else:
-        rows.append((None, say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))
+        rows.append(("mark", say(f"chalk mark every {spacing:g} m", f"粉笔标记，每 {spacing:g} m")))
     if ground.venue and ground.venue.obstacles:
         stone = {"facecolor": STONE, "edgecolor": "black", "hatch": "////", "linewidth": 0.5}
         rows.append((stone, say("obstacle", "障碍物")))
     for k, (look, words) in enumerate(rows):
         x, y = left + 2.0, bottom + 30.0 - 5.6 - 4.3 * k
-        if look:
+        if isinstance(look, dict):
             sheet.shape(np.array([(x, y), (x + 8.0, y), (x + 8.0, y + 2.6), (x, y + 2.6)]), **look)
         else:
             sheet.line([(x, y + 1.3), (x + 8.0, y + 1.3)], color=BLUE, linewidth=0.9)
-        if look is None:
+        if look == "mark":
             sheet.line([(x + 4.0, y + 0.2), (x + 4.0, y + 2.4)], linewidth=0.6)
         sheet.words(x + 10.0, y + 0.4, words, 6.5, within=wide)

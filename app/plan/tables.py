@@ -47,6 +47,8 @@ def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list
     left, bottom, most, top = room[0] + 3.0, room[1] + 3.0, room[2] - 3.0, room[3] - 3.0
     x, y, right = left, top, left
     for table in tables:
+        if not table.rows:
+            continue
         done, widths = 0, widths_of(sheets[0], table)
         wide = sum(widths) + COLUMN_SPACE * (len(widths) - 1)
         while done < len(table.rows):

@@ -58,7 +58,10 @@ export class Figure {
 
   #sentence(text) {
     const pieces = text.split(NAMES);
-    return pieces.flatMap((piece, k) => (k % EVERY_THIRD === 0 ? piece : k % EVERY_THIRD === 1 ? this.#number(piece, pieces[k + 1]) : []));
+    return pieces.flatMap((piece, k) => {
+      if (k % EVERY_THIRD === 0) return piece;
+      return k % EVERY_THIRD === 1 ? this.#number(piece, pieces[k + 1]) : [];
+    });
   }
 
   #number(name, value) {
