@@ -22,7 +22,7 @@ def new_file(folder: Path, prefix: str, target: Path | None = None) -> Iterator[
     """
     handle, name = tempfile.mkstemp(prefix=prefix, dir=folder)
     try:
-        with os.fdopen(handle, "wb") as file:
+        with open(name, "wb", opener=lambda *_: handle) as file:
             yield file
             file.flush()
             os.fsync(file.fileno())
