@@ -48,13 +48,19 @@ $(VENV)/tools: requirements.lock
 	@grep -iE '^(cython|setuptools)==' requirements.lock | xargs $(PIP) install --no-deps --no-compile
 	@touch $@
 
-# By uv, which takes a tenth of the time of pip, and by pip where uv does not run or fails, or where pip is configured
-# for another index, which uv does not read.
+# By uv, which takes a tenth of the time of pip; by pip where uv does not run or fails, or where pip is configured for
+# another index or a proxy, which uv does not read. What an interrupted run left is replaced, but never the tools, which
+# compile the kernels meanwhile.
 $(VENV)/installed: $(VENV)/tools
-	@{ ! $(PIP) config list | grep -qE '\.(index-url|no-index)=' && \
+	@grep -viE '^(#|(cython|pip|setuptools|uv)==)' requirements.lock >$(VENV)/packages
+	@{ ! $(BIN)/python -m pip config list | grep -oE '\.(index-url|no-index|proxy)=' && \
 		$(PIP) install --no-compile --only-binary :all: "$$(grep '^uv==' requirements.lock)" && \
-		UV_HTTP_TIMEOUT=20 $(BIN)/uv pip install --quiet --system-certs --python $(BIN)/python --no-deps -r requirements.lock; \
-	} 2>/dev/null || grep -v '^#' requirements.lock | xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile
+		UV_HTTP_TIMEOUT=10 UV_HTTP_RETRIES=1 $(BIN)/uv pip install --quiet --system-certs --python $(BIN)/python \
+			--reinstall --no-deps -r $(VENV)/packages; \
+	} >$(VENV)/uv.log 2>&1 || { \
+		echo 'uv cannot install here ($(VENV)/uv.log): pip does, in some minutes'; \
+		xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile --force-reinstall <$(VENV)/packages; \
+	}
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.

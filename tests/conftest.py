@@ -67,11 +67,12 @@ def pytest_collection() -> Generator[None, object, object]:
     that of the tests of core.
     """
     gc.disable()
-    collected = yield
-    gc.freeze()
-    gc.enable()
-    gc.set_threshold(20_000)
-    return collected
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
+        gc.set_threshold(20_000)
 
 
 def _needs_browser(item: pytest.Item) -> bool:

@@ -24,17 +24,25 @@ def new_file(folder: Path, prefix: str, target: Path | None = None) -> Iterator[
     try:
         with open(name, "wb", opener=lambda *_: handle) as file:
             yield file
+            if target is not None:
+                os.chmod(name, _mode(target))
             file.flush()
             os.fsync(file.fileno())
         if target is not None:
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(name, target.stat().st_mode & 0o7777 if target.exists() else NEW_FILE & ~mask)
             os.replace(name, target)
     except BaseException:
         with suppress(FileNotFoundError):
             os.unlink(name)
         raise
+
+
+def _mode(target: Path) -> int:
+    """Permissions of a file; of one that is not there, those of new files."""
+    with suppress(FileNotFoundError):
+        return target.stat().st_mode & 0o7777
+    mask = os.umask(0)
+    os.umask(mask)
+    return NEW_FILE & ~mask
 
 
 def flush_folder(folder: Path) -> None:

@@ -223,7 +223,10 @@ class Store:
         with self._reserve.given():
             with self._change() as run:
                 run.execute("DELETE FROM jobs WHERE id = ?", (job,))
-            self._read("PRAGMA wal_checkpoint(TRUNCATE)")  # The write-ahead log still holds the call.
+            # The write-ahead log still holds the call. While another process copies it, SQLite refuses without waiting.
+            end = time.monotonic() + PATIENCE
+            while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
+                time.sleep(0.01)
 
     def has_work(self, days: float) -> bool:
         """True if a runner has work. days: time for which finished jobs are kept"""
@@ -310,12 +313,15 @@ class Store:
     def die(self, job: str, problem: bytes) -> None:
         """Record a job's dead process: the job is tried again, but fails with this problem after DEATHS_MAX deaths."""
         found = self.get(job)
-        if found is not None and (deaths := found.deaths + 1) < DEATHS_MAX:
-            words = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
-            with self._change() as run:
-                self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
-        elif found is not None:
+        if found is None:
+            return
+        deaths = found.deaths + 1
+        if deaths >= DEATHS_MAX:
             self.fail(job, problem)
+            return
+        words = f"Its process died; the job is tried again ({deaths} of {DEATHS_MAX - 1})."
+        with self._change() as run:
+            self._move(run, job, "state = 'running'", state=JobState.ACCEPTED, deaths=deaths, message=words)
 
     def expire(self, days: float) -> None:
         """Remove calls and results of jobs this many days after their end, and the jobs after twice as many."""

@@ -147,7 +147,8 @@ def literature(language: Language = Language.ENGLISH) -> tuple[PublishedNumber, 
             difference=one.expected - one.found,
             diagnosis=one.diagnosis,
         )
-        for source, name, one in ((place, name, typed(name, text, language)) for place, name, text in PUBLISHED)
+        for source, name, text in PUBLISHED
+        for one in [typed(name, text, language)]
     )
 
 

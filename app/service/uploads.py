@@ -66,16 +66,20 @@ class PlacesQuery(Wire):
     language: Language = Field(Language.ENGLISH, description="Language of the notes: en or zh")
 
 
-class GradeRoute(WatchedRoute):
+class UploadRoute(WatchedRoute):
     """A call whose body is a file."""
 
     takes_file = True
+
+
+class GradeRoute(UploadRoute):
+    """A call whose body is a file to grade."""
 
     def seconds(self, settings: Settings) -> float:
         return settings.grade_seconds
 
 
-class MapRoute(GradeRoute):
+class MapRoute(UploadRoute):
     """A call whose body is a map."""
 
     def seconds(self, settings: Settings) -> float:
