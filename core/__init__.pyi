@@ -1,98 +1,143 @@
-from .contact.answer import Evidence as Evidence
-from .contact.answer import Feature as Feature
-from .contact.answer import FirstContact as FirstContact
-from .contact.answer import Outcome as Outcome
-from .contact.clearance import ClearanceProfile as ClearanceProfile
-from .contact.clearance import Graze as Graze
-from .contact.clearance import LeastClearance as LeastClearance
-from .contact.clearance import clearance_profile as clearance_profile
-from .contact.clearance import least_clearance as least_clearance
-from .contact.cross_check import ContactCheck as ContactCheck
-from .contact.cross_check import contact_check as contact_check
-from .contact.cross_check import pitch_check as pitch_check
-from .contact.first_contact import first_contact as first_contact
-from .contact.walls import AreaClearance as AreaClearance
-from .contact.walls import Misplaced as Misplaced
-from .contact.walls import Nearest as Nearest
-from .contact.walls import VenueClearance as VenueClearance
-from .contact.walls import venue_clearance as venue_clearance
-from .course import Course as Course
-from .course import TightBend as TightBend
-from .course import course as course
-from .dance import Dance as Dance
-from .dance import EndReason as EndReason
-from .dance import RunEnd as RunEnd
-from .design.minimum_pitch import LimitedBy as LimitedBy
-from .design.minimum_pitch import MinimumPitch as MinimumPitch
-from .design.minimum_pitch import minimum_pitch as minimum_pitch
-from .design.pitch_scan import PitchScan as PitchScan
-from .design.pitch_scan import pitch_scan as pitch_scan
-from .design.shortest_turn import ShortestTurn as ShortestTurn
-from .design.shortest_turn import TurnLimit as TurnLimit
-from .design.shortest_turn import shortest_turn as shortest_turn
-from .dragon import Dragon as Dragon
-from .dragon import Stray as Stray
-from .errors import BenchDragonError as BenchDragonError
-from .errors import InvalidValue as InvalidValue
-from .errors import OutsideRun as OutsideRun
-from .errors import ProofRefused as ProofRefused
-from .errors import TooLarge as TooLarge
-from .errors import TooMuchWork as TooMuchWork
-from .failures import Failure as Failure
-from .failures import FailureKind as FailureKind
-from .ground.envelope import Envelope as Envelope
-from .ground.envelope import SweepProof as SweepProof
-from .ground.envelope import envelope as envelope
-from .kernels import Budget as Budget
-from .motion.joints import SharpestBend as SharpestBend
-from .motion.joints import sharpest_bend as sharpest_bend
-from .motion.speed import FirstExcess as FirstExcess
-from .motion.speed import HighestSpeed as HighestSpeed
-from .motion.speed import MaximumHeadSpeed as MaximumHeadSpeed
-from .motion.speed import first_excess as first_excess
-from .motion.speed import highest_speed as highest_speed
-from .motion.speed import maximum_head_speed as maximum_head_speed
-from .motion.trajectory import Trajectory as Trajectory
-from .motion.trajectory import trajectory as trajectory
-from .passages import Passage as Passage
-from .paths.legs import Legs as Legs
-from .paths.path import HeadState as HeadState
-from .paths.pieces import Arc as Arc
-from .paths.pieces import Coil as Coil
-from .paths.pieces import Line as Line
-from .paths.pieces import Piece as Piece
-from .paths.pieces import Waypoints as Waypoints
-from .paths.route import Route as Route
-from .paths.spiral import Spiral as Spiral
-from .paths.turn import Turn as Turn
-from .shapes.engines import Engine as Engine
-from .shapes.overlaps import CrossCheck as CrossCheck
-from .shapes.overlaps import Overlaps as Overlaps
-from .shapes.overlaps import Verdict as Verdict
-from .shapes.overlaps import cross_check as cross_check
-from .shapes.overlaps import overlaps as overlaps
-from .shapes.overlaps import separation as separation
-from .shapes.overlaps import verdicts as verdicts
-from .shapes.rectangles import Separation as Separation
-from .shapes.rectangles import bench_outlines as bench_outlines
-from .shapes.rectangles import bench_poses as bench_poses
-from .tolerance.chance import ContactProbability as ContactProbability
-from .tolerance.chance import contact_probability as contact_probability
-from .tolerance.curve import ToleranceCurve as ToleranceCurve
-from .tolerance.curve import tolerance_curve as tolerance_curve
-from .tolerance.exhibit import Exhibit as Exhibit
-from .tolerance.tolerance import Limit as Limit
-from .tolerance.tolerance import StrayProof as StrayProof
-from .tolerance.tolerance import Tolerance as Tolerance
-from .tolerance.tolerance import tolerance as tolerance
-from .tolerance.uncertain import uncertain_tolerance as uncertain_tolerance
-from .tolerance.wobble import Wobble as Wobble
-from .venue import Area as Area
-from .venue import Venue as Venue
-from .verdict import Judgement as Judgement
-from .verdict import Report as Report
-from .verdict import check as check
-from .verdict import quick_check as quick_check
+from .contact.answer import Evidence, Feature, FirstContact, Outcome
+from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
+from .contact.cross_check import ContactCheck, contact_check, pitch_check
+from .contact.first_contact import first_contact
+from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
+from .course import Course, TightBend, course
+from .dance import Dance, EndReason, RunEnd
+from .design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
+from .design.pitch_scan import PitchScan, pitch_scan
+from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
+from .dragon import Dragon, Stray
+from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
+from .failures import Failure, FailureKind
+from .ground.envelope import Envelope, SweepProof, envelope
+from .kernels import Budget
+from .motion.joints import SharpestBend, sharpest_bend
+from .motion.speed import (
+    FirstExcess,
+    HighestSpeed,
+    MaximumHeadSpeed,
+    first_excess,
+    highest_speed,
+    maximum_head_speed,
+)
+from .motion.trajectory import Trajectory, trajectory
+from .passages import Passage
+from .paths.legs import Legs
+from .paths.path import HeadState
+from .paths.pieces import Arc, Coil, Line, Piece, Waypoints
+from .paths.route import Route
+from .paths.spiral import Spiral
+from .paths.turn import Turn
+from .shapes.engines import Engine
+from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, separation, verdicts
+from .shapes.rectangles import Separation, bench_outlines, bench_poses
+from .tolerance.chance import ContactProbability, contact_probability
+from .tolerance.curve import ToleranceCurve, tolerance_curve
+from .tolerance.exhibit import Exhibit
+from .tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
+from .tolerance.uncertain import uncertain_tolerance
+from .tolerance.wobble import Wobble
+from .venue import Area, Venue
+from .verdict import Judgement, Report, check, quick_check
 
-__all__: list[str]
+__all__ = [
+    "Arc",
+    "Area",
+    "AreaClearance",
+    "BenchDragonError",
+    "Budget",
+    "ClearanceProfile",
+    "Coil",
+    "ContactCheck",
+    "ContactProbability",
+    "Course",
+    "CrossCheck",
+    "Dance",
+    "Dragon",
+    "EndReason",
+    "Engine",
+    "Envelope",
+    "Evidence",
+    "Exhibit",
+    "Failure",
+    "FailureKind",
+    "Feature",
+    "FirstContact",
+    "FirstExcess",
+    "Graze",
+    "HeadState",
+    "HighestSpeed",
+    "InvalidValue",
+    "Judgement",
+    "LeastClearance",
+    "Legs",
+    "Limit",
+    "LimitedBy",
+    "Line",
+    "MaximumHeadSpeed",
+    "MinimumPitch",
+    "Misplaced",
+    "Nearest",
+    "Outcome",
+    "OutsideRun",
+    "Overlaps",
+    "Passage",
+    "Piece",
+    "PitchScan",
+    "ProofRefused",
+    "Report",
+    "Route",
+    "RunEnd",
+    "Separation",
+    "SharpestBend",
+    "ShortestTurn",
+    "Spiral",
+    "Stray",
+    "StrayProof",
+    "SweepProof",
+    "TightBend",
+    "Tolerance",
+    "ToleranceCurve",
+    "TooLarge",
+    "TooMuchWork",
+    "Trajectory",
+    "Turn",
+    "TurnLimit",
+    "Venue",
+    "VenueClearance",
+    "Verdict",
+    "Waypoints",
+    "Wobble",
+    "bench_outlines",
+    "bench_poses",
+    "check",
+    "clearance_profile",
+    "contact_check",
+    "contact_probability",
+    "course",
+    "cross_check",
+    "envelope",
+    "first_contact",
+    "first_excess",
+    "highest_speed",
+    "least_clearance",
+    "maximum_head_speed",
+    "minimum_pitch",
+    "overlaps",
+    "pitch_check",
+    "pitch_scan",
+    "quick_check",
+    "separation",
+    "sharpest_bend",
+    "shortest_turn",
+    "tolerance",
+    "tolerance_curve",
+    "trajectory",
+    "uncertain_tolerance",
+    "venue_clearance",
+    "verdicts",
+]
+
 __version__: str

@@ -256,8 +256,9 @@ class Dance(Shown):
         return time
 
     def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
-        """start and stop [s], checked to lie in the run and in this order; None: `default_start`, the end of the run.
+        """start and stop [s], checked to lie in the run and in this order.
 
+        None: `default_start` for start, the end of the run for stop
         raises: InvalidValue; OutsideRun
         """
         until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)

@@ -48,8 +48,8 @@ class BenchDragonError(Exception):
     code: stable word for programs; field: dotted name of the wrong parameter
     rule: what the parameter must be, with {word} in the place of each other parameter; the message is the field, in the
         form of spoken(), and the rule. in_words() makes an error whose message does not begin with the field
-    others: the other parameters by their words: names, or numbers that stay as they are; got: the given number, if of()
-        made the error
+    others: the other parameters by their words: names, which are spoken, or numbers, which stand as they are unless
+        renamed() changes them; got: the given number, if of() made the error
 
     >>> InvalidValue("times.stop", "must not be before {start}", start="times.start").renamed(
     ...     lambda name: name.removeprefix("times.")

@@ -43,8 +43,10 @@ def wanted_axes(axes: Axes | None, what: str) -> Axes:
 
     raises: ImportError naming the extra `figures` if matplotlib is not installed
     """
-    new: Axes = axes or wanted("matplotlib.pyplot", "figures", what).subplots(layout="constrained")[1]
-    return new
+    if axes is not None:
+        return axes
+    new_axes: Axes = wanted("matplotlib.pyplot", "figures", what).subplots(layout="constrained")[1]
+    return new_axes
 
 
 def plan(axes: Axes) -> None:

@@ -146,12 +146,15 @@ def _judged(
     if touch is not None:
         until = min(until, max(touch, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until, budget=budget) if details else None
-    square, seen, about = None, until, {"margin": margin, "stray": strayed, "start": begin}
+    square = None
+    seen = until
     if venue is not None:  # as long as the benches can be followed
         followed = venue_end(dance)
         seen = min(until, followed) if followed >= begin + MOMENT else begin
         if seen > begin:
-            square = venue_clearance(dance, venue, **about, stop=seen, nearest=details, budget=budget)
+            square = venue_clearance(
+                dance, venue, margin=margin, stray=strayed, start=begin, stop=seen, nearest=details, budget=budget
+            )
     folds = dance.ends_by(until)
     speed = highest_speed(dance, start=begin, stop=until, budget=budget) if details and not folds else None
     excess = None
@@ -165,11 +168,19 @@ def _judged(
     failures += touch_failures(contact, least, margin)
     if folds:
         failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.place(end.time))))
-    if venue and seen < until and not is_clear_beyond(dance, venue, **about, seen=seen):
+    if (
+        venue
+        and seen < until
+        and not is_clear_beyond(dance, venue, margin=margin, stray=strayed, start=begin, seen=seen)
+    ):
         message = f"From {seen:.6f} s on the spiral is too tight to compare the benches with the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
     told = tuple(replace(failure, head=dance.path.head(dance.clock.place(failure.time))) for failure in failures)
-    failed = any(failure.kind is not FailureKind.UNDECIDED for failure in told)
-    verdict = Judgement.FAILS if failed else Judgement.UNDECIDED if told else Judgement.PASSES
+    if not told:
+        verdict = Judgement.PASSES
+    elif all(failure.kind is FailureKind.UNDECIDED for failure in told):
+        verdict = Judgement.UNDECIDED
+    else:
+        verdict = Judgement.FAILS
     return Report(begin, until, verdict, not told, told, contact, least, square, speed, bend)

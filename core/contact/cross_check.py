@@ -200,9 +200,10 @@ def judged_contact(
         if not at_start:
             together = _meeting_together(sorted(found[Engine.SEPARATING_AXIS][1] - {pair}), poses, sizes, margin)
         for engine, (before, after) in found.items():
-            alone = pair in after and after <= together | {pair}
-            seen = [pair in before, pair in after]
-            words[engine] = _word(seen, at_start) if at_start else Verdict(bool(before), alone)
+            if at_start:
+                words[engine] = _word([pair in before, pair in after], at_start)
+            else:
+                words[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
     if at_start:
         _leave_out_blind(words, two, size)
     return _told(words, judged, tuple(sorted(together)))

@@ -116,7 +116,9 @@ class Search:
 
     def travel_rounding(self, *travels: float) -> float:
         """Largest error of travels up to these, in the kernels and as times [m]."""
-        furthest = max(self.place, *(max(self.place - travel, abs(travel)) for travel in travels))
+        furthest = self.place
+        for travel in travels:
+            furthest = max(furthest, self.place - travel, abs(travel))
         return self.path.slide + self.timing + TRAVEL_ROUNDING * furthest
 
     def resize(self, benches: int) -> None:

@@ -187,9 +187,13 @@ class Bands:
             gap, radius = self.dip(pitch, radius, pair)
             gap -= self.margin
             if gap > 0.0:
-                end, above, below, last = pitch, gap, 0.5 * below if last > 0 else below, 1
+                end, above = pitch, gap
+                below = 0.5 * below if last > 0 else below
+                last = 1
             else:
-                low, below, above, last = pitch, gap, 0.5 * above if last < 0 else above, -1
+                low, below = pitch, gap
+                above = 0.5 * above if last < 0 else above
+                last = -1
             if end and end - low <= BORDER_WIDTH:
                 break
             pitch = low + (end - low) * below / (below - above) if end else low - 1.5 * below + BORDER_WIDTH

@@ -103,7 +103,8 @@ class Ways:
         return self.search.surely_within(self.search.travel_at(radius / self.search.growth), pair)
 
     def still_touches(self, pitch: float, radius: float, a: int, b: int) -> bool:
-        """True if benches a and b are within the margin at this pitch too, with the head at this radius on the way."""
+        """True if benches a and b are within the margin at this pitch too, with the head at this radius on the way;
+        False if that radius is not on the way."""
         growth, search = pitch / (2.0 * math.pi), self.search
         search.budget.look()
         if radius > pitch * self.start_turns:

@@ -151,12 +151,26 @@ try:
 except ImportError as error:
     raise ImportError("a proof needs python-flint: pip install 'bench-dragon[proof]'") from error
 
-from core.proof.certificate import Certificate as Certificate
-from core.proof.certificate import Proof as Proof
-from core.proof.certificate import check as check
-from core.proof.certificate import digest as digest
-from core.proof.certificate import prove_clear as prove_clear
-from core.proof.certificate import prove_collision_time as prove_collision_time
-from core.proof.certificate import prove_contact as prove_contact
-from core.proof.certificate import prove_minimum_pitch as prove_minimum_pitch
-from core.proof.certificate import prove_tolerance as prove_tolerance
+from core.proof.certificate import (
+    Certificate,
+    Proof,
+    check,
+    digest,
+    prove_clear,
+    prove_collision_time,
+    prove_contact,
+    prove_minimum_pitch,
+    prove_tolerance,
+)
+
+__all__ = [
+    "Certificate",
+    "Proof",
+    "check",
+    "digest",
+    "prove_clear",
+    "prove_collision_time",
+    "prove_contact",
+    "prove_minimum_pitch",
+    "prove_tolerance",
+]

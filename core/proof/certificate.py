@@ -27,7 +27,7 @@ FORMAT = "bench-dragon proof 1"
 PRECISION = 96
 
 Certificate = dict[str, Any]
-Claim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact | ToleranceClaim
+AnyClaim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact | ToleranceClaim
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +150,7 @@ def _steady(dance: Dance) -> Dance:
     return dance.steady
 
 
-def _proven(claim: Claim, every_pair: bool, progress: Progress, pose: dict[str, Any] | None = None) -> Certificate:
+def _proven(claim: AnyClaim, every_pair: bool, progress: Progress, pose: dict[str, Any] | None = None) -> Certificate:
     with ctx.workprec(PRECISION), refusing("claim"):
         chain = claim.chain
         overlap = pose or claim.find_overlap(lambda share: progress(claim.search_share * share))
@@ -174,7 +174,7 @@ def _proven(claim: Claim, every_pair: bool, progress: Progress, pose: dict[str, 
     return certificate | {"digest": digest(certificate)}
 
 
-def _values(claim: Claim) -> dict[str, Any]:
+def _values(claim: AnyClaim) -> dict[str, Any]:
     """The members of a claim; a margin, or a stray shown, only if there is one."""
     values = {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"}
     return {name: value for name, value in values.items() if value or name not in ("margin", "shown")}

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import lru_cache
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import Generic, TypeVar
 
 from flint import acb, arb
 
@@ -23,8 +24,10 @@ PIECES_PAST_PI, PIECES_MOST = 32, 1000
 # Number of poses that a chain remembers: the one that two stretches share, and those of failed tries.
 POSES_KEPT = 16
 
+P = TypeVar("P", bound=Benches)
 
-class Follower:
+
+class Follower(ABC, Generic[P]):
     """A dragon on some path, and the margin that its benches keep [m]. A place falls as the dance goes on.
 
     repeats_from: u of 6., from which one sweep covers all, at most the last bench that has a pair
@@ -40,9 +43,22 @@ class Follower:
         self.margin = arb(margin)
         self.longest = max(above(kind.chord) for kind in kinds.values())
         self.reach = max(above(kind.reach) for kind in kinds.values())
+        self._poses: dict[tuple[int, float], P] = {}
+
+    @abstractmethod
+    def pose_at(self, bench: int, place: arb) -> P:
+        """A bench and those behind it when its front handle is at a place."""
+
+    def pose(self, bench: int, place: float) -> P:
+        """The pose of pose_at(), remembered: neighbouring stretches share one."""
+        if (bench, place) not in self._poses:
+            if len(self._poses) >= POSES_KEPT:
+                self._poses.clear()
+            self._poses[bench, place] = self.pose_at(bench, arb(place))
+        return self._poses[bench, place]
 
 
-class Chain(Follower):
+class Chain(Follower["Pose"]):
     """A dragon on a spiral: growth b [m/rad], start [rad]. Its places are theta [rad], always above the floor.
 
     stray: how far every hole may be from its place [m]; grounds: of its benches, none without a stray
@@ -59,17 +75,15 @@ class Chain(Follower):
         self.start = 2 * arb.pi() * start_turns
         kinds = {size: (size.chord / self.growth) ** 2 for size in set(self.sizes)}
         self.needed = [kinds[size] for size in self.sizes]
-        # pose_at() a double, remembered: neighbouring stretches share one
-        self.pose: Callable[[int, float], Pose] = lru_cache(POSES_KEPT)(lambda k, theta: self.pose_at(k, arb(theta)))
 
     @staticmethod
     def named(theta: float) -> str:
         """A place in words."""
         return f"theta = {said(theta)} rad"
 
-    def pose_at(self, bench: int, theta: arb) -> Pose:
-        """A bench and those behind it when its front handle is at theta [rad]."""
-        return Pose(self, bench, theta)
+    def pose_at(self, bench: int, place: arb) -> Pose:
+        """A bench and those behind it when its front handle is at a place [rad]."""
+        return Pose(self, bench, place)
 
     def arc(self, theta: arb) -> arb:
         """Arc length from the centre [m]."""

@@ -45,9 +45,6 @@ class Claim:
     follows: ClassVar[bool] = False
     dragon: Dragon
 
-    def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {}
-
 
 @dataclass(frozen=True)
 class SpiralClaim(Claim):

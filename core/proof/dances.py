@@ -62,6 +62,9 @@ class Clear(DanceClaim):
     def way(self) -> tuple[float, float]:
         return _way(self.chain, arb(self.start) * self.head_speed, arb(self.stop) * self.head_speed)
 
+    def find_overlap(self, progress: Progress) -> dict[str, Any]:
+        return {}
+
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s{self._ending()}"
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {apart_words(self.margin)} {span}."

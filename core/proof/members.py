@@ -31,8 +31,10 @@ Rule = Callable[[str, Any], None]
 
 
 def refuse_malformed(certificate: Any) -> None:
-    """Refuse a value without the members of a certificate. raises: ProofRefused naming the member, what it must be and
-    what it is"""
+    """Refuse a value without the members of a certificate.
+
+    raises: ProofRefused naming the member, what it must be and what it is
+    """
     claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
     kind: Any = claim.get("kind") if isinstance(claim, dict) else None
     strays = kind == ToleranceClaim.kind

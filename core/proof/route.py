@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, reduce
+from functools import reduce
 from itertools import pairwise
 
 from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import said
-from core.proof.chain import GUESS_RADIUS, POSES_KEPT, Follower, delta, newton
+from core.proof.chain import GUESS_RADIUS, Follower, delta, newton
 from core.proof.pairs import Benches, Unproven, above
 
 # Newton steps towards a guess in doubles: each doubles the digits.
@@ -155,7 +155,8 @@ class Path:
             z = piece.high
         self.pieces[0].shift, self.pieces[0].rotation = shift, rotation
         for k, (before, piece) in enumerate(pairwise(self.pieces), 1):
-            piece.index, (start, end) = k, self.ends(k)
+            piece.index = k
+            start, end = self.ends(k)
             piece.rotation = before.tangent(end) / piece.tangent(start)
             piece.shift = before.point(end) - piece.point(start)
 
@@ -230,7 +231,7 @@ class Path:
         return newton(t, around, abs(piece.point(t) - point) ** 2 - chord**2, slope)
 
 
-class RouteChain(Follower):
+class RouteChain(Follower["RoutePose"]):
     """A dragon on a route. Its places are z = -s [m]."""
 
     floor = -math.inf
@@ -238,8 +239,6 @@ class RouteChain(Follower):
     def __init__(self, dragon: Dragon, path: Path, margin: float = 0.0) -> None:
         super().__init__(dragon, margin)
         self.path = path
-        # pose_at() a double, remembered: neighbouring stretches share one
-        self.pose: Callable[[int, float], RoutePose] = lru_cache(POSES_KEPT)(lambda k, z: self.pose_at(k, arb(z)))
 
     @staticmethod
     def named(place: float) -> str:

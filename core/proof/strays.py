@@ -16,6 +16,7 @@ from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
 from core.proof.pairs import Benches, Unproven, above, below
+from core.proof.sweeps import Progress
 from core.proof.words import apart_words, danced_words, spiral_words
 from core.tolerance.exhibit import Exhibit
 
@@ -58,6 +59,9 @@ class ToleranceClaim(SpiralClaim):
 
     def _place(self, time: float) -> arb:
         return self.chain.place_after(time * arb(self.head_speed))
+
+    def find_overlap(self, progress: Progress) -> dict[str, Any]:
+        return {}
 
     def check_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s"

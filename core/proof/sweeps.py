@@ -53,11 +53,13 @@ def _faces(stretch: AnyStretch) -> Tile:
     directions = []
     while not stretch.complete:
         stretch.grow()
-        if (partner := len(stretch.placed) - 1) < 2:
+        partner = len(stretch.placed) - 1
+        if partner < 2:
             continue
         face, direction = _face(stretch, partner)
         faces += face if isinstance(face, str) else [face]
-        directions += [direction] if face == DIRECTION else []
+        if face == DIRECTION:
+            directions.append(direction)
     return stretch.high, stretch.low, faces, directions
 
 

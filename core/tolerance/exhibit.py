@@ -204,9 +204,11 @@ def _shown(
     if moved is None:
         return None
     first, second, edge = met
-    both = [body(dragon, moved, first), body(dragon, moved, second) if second is not None else edge]
-    poses = np.array([[one.x, one.y, one.heading] for one in both if one])
-    sizes = np.array([[2.0 * one.half_length, 2.0 * one.half_width] for one in both if one])
+    other = edge if second is None else body(dragon, moved, second)
+    assert other is not None
+    both = body(dragon, moved, first), other
+    poses = np.array([[one.x, one.y, one.heading] for one in both])
+    sizes = np.array([[2.0 * one.half_length, 2.0 * one.half_width] for one in both])
     a, b = frames(poses, sizes)
     depth = -float(frames_separation(a[None], b[None]).separation[0])
     return Exhibit(time, moved, met[:2], depth, float(np.hypot(*(moved - handles).T).max()))

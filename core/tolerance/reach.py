@@ -119,8 +119,10 @@ def simple_reach(dragon: Dragon, stray: float) -> Reach:
 
 @lru_cache(maxsize=4)  # a question asks several times, and so does someone who drags the pitch
 def reach(dragon: Dragon, stray: float) -> Reach:
-    """The ground that the benches of a dragon may cover while every hole is within the stray of its place [m]. raises:
-    InvalidValue for a dragon with more than SIZES_MAX sizes of benches"""
+    """The ground that the benches of a dragon may cover while every hole is within the stray of its place [m].
+
+    raises: InvalidValue for a dragon with more than SIZES_MAX sizes of benches
+    """
     return _reach(dragon, stray, supports)
 
 

@@ -51,7 +51,8 @@ from core.values import Floats
 # [1].
 DEVIATIONS = (8.0, 7.0, 6.0, 5.0)
 NUMBERS = 4
-# Largest sine of the rotation of a bench, and largest displacement relative to its chord, at which the bound holds [1].
+# Largest sine of the rotation of a bench, and largest displacement relative to its chord, at which the bound is used
+# [1].
 STEEPEST = 0.5
 # Number of benches, over all instants, whose covariances are held at once [1]: 64 MB.
 BENCHES_TOGETHER = 250_000

@@ -49,15 +49,16 @@ class Wobble(Shown):
     def __post_init__(self) -> None:
         for name in ("lateral", "forward", "hole", "pin", "pitch_error"):
             object.__setattr__(self, name, checked_number(f"model.{name}", getattr(self, name), "m", 0.0, SIZE_MAX))
-        for name, unit in (("correlation_time", "s"), ("correlation_benches", ""), ("step", "s")):
-            given = getattr(self, name)
-            if given is not None or name != "step":
-                value = checked_number(f"model.{name}", given, unit, 0.0, CORRELATION_MAX, open_low=True)
-                object.__setattr__(self, name, value)
-        most = self.correlation_time / INSTANTS_PER_TIME
-        if self.step is not None and self.step > most and not math.isclose(self.step, most):
-            rule = f"must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(self.step)} s"
-            raise InvalidValue("model.step", rule, time="model.correlation_time")
+        for name, unit in (("correlation_time", "s"), ("correlation_benches", "")):
+            value = checked_number(f"model.{name}", getattr(self, name), unit, 0.0, CORRELATION_MAX, open_low=True)
+            object.__setattr__(self, name, value)
+        if self.step is not None:
+            step = checked_number("model.step", self.step, "s", 0.0, CORRELATION_MAX, open_low=True)
+            object.__setattr__(self, "step", step)
+            most = self.correlation_time / INSTANTS_PER_TIME
+            if step > most and not math.isclose(step, most):
+                rule = f"must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
+                raise InvalidValue("model.step", rule, time="model.correlation_time")
         if self.pin > self.hole:
             rule = f"must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
             raise InvalidValue("model.pin", rule, hole="model.hole")
