@@ -52,7 +52,7 @@ from core.kernels import Budget
 from core.shapes.rectangles import frames, frames_separation
 from core.values import Floats
 
-# Number of cells of a turn at first, and the number of times that they are cut in four, down to 2e-4 rad [1].
+# Number of cells of a full circle at first, and the number of times that they are cut in four, down to 2e-4 rad [1].
 CELLS, CUTS = 24, 9
 # Largest number of cells that are tried together [1]; with more cells, the bound known by then is the result.
 CELLS_MOST = 200_000
@@ -60,7 +60,7 @@ CELLS_MOST = 200_000
 TRIPLES_MOST = 100
 # Subtracted from the bound, for the rounding of fewer than 100 operations on lengths up to 1e3 m [m].
 ROUNDING = 1e-9
-# Number of shapes of the first grid over each turn; number of touching shapes that are tried, and of directions for
+# Number of shapes of the first grid over each angle; number of touching shapes that are tried, and of directions for
 # each; points of each further grid, its width relative to the one before, and the number of grids [1].
 SHAPES, SHAPES_TRIED, GRID, NARROWER, ROUNDS = 120, 600, 9, 0.7, 45
 # Depth of the overlap in the pose shown, far above the rounding of places up to 1e4 m [m].
@@ -139,8 +139,8 @@ def sag_pulls(chords: Floats) -> Floats:
 
 def sags_of(pulls: Floats, joint_angles: Floats) -> Floats:
     """The four sags (N, 4) of shapes (N, 2) [m]."""
-    turned = np.exp(1j * joint_angles)[:, None] - 1.0
-    sags: Floats = np.abs(pulls[..., 0] * turned[..., 0] - pulls[..., 1] * turned[..., 1])
+    moved = np.exp(1j * joint_angles)[:, None] - 1.0
+    sags: Floats = np.abs(pulls[..., 0] * moved[..., 0] - pulls[..., 1] * moved[..., 1])
     return sags
 
 
@@ -160,16 +160,16 @@ def touching_pose(triple: Floats, places: Floats) -> Floats | None:
     """
     nominal = places @ [1.0, 1j]
     way = float(np.angle(nominal[1] - nominal[2]))
-    turns = np.linspace(-math.pi, math.pi, SHAPES, endpoint=False)
-    headings = _grid(turns, turns)
+    angles = np.linspace(-math.pi, math.pi, SHAPES, endpoint=False)
+    headings = _grid(angles, angles)
     known = np.abs(nominal[[0, 1, 0]] - nominal[[2, 3, 3]])
     needed = (known - _distances(np.broadcast_to(triple[:, 0], (len(headings), 3)), headings)).max(axis=1)
     order = np.flatnonzero(_overlapping(triple, headings))
     headings = headings[order[np.argsort(needed[order])[:SHAPES_TRIED]]]
     if not len(headings):
         return None
-    spans = [turns[1] - turns[0], turns[1] - turns[0], math.pi]
-    tried = np.concatenate([np.insert(headings, 2, turn, axis=1) for turn in turns])
+    spans = [angles[1] - angles[0], angles[1] - angles[0], math.pi]
+    tried = np.concatenate([np.insert(headings, 2, angle, axis=1) for angle in angles])
     best, least = tried[0], math.inf
     for _ in range(ROUNDS):
         tried = tried[_overlapping(triple, tried[:, :2])]
@@ -193,11 +193,11 @@ def _overlapping(triple: Floats, headings: Floats) -> NDArray[np.bool_]:
 
 def _laid(chords: Floats, shapes: Floats, way: float) -> NDArray[np.complex128]:
     """Handles (N, 4) of three benches, from the headings of the first and the last in the frame of the bench between,
-    and the turn of that bench from a direction [rad]; its middle is at 0."""
-    a, b, turn = shapes.T
+    and the rotation of that bench from a direction [rad]; its middle is at 0."""
+    a, b, rotation = shapes.T
     half = np.full(len(shapes), 0.5 * chords[1])
     handles = np.stack([half + chords[0] * np.exp(1j * a), half, -half, -half - chords[2] * np.exp(1j * b)], axis=1)
-    laid: NDArray[np.complex128] = np.exp(1j * (way + turn))[:, None] * handles
+    laid: NDArray[np.complex128] = np.exp(1j * (way + rotation))[:, None] * handles
     return laid
 
 
