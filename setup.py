@@ -2,9 +2,10 @@
 
 All of them or none are compiled: compiled modules call each other in C, so a half-compiled package would not import.
 Without a C compiler the install succeeds, and the same files run uncompiled.
-No -march=native and no -ffast-math: every machine gives the same digits. The flags tell the compiler that nobody reads
-errno or floating-point traps, so that square roots and selections vectorise. They forbid fused multiply-add, which
-would round differently from the uncompiled files.
+No -march=native and no -ffast-math: on one machine, compiled and uncompiled files give the same digits (the last digits
+of sin and cos depend on the C library). The flags tell the compiler that nobody reads errno or floating-point traps, so
+that square roots and selections vectorise. They forbid fused multiply-add, which would round differently from the
+uncompiled files.
 """
 
 import os

@@ -64,7 +64,7 @@ def overlapping_pairs(benches: list[shapely.Polygon]) -> Floats:
 
 
 def looks(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
-    """Whether any benches overlap, one look at each time."""
+    """True at each time at which any benches overlap."""
     return [
         overlapping_pairs(polygons(dragon, handles_and_velocities(dragon, path, time)[0])).size > 0 for time in times
     ]

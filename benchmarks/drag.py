@@ -2,8 +2,8 @@
 
 `.venv/bin/python -m benchmarks.drag [ADDRESS]`, while `bench-dragon serve` runs there: 60 benches on a path of 20
 waypoints, without a square and in one with three obstacles. A verdict counts for a move if it was asked for at the move
-or after it, so a move that a newer one replaced waits for the newer one's verdict. Behind it stands the part that the
-service took, from the request to its answer; the machine's load stands there too, as others make all of it slower.
+or after it, so a move that a newer one replaced waits for the newer one's verdict. The time of the service, from the
+request to its answer, is printed after it, and so is the machine's load, because other work makes all of it slower.
 """
 
 from __future__ import annotations

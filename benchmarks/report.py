@@ -83,7 +83,7 @@ def table(results: Results) -> list[str]:
 
 
 def beside(label: str, cases: list[str], times: list[float], words: str, one: float) -> list[str]:
-    """A column for each case: its time, and how many times as long as one time [s] it is, with words before that."""
+    """One column per case: its time, and its ratio to a reference time [s], with a label."""
     return [
         f"| {label} | {' | '.join(cases)} |",
         f"|---|{'---|' * len(cases)}",
@@ -147,6 +147,7 @@ def section(results: Results) -> str:
     return "\n".join(
         [
             f"Medians on {machine}, warm unless cold is said; made by `make bench`.",
+            "`must` and `aim` are goals for an idle machine with two cores; on a busy one times may miss them.",
             "",
             *table(results),
             "",

@@ -26,7 +26,7 @@ STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets
 # Continuous integration sets this: every test must run there.
 STRICT = bool(os.environ.get("CI"))
 LEFT_OUT = pytest.StashKey[list[str]]()
-NO_DISK = "they mount a small disk and fill it: run them as root"
+NO_DISK = "they mount a small disk, which only root may do: run make test as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 

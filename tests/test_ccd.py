@@ -188,7 +188,7 @@ def test_an_engine_that_ends_its_process_when_it_is_loaded_is_left_out(capsys: p
     assert capsys.readouterr().out == "abrupt is left out: the package ipctk cannot be loaded\n"
 
 
-def test_a_crash_and_a_hang_are_rows_and_a_run_goes_on_where_it_was(tmp_path: Path) -> None:
+def test_a_crash_and_a_hang_are_rows_and_a_run_continues_where_it_was(tmp_path: Path) -> None:
     shard, worker = part(6), Worker("ours")
     save_shard(tmp_path / "queries-0000.npz", shard)
     rows = []
@@ -209,8 +209,8 @@ def test_a_crash_and_a_hang_are_rows_and_a_run_goes_on_where_it_was(tmp_path: Pa
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--queries", "0"], "argument --queries: must be a whole number from 1 on, got 0"),
-        (["--seed", "-1"], "argument --seed: must be a whole number from 0 on, got -1"),
+        (["--queries", "0"], "argument --queries: must be a whole number of at least 1, got 0"),
+        (["--seed", "-1"], "argument --seed: must be a whole number of at least 0, got -1"),
         (
             ["--docs", "nowhere"],
             "--docs must be a folder with dragon-ccd.md, the page that gets the tables, got nowhere",
@@ -231,7 +231,7 @@ def test_bad_input_of_a_run_is_one_line(
     assert capsys.readouterr().err.splitlines()[-1] == f"python -m benchmarks.ccd: error: {said}"
 
 
-def test_an_interrupted_run_says_that_it_goes_on(
+def test_an_interrupted_run_says_that_the_same_command_continues(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     def interrupted(*_: object) -> None:
@@ -242,7 +242,7 @@ def test_an_interrupted_run_says_that_it_goes_on(
     with pytest.raises(SystemExit) as ended:
         main()
     assert ended.value.code == 128 + signal.SIGINT
-    kept = f"interrupted: {tmp_path}/seed-2026 keeps what was answered, and the same command goes on there\n"
+    kept = f"interrupted: the answers so far are in {tmp_path}/seed-2026, and the same command continues\n"
     assert capsys.readouterr().err == kept
 
 

@@ -46,7 +46,7 @@ def at_least(least: int) -> Callable[[str], int]:
 
     def read(text: str) -> int:
         if not text.lstrip("-").isdecimal() or int(text) < least:
-            raise argparse.ArgumentTypeError(f"must be a whole number from {least} on, got {text}")
+            raise argparse.ArgumentTypeError(f"must be a whole number of at least {least}, got {text}")
         return int(text)
 
     return read
@@ -55,12 +55,18 @@ def at_least(least: int) -> Callable[[str], int]:
 def main() -> None:
     """Run, then write what was found."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.ccd", description=__doc__)
-    parser.add_argument("--queries", type=at_least(1), default=100_000, help="how many at least (100,000)")
-    parser.add_argument("--seed", type=at_least(0), default=2026, help="of the random dances (2026)")
-    parser.add_argument("--folder", type=Path, default=ROOT / "build" / "ccd", help="of the files (build/ccd)")
-    parser.add_argument("--docs", type=Path, default=ROOT / "docs", help="where the page and the figures are (docs)")
+    parser.add_argument(
+        "--queries", type=at_least(1), default=100_000, help="least number of queries; default: 100,000"
+    )
+    parser.add_argument("--seed", type=at_least(0), default=2026, help="seed of the random dances; default: 2026")
+    parser.add_argument(
+        "--folder", type=Path, default=ROOT / "build" / "ccd", help="folder of queries and answers; default: build/ccd"
+    )
+    parser.add_argument(
+        "--docs", type=Path, default=ROOT / "docs", help="folder of the page and the figures; default: docs"
+    )
     parser.add_argument("--sample", action="store_true", help=f"also write {SAMPLED} of the queries to {SAMPLE.name}")
-    parser.add_argument("--only-report", action="store_true", help="ask nothing, write what the folder has")
+    parser.add_argument("--only-report", action="store_true", help="write the report from the answers so far")
     asked = parser.parse_args()
     folder = asked.folder / f"seed-{asked.seed}"
     if not (asked.docs / PAGE).is_file():
@@ -69,7 +75,7 @@ def main() -> None:
         try:
             run(folder, asked.seed, asked.queries, installed())
         except KeyboardInterrupt:
-            print(f"interrupted: {folder} keeps what was answered, and the same command goes on there", file=sys.stderr)
+            print(f"interrupted: the answers so far are in {folder}, and the same command continues", file=sys.stderr)
             sys.exit(130)
     results = collected(folder)
     if results is None:

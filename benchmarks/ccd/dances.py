@@ -51,7 +51,7 @@ def _dragon_of(record: Record) -> Dragon:
 
 
 def _dragon(random: Generator) -> Record:
-    """10 to 24 benches: a longer head and an even body, or, in a third of all dragons, no two benches alike."""
+    """10 to 24 benches: a longer head and a uniform body, or, in a third of all dragons, no two benches alike."""
     benches = int(random.integers(10, 25))
     uneven = random.random() < 1 / 3
     body = random.uniform(0.6, 1.8)

@@ -1,7 +1,7 @@
 """The engines: each answers the same query about the same motion, used as its own documentation advises.
 
 A query: does a corner of one bench meet an edge of another, moved outwards by a margin, and when first?
-docs/dragon-ccd.md says of each engine what it promises, why its settings are what they are, and how it did.
+docs/dragon-ccd.md gives the promise, the settings with their reasons, and the results of each engine.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ import numpy as np
 from benchmarks.ccd.march import march
 from benchmarks.ccd.motion import Motion, Point, local_corner, moved_edge
 
-# Box2D: of its recommended range of sizes, 0.1 to 10, a bench takes the upper end, where its tolerances, a part of
-# b2_linearSlop, are the least part of it [units]; the same a hundred times larger, which is beyond that range [1].
+# Box2D: size of the longest bench, at the upper end of the recommended range of 0.1 to 10, where tolerances (parts of
+# b2_linearSlop) are relatively smallest [units]; the same a hundred times larger, which is beyond that range [1].
 BOX2D_SIZE, BOX2D_BEYOND = 10.0, 100.0
 BOX2D_SLOP = 0.005  # b2_linearSlop of Box2D 2.3 [units]
 # A step of Box2D or FCL is so short that its even motion is this near the true one: for Box2D a tenth of its tolerance
@@ -43,7 +43,7 @@ class Engine(NamedTuple):
     """An engine as it is used.
 
     name: in tables; package: that provides it, empty for our own; settings: in words; made: gives its solver
-    afresh: a process of its own for every file of queries, as its answers differ from process to process
+    afresh: a process of its own for every file of queries, because its answers differ from process to process
     """
 
     name: str

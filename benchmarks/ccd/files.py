@@ -39,7 +39,7 @@ class Shard(NamedTuple):
         return Query(*(self.columns[name][k].item() for name in QUERY))
 
     def taken(self, rows: NDArray[np.int64]) -> Shard:
-        """Some of the queries, with their dances alone."""
+        """Some of the queries, with only their dances."""
         columns = {name: column[rows] for name, column in self.columns.items()}
         return Shard({number: self.dances[number] for number in np.unique(columns["dance"]).tolist()}, columns)
 

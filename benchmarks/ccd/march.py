@@ -2,10 +2,10 @@
 
 In the frame of the edge's bench the edge is at rest and the corner is at q(x) after the travel x. K of
 core/kernels/gap_curvature.py bounds the second derivative of e . q for every unit vector e fixed in that bench; here e
-is the direction outwards from the edge. So over a step h the corner is further out than what least_between() leaves of
-its ends: where that exceeds the margin and the rounding G of core/kernels/pairs.py, it did not meet the edge in
-between. A step that is not proven is halved or ends at the crossing; contact is claimed where the corner is within the
-margin for certain, a bracket after the last proven travel.
+is the direction outwards from the edge. So over a step h the corner is at least as far out as least_between() gives
+from the two ends: if that exceeds the margin and the rounding G of core/kernels/pairs.py, the corner did not meet the
+edge in between. A step that is not proven is halved or ends at the crossing; contact is claimed where the corner is
+within the margin for certain, a bracket after the last proven travel.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from core.values import Floats
 BRACKET, BRACKET_MOST = 1e-10, 1e-5
 # First step [m], and how much it grows at most from one to the next [1].
 FIRST, GROWS = 0.01, 2.0
-# How far ahead a contact is looked for whose beginning rounding hides [m].
+# Distance ahead at which a contact is tested if rounding hides its beginning [m].
 PEEK = 1e-4
 # Steps after which a march gives up [1].
 STEPS_MOST = 100_000
-# Part of the step that bounds would just have proven which is tried next, and width of a crossing in brackets [1].
+# Part of the largest provable step that is tried next, and width of a crossing in brackets [1].
 ROOM, CROSSING = 0.95, 1e-3
 
 
@@ -112,7 +112,7 @@ class March:
         return max(step.before, step.after) + step.bend * step.h * step.h / 8.0 + step.rounding < 0.0
 
     def advance(self, h: float) -> float | None:
-        """Go on by a step if it is proven, and say how wide the next one may be [m]; None if it is not."""
+        """Advance by a step if it is proven; returns the width of the next one [m], or None if it is not proven."""
         step = self.look(self.travel, h)
         if step is None:
             return None

@@ -1,6 +1,6 @@
 """The motion for every engine: places of benches, in doubles, and a proven bound on their acceleration.
 
-Time runs from 0 to 1 over a query, and the head goes `span` metres meanwhile, at a constant speed.
+Time runs from 0 to 1 over a query, and the head travels `span` metres at a constant speed.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Query(NamedTuple):
     The edge is moved outwards by the margin, as if its bench were wider there; over the whole way the corner is beside
     it, never beyond one of its ends.
 
-    place: the kernels' place of the head at the beginning [m]: what is left to the centre of a spiral, -s on a route
+    place: the kernels' place of the head at the beginning [m]: arc length to the centre of a spiral, -s on a route
     span: the way of the head [m]; corner, edge: numbers as in CORNERS and EDGE_ENDS; margin: [m]
     """
 
@@ -111,7 +111,7 @@ class Motion:
         return x, y, ux, uy
 
     def bow(self, start: float, stop: float, bench: int, reach: float) -> float:
-        """How far a point of a bench may be from the straight and even way between its places at two times [m].
+        """Largest distance of a point of a bench from the uniform straight motion between two times [m].
 
         reach: of the point from the centre [m]
         |X''| <= K = CENTRE_PULL + OMEGA_PULL reach over the interval (core/kernels/bounds.py): no more than K h^2 / 8.

@@ -20,28 +20,28 @@ from core.values import Floats
 
 CONTACT, GRAZE, FAR = range(3)
 CLASSES = ("contact", "graze", "far")
-# Queries of each dance in each class, if there are so many. In many dances there are few grazes: others have more, so
-# that the classes are about even in all.
+# Largest number of queries of one dance in each class. Many dances have few grazes, so the others may give more, which
+# balances the classes.
 QUOTA = (36, 50, 34)
 # Head ways of the queries [m], instants at which distances are looked at first, and the margins asked for [m].
 SPANS = (0.03, 0.6)
 SAMPLES = 65
 MARGINS = (0.003, 0.8)
-# Depths of grazes [m], as powers of ten: + stays clear by so much, - comes so much nearer than the margin. At one
-# pass of a corner so many of them are asked for, each with both signs.
+# Depths of grazes [m], as powers of ten: positive: clear by this; negative: nearer than the margin by this. Each pass
+# of a corner gives DEPTHS_EACH of them, each with both signs.
 DEPTHS = range(3, 10)
 DEPTHS_EACH = 2
-# A graze comes from further away, and goes there again, by at least this, and a contact goes on as deep [m].
+# Least change of the distance before and after a graze, and least further depth of a contact [m].
 RISE = 1e-5
-# By how much a corner that stays far does so at least, and at most [m]. The depth of a graze is certified so well [1].
+# Least and largest clearance of a far query [m]; relative width to which the depth of a graze is certified [1].
 FAR_BY = (0.01, 1.0)
 EXACT = 1e-3
-# Queries of one way of the head in one class; how many places of the head are looked at in one dance, and how many of
-# the ways from there are tried: a dance in which little comes near has fewer queries.
+# Largest number of queries of one stretch in each class; largest number of places of the head and of stretches tried in
+# one dance: a dance with few near passes has fewer queries.
 EACH_MOST = (6, 12, 3)
 PLACES_MOST = 1000
 WAYS_MOST = 60
-# Nearest passes are looked for so far ahead [m], at so many instants, and a way is laid around one so often [1].
+# Distance ahead in which nearest passes are sought [m], number of instants there, share of stretches around a pass [1].
 SCAN, SCANNED, AT_PASSES = 1.5, 61, 0.8
 # A corner is beside an edge by at least this [m].
 BESIDE = 0.005
@@ -95,10 +95,10 @@ def _queries(random: Generator, stage: Stage, number: int) -> Iterator[Known]:
             expansions = covered(stage, pieces, place, span, max(benches) + 1)
         except Unproven:
             continue
-        for kind, query, wanted in candidates:
+        for kind, query, target in candidates:
             if left[kind]:
                 try:
-                    known = _certified(track(expansions, query, stage), number, query, kind, wanted)
+                    known = _certified(track(expansions, query, stage), number, query, kind, target)
                 except Unproven:
                     continue
                 if known is not None:
@@ -150,10 +150,10 @@ def _passes(stage: Stage, start: float, pair: tuple[int, int]) -> Floats:
 def _candidates(
     random: Generator, stage: Stage, way: Way, left: list[int]
 ) -> Iterator[tuple[int, Query, tuple[float, float]]]:
-    """Queries on one way of the head that look as wanted in doubles: kind, query without margin, what is wanted.
+    """Queries on one stretch that meet a target in doubles: kind, query without margin, target.
 
-    wanted: for a contact the travel at which it should be and the least margin, for a graze the travel at which it is
-    nearest and the depth, for a far one the same and by how much it stays clear [m]
+    target: for a contact its travel and the least margin, for a graze the travel at which it is nearest and the depth,
+    for a far query the same travel and the clearance [m]
     """
     place, span, pair = way
     travels = np.linspace(0.0, span, SAMPLES)
@@ -168,13 +168,13 @@ def _candidates(
         if not (np.abs(along).max() < half - BESIDE and distance.min() > MARGINS[0]):
             continue
         query = Query(place, span, corner_bench, corner, edge_bench, edge, math.nan)
-        for kind, wanted in _wanted(random, travels, distance):
+        for kind, target in _targets(random, travels, distance):
             if left[kind] and taken[kind] < EACH_MOST[kind]:
                 taken[kind] += 1
-                yield kind, query, wanted
+                yield kind, query, target
 
 
-def _wanted(random: Generator, travels: Floats, distance: Floats) -> Iterator[tuple[int, tuple[float, float]]]:
+def _targets(random: Generator, travels: Floats, distance: Floats) -> Iterator[tuple[int, tuple[float, float]]]:
     """The classes that the distances of a corner from an edge allow."""
     least = int(distance.argmin())
     lowest = float(distance[least])
@@ -197,9 +197,9 @@ def _wanted(random: Generator, travels: Floats, distance: Floats) -> Iterator[tu
         yield FAR, (float(travels[least]), by)
 
 
-def _certified(seen: Track, number: int, query: Query, kind: int, wanted: tuple[float, float]) -> Known | None:
-    """The query with its margin and what is true of it; None where the balls do not show it."""
-    near, depth = wanted
+def _certified(seen: Track, number: int, query: Query, kind: int, target: tuple[float, float]) -> Known | None:
+    """The query with its margin and its truth; None if the balls do not prove it."""
+    near, depth = target
     if kind == CONTACT:
         least, margin, depth = depth, float(seen.out(near)), 0.0
     else:

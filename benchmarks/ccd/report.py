@@ -60,7 +60,7 @@ class Results(NamedTuple):
         return np.isfinite(self.queries.columns["low"])
 
     def sample(self, count: int) -> Shard:
-        """So many of the queries, drawn from the first dances."""
+        """A number of queries drawn from the first dances."""
         rows = np.random.Generator(np.random.Philox(key=count)).permutation(len(self.queries))
         early = np.unique(self.queries.columns["dance"])[:SAMPLE_DANCES]
         rows = rows[np.isin(self.queries.columns["dance"][rows], early)][:count]

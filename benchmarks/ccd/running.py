@@ -1,4 +1,4 @@
-"""Engines at work, each in a process of its own: a crash or a hang is an answer of its own kind, not the end."""
+"""Engines at work, each in a process of its own: a crash or a hang counts as an answer and does not stop the run."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from benchmarks.ccd.files import ANSWER, ENDS, Shard, load_shard, save
 from benchmarks.ccd.march import Undecided
 from benchmarks.ccd.motion import Motion, Stage
 
-# An answer takes no more time of the processor than this, and no longer in all, however busy the machine is [s].
+# Largest processor time and largest elapsed time of one answer [s]; the second allows for a busy machine.
 PROCESSOR, PATIENCE = 2.0, 300.0
 # touches, travel [m], microseconds of the processor, evaluations, number in ENDS.
 Row = tuple[bool, float, float, int, int]
@@ -75,18 +75,18 @@ def work(connection: Connection, name: str) -> None:
     while True:
         try:
             path, first = connection.recv()
-        except EOFError:  # nobody asks any more
+        except EOFError:  # the parent has ended
             return
         rows = answers(engine, load_shard(path), first)
         while True:
-            signal.setitimer(signal.ITIMER_PROF, PROCESSOR)  # then the system ends this process
+            signal.setitimer(signal.ITIMER_PROF, PROCESSOR)  # the system ends this process at that time
             row = next(rows, None)
             signal.setitimer(signal.ITIMER_PROF, 0.0)
             if row is None:
                 break
             try:
                 connection.send(row)
-            except BrokenPipeError:  # nor here
+            except BrokenPipeError:  # the parent has ended
                 return
 
 

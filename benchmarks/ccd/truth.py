@@ -20,11 +20,11 @@ from core.kernels.constants import HALF_LENGTH, HALF_WIDTH
 # Half width of the intervals that one polynomial covers: first try, and least [m]. They overlap by OVERLAP of it [1].
 HALF_MOST, HALF_LEAST = 0.06, 0.002
 OVERLAP = 1e-9
-# A claim takes at most so many cells [1].
+# Largest number of cells for a claim [1].
 CELLS_MOST = 1500
-# Half widths of the bracket around a contact, the first that can be certified counts [m].
+# Half widths of the bracket around a contact, tried in this order [m].
 BRACKETS = tuple(10.0**k for k in range(-13, -6))
-# A bracket is first tried on so much of the way before it [m].
+# Length before a bracket on which it is tried first [m].
 LOOK_BACK = 1e-3
 
 

@@ -38,7 +38,7 @@ DOWNLOADS = (
 )
 ANSWER_TIMEOUT = 20.0  # [s] for --version, which takes 0.05 s, and 0.4 s from a cold disk
 FONT = "fonts-noto-cjk"
-MISSING = "no Chrome or Chromium starts here: make test installs one where it can; else name one in CHROME"
+MISSING = "no Chrome or Chromium starts here: make test installs one if it can; otherwise set CHROME to the path of one"
 
 
 def _downloads() -> Iterator[str]:
@@ -116,7 +116,7 @@ def get_download(is_root: bool) -> None:
 def main() -> None:
     chosen = os.environ.get("CHROME")
     if chosen and not starts(chosen):
-        print(f"CHROME={chosen} is no Chrome or Chromium that starts: looking for another one", file=sys.stderr)
+        print(f"CHROME={chosen} does not start a Chrome or Chromium: looking for another one", file=sys.stderr)
     is_root = hasattr(os, "geteuid") and os.geteuid() == 0
     wanted = ([] if found() else ["chromium"]) + ([] if has_chinese() else [FONT])
     if wanted and is_root and shutil.which("apt-get"):
