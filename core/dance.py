@@ -1,7 +1,7 @@
-"""Dance: a dragon that follows a path, and the times of its run; Clock: the place of the head at a time.
+"""Dance: a dragon that follows a path, and the times of its run; Clock: the travel of the head at a time.
 
-A dance is a motion of the head along its path, with a clock for its times. Contacts depend only on the place of the
-head. So searches for them work with places, and the clock turns a place into the first time at which the head is there.
+A dance is a motion of the head along its path, with a clock for its times. The travel of the head is its s. Contacts
+depend only on it, so searches work with travels, and the clock turns a travel into its first time.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, checked_number, checked_type, said, said_bound
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, words
-from core.paths.following import earliest_place, refuse_tight_bends
+from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import FOLD_ROUNDING, Spiral
 from core.shown import Shown
@@ -31,7 +31,7 @@ DEFAULT_SPAN = 300
 # A run that stops nearer to its fold than this is searched up to the fold [m of head travel]. Handle speeds grow
 # without bound there, so steps would shrink to nothing; a bound on the remaining motion replaces them.
 NEAR_FOLD = 1e-5
-# Largest relative error of a time that is turned into a place and back [1]: three operations each way.
+# Largest relative error of a time that is turned into a travel and back [1]: three operations each way.
 TIME_ROUNDING = 1e-15
 
 
@@ -62,31 +62,31 @@ class RunEnd(Shown):
         return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
 
 
-# The nodes are those of core/passages.py, without passages only time 0 at place 0. speeds[k] holds from node k - 1 to
+# The nodes are those of core/passages.py, without passages only time 0 at travel 0. speeds[k] holds from node k - 1 to
 # node k, and head_speed before the first node and after the last one.
 class Clock:
-    """The place of the head at any time. Without passages the speed is head_speed, and a time is a place divided by it.
+    """The travel of the head at any time. Without passages the speed is head_speed: a time is a travel divided by it.
 
     slowest: the lowest speed at which it moves [m/s]
     """
 
     def __init__(self, head_speed: float, passages: Sequence[Passage] = ()) -> None:
         self.head_speed, self.passages = head_speed, passages
-        self.times, self.places = nodes(passages) if passages else ([0.0], [0.0])
+        self.times, self.travels = nodes(passages) if passages else ([0.0], [0.0])
         self.speeds = [head_speed, *[passage.speed for passage in passages], head_speed]
         self.slowest = min([speed for speed in self.speeds if speed > 0.0]) if passages else head_speed
 
-    def place(self, time: float) -> float:
-        """Place of the head at a time [m]."""
+    def travel(self, time: float) -> float:
+        """Travel of the head at a time [m]."""
         k = bisect_right(self.times, time)
         node = max(k - 1, 0)
-        return self.places[node] + (time - self.times[node]) * self.speeds[k]
+        return self.travels[node] + (time - self.times[node]) * self.speeds[k]
 
-    def time(self, place: float) -> float:
-        """First time at which the head is at a place [s]."""
-        k = bisect_left(self.places, place)
+    def time(self, travel: float) -> float:
+        """First time at which the head has travelled this far [s]."""
+        k = bisect_left(self.travels, travel)
         node = max(k - 1, 0)
-        time = self.times[node] + (place - self.places[node]) / self.speeds[k]
+        time = self.times[node] + (travel - self.travels[node]) / self.speeds[k]
         return min(time, self.times[k]) if k < len(self.times) else time
 
     def steady(self, times: Floats) -> Floats:
@@ -95,8 +95,8 @@ class Clock:
             return times
         k = np.searchsorted(self.times, times, side="right")
         node = np.maximum(k - 1, 0)
-        places = np.array(self.places)[node] + (times - np.array(self.times)[node]) * np.array(self.speeds)[k]
-        found: Floats = places / self.head_speed
+        travels = np.array(self.travels)[node] + (times - np.array(self.times)[node]) * np.array(self.speeds)[k]
+        found: Floats = travels / self.head_speed
         return found
 
     def of_steady(self, time: float) -> float:
@@ -117,8 +117,8 @@ class Clock:
         for start, end in pairwise(edges):
             k = bisect_right(self.times, start)
             node, passage = max(k - 1, 0), k - 1 if 0 < k <= len(self.passages) else None
-            first, origin = self.place(start), (self.times[node], self.places[node])
-            last = self.place(end) if end == until else self.places[self.times.index(end)]
+            first, origin = self.travel(start), (self.times[node], self.travels[node])
+            last = self.travel(end) if end == until else self.travels[self.times.index(end)]
             yield Stretch(start, end, first, last, self.speeds[k], passage, origin)
 
     def words(self) -> str:
@@ -162,7 +162,7 @@ class Dance(Shown):
 
     @cached_property
     def clock(self) -> Clock:
-        """Times and places of the head."""
+        """Times and travels of the head."""
         return Clock(self.head_speed, self.passages)
 
     @property
@@ -192,7 +192,7 @@ class Dance(Shown):
         """
         if self.path.tail_begin is None:
             return -TIME_MAX
-        return self.clock.time(earliest_place(self.dragon, self.path, self.path.tail_begin))
+        return self.clock.time(earliest_travel(self.dragon, self.path, self.path.tail_begin))
 
     @property
     def begin(self) -> float:
@@ -285,7 +285,7 @@ class Dance(Shown):
 
     def nears_fold(self, stop: float) -> bool:
         """True if a run until `stop` [s] ends at a fold or within NEAR_FOLD of it."""
-        return self.ends_by(self.clock.time(self.clock.place(stop) + NEAR_FOLD))
+        return self.ends_by(self.clock.time(self.clock.travel(stop) + NEAR_FOLD))
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error for a time after the end of the run."""

@@ -12,7 +12,7 @@ from core.shown import Shown
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]
 TIME_MAX = 1e12  # [s]
-PLACE_MAX = 1e9  # [m]
+S_MAX = 1e9  # [m]
 PASSAGES_MAX = 1_000
 # Most passages that a sentence lists one by one [1].
 LISTED = 6
@@ -22,7 +22,7 @@ LISTED = 6
 class Passage(Shown):
     """A part of the dance with one speed of the head. It begins where the passage before it ends, or at time 0.
 
-    speed: [m/s], 0 for a pause; until_s: place of the head, or until_time: time, at which the passage ends [m], [s]
+    speed: [m/s], 0 for a pause; until_s: s of the head, or until_time: time, at which the passage ends [m], [s]
     """
 
     speed: float
@@ -38,8 +38,8 @@ class Passage(Shown):
 class Stretch(NamedTuple):
     """An interval of time with one speed of the head.
 
-    begin, end: [s]; first, last: places of the head then [m]; speed: [m/s]
-    passage: its index, None outside all passages; origin: a time [s] and its place [m], from which all others follow
+    begin, end: [s]; first, last: travels of the head then [m]; speed: [m/s]
+    passage: its index, None outside all passages; origin: a time [s] and its travel [m], from which all others follow
     """
 
     begin: float
@@ -50,40 +50,40 @@ class Stretch(NamedTuple):
     passage: int | None
     origin: tuple[float, float]
 
-    def time(self, place: float) -> float:
-        """Time at which the head is at a place of the stretch [s]."""
-        return min(max(self.origin[0] + (place - self.origin[1]) / self.speed, self.begin), self.end)
+    def time(self, travel: float) -> float:
+        """Time at which the head has travelled this far, within the stretch [s]."""
+        return min(max(self.origin[0] + (travel - self.origin[1]) / self.speed, self.begin), self.end)
 
-    def place(self, time: float) -> float:
-        """Place of the head at a time of the stretch [m]."""
+    def travel(self, time: float) -> float:
+        """Travel of the head at a time of the stretch [m]."""
         return self.origin[1] + (time - self.origin[0]) * self.speed
 
 
-# With passages 0 to n - 1, node k is the time and the place at which passage k begins, node n where the last one ends;
-# node 0 is time 0 at place 0.
+# With passages 0 to n - 1, node k is the time and the travel at which passage k begins, node n where the last one ends;
+# node 0 is time 0 at travel 0.
 def nodes(passages: Sequence[Passage]) -> tuple[list[float], list[float]]:
-    """Times [s] and places [m] of the nodes. raises: InvalidValue for a passage that ends before it begins"""
-    times, places = [0.0], [0.0]
+    """Times [s] and travels [m] of the nodes. raises: InvalidValue for a passage that ends before it begins"""
+    times, travels = [0.0], [0.0]
     for k, passage in enumerate(passages):
-        time, place = _ended(k, passage, times[-1], places[-1])
+        time, travel = _ended(k, passage, times[-1], travels[-1])
         times.append(time)
-        places.append(place)
-    return times, places
+        travels.append(travel)
+    return times, travels
 
 
-def _ended(k: int, passage: Passage, time: float, place: float) -> tuple[float, float]:
-    """Time and place of the end of a passage, from those of its beginning. raises: InvalidValue"""
+def _ended(k: int, passage: Passage, time: float, travel: float) -> tuple[float, float]:
+    """Time and travel of the end of a passage, from those of its beginning. raises: InvalidValue"""
     if passage.until_time is not None:
         if passage.until_time <= time:
             rule = f"must be after the passage begins, at {said(time)} s"
             raise InvalidValue.of(f"passages.{k}.until_time", rule, passage.until_time, "s")
-        return passage.until_time, place + (passage.until_time - time) * passage.speed
+        return passage.until_time, travel + (passage.until_time - time) * passage.speed
     until = passage.until_s
     assert until is not None
-    if until <= place:
-        rule = f"must be further than where the passage begins, at {said(place)} m"
+    if until <= travel:
+        rule = f"must be further than where the passage begins, at {said(travel)} m"
         raise InvalidValue.of(f"passages.{k}.until_s", rule, until, "m")
-    return time + (until - place) / passage.speed, until
+    return time + (until - travel) / passage.speed, until
 
 
 def checked_passages(given: object) -> tuple[Passage, ...]:
@@ -103,15 +103,15 @@ def _checked(name: str, passage: object) -> Passage:
     if 0.0 < speed < HEAD_SPEED_MIN:
         rule = f"must be 0, for a pause, or at least {HEAD_SPEED_MIN:g} m/s"
         raise InvalidValue.of(f"{name}.speed", rule, speed, "m/s")
-    place, time = passage.until_s, passage.until_time
-    if (place is None) == (time is None):
-        got = "neither" if place is None else "both"
+    s, time = passage.until_s, passage.until_time
+    if (s is None) == (time is None):
+        got = "neither" if s is None else "both"
         raise InvalidValue(name, f"must end at until_s [m] or at until_time [s], got {got}")
-    if place is None:
+    if s is None:
         return Passage(speed, None, checked_number(f"{name}.until_time", time, "s", -TIME_MAX, TIME_MAX))
     if speed == 0.0:
         raise InvalidValue(f"{name}.until_time", "must be given: a pause does not reach until_s")
-    return Passage(speed, checked_number(f"{name}.until_s", place, "m", -PLACE_MAX, PLACE_MAX))
+    return Passage(speed, checked_number(f"{name}.until_s", s, "m", -S_MAX, S_MAX))
 
 
 def words(passages: Sequence[Passage], after: str) -> str:

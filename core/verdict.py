@@ -167,7 +167,7 @@ def _judged(
         failures.append(speed_failure(excess, speed, limit, end))
     failures += touch_failures(contact, least, margin)
     if folds:
-        failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.place(end.time))))
+        failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.travel(end.time))))
     if (
         venue
         and seen < until
@@ -176,7 +176,7 @@ def _judged(
         message = f"From {seen:.6f} s on the spiral is too tight to compare the benches with the venue."
         failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
-    told = tuple(replace(failure, head=dance.path.head(dance.clock.place(failure.time))) for failure in failures)
+    told = tuple(replace(failure, head=dance.path.head(dance.clock.travel(failure.time))) for failure in failures)
     if not told:
         verdict = Judgement.PASSES
     elif all(failure.kind is FailureKind.UNDECIDED for failure in told):

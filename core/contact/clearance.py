@@ -146,7 +146,7 @@ def clearance_profile(
 def _at(search: Search, time: Floats, clock: Clock) -> tuple[Floats, NDArray[np.int64]]:
     clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
     for k, instant in enumerate(time.flat):
-        clearance[k], benches[k] = _affordable(search, clock.place(float(instant)))
+        clearance[k], benches[k] = _affordable(search, clock.travel(float(instant)))
     return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
 
 
@@ -168,7 +168,7 @@ def _affordable(search: Search, travel: float, leaders: int | None = None) -> tu
 def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
     if time.size < 2:
         return ()
-    first, last = clock.place(float(time.min())), clock.place(float(time.max()))
+    first, last = clock.travel(float(time.min())), clock.travel(float(time.max()))
     grid = _grid(search, first, last)
     pairs = [_affordable(search, travel)[1] for travel in grid]
     grazes = []
@@ -205,11 +205,11 @@ def least_clearance(
     to_fold = dance.nears_fold(until)
     strayed = checked_stray(stray, dance.dragon)
     search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
-    last = before_fold(clock.place(until)) if to_fold else clock.place(until)
+    last = before_fold(clock.travel(until)) if to_fold else clock.travel(until)
     fold = end if to_fold else None
-    (distance, travel, pair), at_least = least_over(search, clock.place(begin), last, clock.slowest, fold)
+    (distance, travel, pair), at_least = least_over(search, clock.travel(begin), last, clock.slowest, fold)
     if distance == 0.0:
-        gap, overlapping = search.clearance(clock.place(begin))
+        gap, overlapping = search.clearance(clock.travel(begin))
         if gap < 0.0:
             return LeastClearance(gap, None, begin, overlapping)
     return LeastClearance(distance, at_least, max(clock.time(travel), begin), pair)

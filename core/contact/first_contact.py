@@ -119,7 +119,7 @@ def contact_within(
     clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
     search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
     search.timing = clock.rounding(until)
-    first, last = clock.place(begin), clock.place(until)
+    first, last = clock.travel(begin), clock.travel(until)
     to_fold = dance.nears_fold(until)
     stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
     state, found, tolerance = search.approach(first, stops[0][0], head_speed)

@@ -32,17 +32,17 @@ from core.kernels.constants import (
     COIL_GROWTH,
     COIL_ROTATION,
     HALF_WIDTH,
+    LAG,
     LINE_DX,
     LINE_DY,
     LINE_X,
     LINE_Y,
     PIECE_KIND,
-    PLACE,
     S_START,
     SIGN,
     TX,
     UX,
-)
+)  # fmt: skip
 from core.kernels.results import Marched
 from core.sampling import falls_to_zero
 
@@ -134,7 +134,7 @@ class ExactPair:
         s, points = travel, [self._point(path.piece_at(rows[0]), travel)]
         for k in range(self.pair[1] + 1):
             chord, piece = Decimal(float(search.sizes[k, CHORD])), path.piece_at(rows[k + 1])
-            s = Decimal(float(path.along(rows[k + 1, PLACE])))
+            s = Decimal(float(path.along(rows[k + 1, LAG])))
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
             for _ in range(DIGITS):
                 point = self._point(piece, s)

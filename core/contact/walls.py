@@ -133,7 +133,7 @@ def venue_clearance(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
     clock, frame = dance.clock, dance.path.frame
-    path = replace(dance, path=venue_route(dance.path, clock.place(until))).path  # refuses a bend that is too tight
+    path = replace(dance, path=venue_route(dance.path, clock.travel(until))).path  # refuses a bend that is too tight
     strayed = checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)
     areas = []
@@ -177,7 +177,7 @@ def is_clear_beyond(
         return False
     alike = dragon.uniform_from + 1
     search.resize(dragon.benches)
-    search.place_leaders(clock.place(seen), dragon.benches)
+    search.place_leaders(clock.travel(seen), dragon.benches)
     arcs, _ = moved_until(search, dance.end.theta or 0.0)
     rates = np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])
     outwards = arcs / rates  # radii grow by this part of an arc
@@ -197,7 +197,7 @@ def _area_clearance(
 ) -> AreaClearance:
     """The benches and one area between two times [s]. frame: of the search"""
     (begin, until), slowest = span, clock.slowest
-    first, last, search.timing = clock.place(begin), clock.place(until), clock.rounding(until)
+    first, last, search.timing = clock.travel(begin), clock.travel(until), clock.rounding(until)
     state, found, tolerance = search.approach(first, last, slowest)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state is Ended.STUCK:
@@ -225,7 +225,7 @@ def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple
     search.clearance(travel)
     kernels.meet(search.scene, *pair, search.rows[0])
     met = search.scene.met
-    return frame.point(met.ax, met.ay), frame.point(met.bx, met.by), float(met.separation)
+    return frame.point(float(met.ax), float(met.ay)), frame.point(float(met.bx), float(met.by)), float(met.separation)
 
 
 def _misplaced(dance: Dance, venue: Venue, begin: float) -> Misplaced | None:

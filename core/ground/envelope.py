@@ -145,7 +145,7 @@ def envelope(
     excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
     begin, until = dance.span(dance.begin if start is None else start, stop)
     budget = (budget or Budget()).within(ENVELOPE_WORK)
-    found = tracks(dance, dance.clock.place(begin), dance.clock.place(until))
+    found = tracks(dance, dance.clock.travel(begin), dance.clock.travel(until))
     budget.look()
     parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
     core = [polygons for part in parts for polygons in part.core]
@@ -203,7 +203,7 @@ class _Lone:
         self.path, self.stretches, self.excess, self.budget = path, track.stretches, excess, budget
         columns = self.dragon.lengths, self.dragon.widths, self.dragon.chords
         length, width, self.chord = (column.item() for column in columns)
-        self.last = path.last_theta(self.chord)
+        self.last = path.last_lag(self.chord)
         self.radius = 0.5 * math.hypot(length, width)
         sizes, self.motion = np.zeros((2, kernels.SIZE_COLUMNS)), np.zeros((2, kernels.MOTION_COLUMNS))
         sizes[0, [CHORD, HALF_LENGTH, HALF_WIDTH, RADIUS]] = self.chord, 0.5 * length, 0.5 * width, self.radius

@@ -25,7 +25,7 @@ import numpy as np
 
 from core import kernels
 from core.dance import Dance
-from core.kernels.constants import CHAIN_COLUMNS, CHORD, PLACE, SINE_LIMIT, SIZE_COLUMNS, SLIP
+from core.kernels.constants import CHAIN_COLUMNS, CHORD, LAG, SINE_LIMIT, SIZE_COLUMNS, SLIP
 from core.paths.path import Path
 from core.values import Floats
 
@@ -75,29 +75,28 @@ def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats
     """Least and largest place s of the front handle of every bench (n,), with the spare that both have (n,) [m]."""
     path, chords = dance.path, dance.dragon.chords
     spares = np.full(chords.size, PLACE_ROUNDING + path.slide)
-    inner, outer = path.places(np.array([until, begin]), dance.end.theta or 0.0).tolist()
-    places = [(inner, outer)]
-    gentle = path.gentle_theta(2.0 * SINE_LIMIT / float(chords.max()))
-    while len(places) <= chords.size and places[-1][0] < gentle:
-        places.append(_behind(path, *places[-1], float(chords[len(places) - 1]), gentle))
-    turned = len(places) - 1
+    inner, outer = path.lags(np.array([until, begin]), dance.end.theta or 0.0).tolist()
+    lags = [(inner, outer)]
+    gentle = path.gentle_lag(2.0 * SINE_LIMIT / float(chords.max()))
+    while len(lags) <= chords.size and lags[-1][0] < gentle:
+        lags.append(_behind(path, *lags[-1], float(chords[len(lags) - 1]), gentle))
+    turned = len(lags) - 1
     spares[1:] += TURNS if turned else 0.0
-    ends = [_chain(path, place, chords[turned:]) for place in places[-1]]
-    front = np.array(places[:turned]).reshape(-1, 2).T
+    ends = [_chain(path, lag, chords[turned:]) for lag in lags[-1]]
+    front = np.array(lags[:turned]).reshape(-1, 2).T
     highs, lows = (path.along(np.concatenate([some, rest])) for some, (rest, _) in zip(front, ends, strict=True))
     spares += max(slip for _, slip in ends) + WAY_ROUNDING * max(np.abs([lows, highs]).max(), path.place)
     return lows - spares, highs + spares, 2.0 * spares
 
 
-def _chain(path: Path, place: float, chords: Floats) -> tuple[Floats, float]:
-    """The front handles of benches (n,) with the first one at `place`: polar angles on a spiral, minus s on a route;
-    and their largest distance from the true ones [m]."""
+def _chain(path: Path, lag: float, chords: Floats) -> tuple[Floats, float]:
+    """Lags of the front handles of benches (n,), the first one at `lag`, and the largest error of these handles [m]."""
     last = chords.size
     sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
     sizes[:last, CHORD] = chords
-    path.follow(place, last, sizes, chain)
+    path.follow(lag, last, sizes, chain)
     kernels.chain_rounding(path.curve, last, sizes, chain)
-    return chain[:last, PLACE], float(chain[:last, SLIP].max(initial=0.0))
+    return chain[:last, LAG], float(chain[:last, SLIP].max(initial=0.0))
 
 
 def _behind(path: Path, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
@@ -106,7 +105,7 @@ def _behind(path: Path, low: float, high: float, chord: float, gentle: float) ->
     low: the angle further in; gentle: angle from which outwards the rear handle does not reverse
     """
     chord2 = (chord / path.growth) ** 2
-    low = max(low, path.last_theta(chord))
+    low = max(low, path.last_lag(chord))
     bent = min(high, gentle)
 
     def delta(theta: float) -> float:

@@ -13,21 +13,20 @@ Scene and Interval, which hold these arrays; and records are structs in C, which
 
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 
-constants    columns of the arrays, shared numbers       records     values with names that inner loops hand on
-budget       what ends a loop before it is done         results     what a march hands to its caller
-fold         bisection; where a run ends                       spiral      arc length, next handle, trajectory
-rectangles   signed separation of two                          boxes       which may touch
-route        points and chain on a table of pieces             chain       of a spiral, and of either kind
-rounding     how far all of these may be from the truth
-scene        who dances where, intervals of head travel        bounds      how fast handles and benches move at most
-stretches    how curved the path under a bench is
-hulls        benches as unions of hulls                        gap_curvature  how a gap of two curves at most
-faces        how near two unions of hulls come                 pairs       how near two benches come at most
-nearest      how near any two come                             rings       benches too far out to touch
-repeats      benches that repeat what others met               clearance   at one instant
-marching     to first contact                                  band_march  all pitches between two at once
-rates        how fast handles are at most                      speed       the highest speed
-excess       when a limit is first exceeded                   wobble      who touches when people wobble
+constants    columns of the arrays, shared numbers        records        values with names that inner loops hand on
+budget       what ends a loop before it is done           results        what a march hands to its caller
+fold         bisection; where a run ends                  spiral         arc length, next handle, trajectory
+rectangles   signed separation of two                     boxes          which may touch
+route        points and chain on a table of pieces        chain          of a spiral, and of either kind
+rounding     largest errors of all of these               scene          who dances where, intervals of head travel
+bounds       how fast handles and benches move at most    stretches      how curved the path under a bench is
+hulls        benches as unions of hulls                   gap_curvature  the largest second derivative of a gap
+faces        how near two unions of hulls come            pairs          how near two benches come at most
+nearest      how near any two come                        rings          benches too far out to touch
+repeats      benches that repeat what others met          clearance      at one instant
+marching     to first contact                             band_march     all pitches between two at once
+rates        how fast handles are at most                 speed          the highest speed
+excess       when a limit is first exceeded               wobble         who touches when people wobble
 """
 
 from core.kernels.band_march import BandMarch

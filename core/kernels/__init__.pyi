@@ -10,6 +10,7 @@ from core.kernels.results import Marched
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Flags = NDArray[np.int8]
 
 COMPILED: Final[bool]
 LANES_PER_BLOCK: Final[int]
@@ -268,7 +269,9 @@ class Wobbler:
     first: int
     second: int
     furthest: float
-    def __init__(self, sizes: Floats, budget: Budget, chain: Floats, boxes: Floats, loud: NDArray[np.int8]) -> None: ...
+    def __init__(
+        self, sizes: Floats, budget: Budget, chain: Floats, boxes: Floats, loud: Flags, loud_blocks: Flags
+    ) -> None: ...
     def dance(
         self,
         memory: Floats,
@@ -276,7 +279,7 @@ class Wobbler:
         play: Floats,
         places: Floats,
         tangents: Floats,
-        rooms: Floats,
+        safe: Floats,
         state: Floats,
     ) -> int: ...
-    def measure(self, most: float, gains: Floats, places: Floats, rooms: Floats) -> None: ...
+    def measure(self, most: float, gains: Floats, places: Floats, safe: Floats) -> None: ...

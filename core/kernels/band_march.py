@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import cos, sin, sqrt
 
-import core.kernels.constants as of_python  # its enums; in compiled code their names alone are those of C
+import core.kernels.constants as of_python  # for results: in compiled code its enums are plain numbers
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.chain import extend_chain, start_chain
@@ -87,8 +87,11 @@ WIDTH_ROUNDING = 1e-9  # [1]
 ACROSS = 1e-3  # [rad]
 
 
+# Input:  the growths `low` and `high` of a band; the chain at (r_L, b_L), `inner`, and that at (r_R, b_R), `outer`.
+# State:  of the handle in front, in the symbols above: `grown` is g, `slides` Q, `path_pull` y, `speed` |P'|.
+# Output: a row of shifts for each of the first benches.
 def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
-    """Fill in bounds on the shift of the first benches with the growth; inner: chain at (r_L, b_L), outer: (r_R, b_R).
+    """Fill in bounds on the shift of the first benches with the growth.
 
     returns: False if a handle may reverse on the rectangle, because there are no bounds then
     """
@@ -101,60 +104,54 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
             return False
         s = sin(0.5 * delta)
         c = cos(0.5 * delta)
-        rise = 2.0 * s * s
+        versine = 2.0 * s * s
         rho = low * inner[k, THETA]
         rho_far = high * outer[k, THETA]
         rho_b = high * outer[k + 1, THETA]
-        sine = min(sin(least), 2.0 * s * c)
-        sine *= rho * (rho + low * least)
-        slope = sin(0.5 * least)
-        slope = low * low * least + 2.0 * low * rho * slope * slope + sine
-        front = low * low * least if rise < 1.0 else high * high * delta
-        front = front * (1.0 - rise) - high * rho_far * rise + sine
-        if front <= BAND_ROUNDING * (high * rho_far * rise + sine) or slope <= 0.0:
+        sines = min(sin(least), 2.0 * s * c) * (rho * (rho + low * least))
+        half_least = sin(0.5 * least)
+        slope = low * low * least + 2.0 * low * rho * half_least * half_least + sines
+        wound = low * low * least if versine < 1.0 else high * high * delta
+        front = wound * (1.0 - versine) - high * rho_far * versine + sines
+        if front <= BAND_ROUNDING * (high * rho_far * versine + sines) or slope <= 0.0:
             return False
-        extra = rho_far * rho_b / (low * low)
-        extra = delta * extra / (1.0 + extra)
-        lean = (high * delta + high * outer[k, THETA] * rise) / chord
+        m = rho_far * rho_b / (low * low)
+        extra = delta * m / (1.0 + m)
+        lean = (high * delta + rho_far * versine) / chord
         slide = ((2.0 * grown + delta) * s / c + high * delta * delta / (2.0 * s * c * rho)) / rho
-        swing = 2.0 * grown * high * s / (c * rho)
-        rise *= rho_far + rho_far + high * delta
-        if grown * high * rise < swing * slope:
-            swing = grown * high * rise / slope
-        rise = grown * rise + 2.0 * s * s * rho_far * delta + high * delta * delta
-        if rise < slide * slope:
-            slide = rise / slope
-        rise = delta * rho if delta * rho < chord else chord
-        swing = (extra if extra > swing else swing) + grown * high * delta * rise / (rho * chord) + rho_b * slide * lean
-        shifts[k, SHIFT_OMEGA] = slides + swing / chord
-        c = 0.5 * SPIRAL_CURVATURE_MOST * chord / rho
-        c = sqrt(1.0 - c * c) if c < 1.0 else 0.0
-        slope /= chord * sqrt(high * high + (rho_far + high * delta) * (rho_far + high * delta))
-        path_pull += (
-            2.0 * slides * delta
-            + swing * swing / chord
-            + (rho_b * slide + 2.0) * slide * lean
-            + 2.0 * (grown + extra) * slide
-        ) / (c if c > slope else slope)
+        parts = 2.0 * grown * high * s / (c * rho)
+        f_rho = versine * (rho_far + rho_far + high * delta)
+        if grown * high * f_rho < parts * slope:
+            parts = grown * high * f_rho / slope
+        f_rest = grown * f_rho + versine * rho_far * delta + high * delta * delta
+        if f_rest < slide * slope:
+            slide = f_rest / slope
+        arm = delta * rho if delta * rho < chord else chord
+        w = (extra if extra > parts else parts) + grown * high * delta * arm / (rho * chord) + rho_b * slide * lean
+        shifts[k, SHIFT_OMEGA] = slides + w / chord
+        sine_b = 0.5 * SPIRAL_CURVATURE_MOST * chord / rho
+        cos_b = sqrt(1.0 - sine_b * sine_b) if sine_b < 1.0 else 0.0
+        cos_slope = slope / (chord * sqrt(high * high + (rho_far + high * delta) * (rho_far + high * delta)))
+        e = 2.0 * slides * delta + w * w / chord + (rho_b * slide + 2.0) * slide * lean + 2.0 * (grown + extra) * slide
+        path_pull += e / (cos_b if cos_b > cos_slope else cos_slope)
         slides += slide
         grown += extra
         speed_b = sqrt(grown * grown + rho_b * rho_b * slides * slides)
         shifts[k, SHIFT_CENTRE] = 0.5 * (speed + speed_b)
         shifts[k, SHIFT_CORNER] = 0.5 * (speed + speed_b) + shifts[k, SHIFT_OMEGA] * sizes[k, RADIUS]
-        s = slides * (2.0 + rho_b * slides)
-        c = 2.0 * grown * slides
-        shifts[k, SHIFT_PULL] = (
-            2.0 * (path_pull + sqrt(s * s + c * c)) * (sizes[k, HALF_LENGTH] + sizes[k, HALF_WIDTH]) / chord
-        )
+        outwards = slides * (2.0 + rho_b * slides)
+        aside = 2.0 * grown * slides
+        pull = 2.0 * (path_pull + sqrt(outwards * outwards + aside * aside))
+        shifts[k, SHIFT_PULL] = pull * (sizes[k, HALF_LENGTH] + sizes[k, HALF_WIDTH]) / chord
         speed = speed_b
     return True
 
 
-# Input.  A band of growths (low, high: their intervals), the head radii from `outer` to `inner`, and the number of
+# Input:  a band of growths (low, high: their intervals), the head radii from `outer` to `inner`, and the number of
 #         benches that lead pairs (leaders).
-# State.  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
+# State:  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
 #         that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
-# Output. How it ended, and the record Marched.
+# Output: how it ended, and the record Marched.
 class BandMarch(Found):
     """All growths between two at once, proven clear while the head goes inwards.
 
@@ -235,7 +232,7 @@ class BandMarch(Found):
         if not self.bounded:
             self.h *= 0.5
             return Step.REFUSED
-        room = 0.95 * nearest.room
+        width = 0.95 * nearest.width
         self.work += nearest.tried
         if nearest.least <= band.low.scene.margin:
             if row_gap(band.low.scene, nearest.first, nearest.second, band.low.after) <= band.low.scene.margin:
@@ -243,14 +240,14 @@ class BandMarch(Found):
                 self.second = nearest.second
                 self.meet(next_radius)
                 return self.end(Ended.TOUCHED)
-            self.h *= 0.5 if room < 0.5 * self.h or room >= self.h else room / self.h
+            self.h *= 0.5 if width < 0.5 * self.h or width >= self.h else width / self.h
             return Step.REFUSED
         self.radius = next_radius
         self.place -= self.h
         self.placed = band.low.handles
         band.low.swap()
         band.high.swap()
-        self.h = room if room < 2.0 * self.h else 2.0 * self.h
+        self.h = min(width, 2.0 * self.h)
         return Step.ADVANCED
 
     def lay_out(self, band, next_radius):

@@ -123,11 +123,11 @@ def curved_link(chord, k_low, k_high, rate_a, rate_low):
     front = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
     rate_low *= TIGHTEN * rear / front
     swing = k_high * rate_a - k_low * rate_low
-    return Link(front, rear, sine, rate_a, rate_low, k_high * rate_a, k_low * rate_low, swing, swing)
+    return Link(front, rear, sine, rate_a, rate_low, k_high * rate_a, k_low * rate_low, swing, swing, False, True)
 
 
 def followed_link(k, h, k_high, rate_a, sizes, before, after):
-    """Bounds on a link whose angles are followed from the ends of the interval; cos_rear is 0 where none is known."""
+    """Bounds on a link whose angles are followed from the ends of the interval, as far as they are known."""
     chord = sizes[k, CHORD]
     blur = blur_of(k, SPIRAL_SWAY / chord, before, after)
     front, rear = link_cosines(k, before)
@@ -135,16 +135,15 @@ def followed_link(k, h, k_high, rate_a, sizes, before, after):
     front = (fabs(front) if fabs(front) > fabs(front_end) else fabs(front_end)) + blur
     rear = (rear if rear < rear_end else rear_end) - blur
     if rear <= 0.0:
-        return Link(front, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        return Link(front, rear, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True, False)
     rate_b = rate_a * (TRIAL * front + h * rate_a * (k_high + 2.0 / chord)) / rear
     omega = (rate_a + rate_b) / chord
     swing_a = k_high * rate_a + omega
     swing_b = k_high * rate_b + omega
     front = min(front + 0.5 * h * swing_a, 1.0)
     rear -= 0.5 * h * swing_b
-    if rear <= 0.0 or rate_a * front > rate_b * rear:
-        rear = 0.0
-    return Link(front, rear, 1.0, LOOSEN * rate_b, 0.0, omega, 0.0, swing_a, swing_b)
+    bounded = not (rear <= 0.0 or rate_a * front > rate_b * rear)
+    return Link(front, rear, 1.0, LOOSEN * rate_b, 0.0, omega, 0.0, swing_a, swing_b, True, bounded)
 
 
 # Input:  the chains at both ends of an interval of width h, each with all handles up to `benches`.
@@ -160,8 +159,8 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
     motion[0, RATE_RATE] = 0.0
     filled = False
-    widened = max(before[benches, THETA], after[benches, THETA])
-    error = ULP * (widened + 1.0) * (66.0 * benches + 16.0 * (widened - after[0, THETA]) + 5.0)
+    outermost = max(before[benches, THETA], after[benches, THETA])
+    error = ULP * (outermost + 1.0) * (66.0 * benches + 16.0 * (outermost - after[0, THETA]) + 5.0)
     widened = 32.0 * ULP * (benches + 8.0) + 2.0 * error
     error *= growth * benches / SMALL
     outwards = (1.0 - widened) / growth
@@ -191,12 +190,12 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
                 k_high = spiral_curvature(inner) * inwards
             followed = True
             link = followed_link(k, h, k_high, rate_a, sizes, before, after)
-            if link.cos_rear <= 0.0:
+            if not link.bounded:
                 return False
         swung = rate_a * link.swing_front + link.rate * link.swing_rear
         second_b = LOOSEN * (link.cos_front * second_a + link.sine * swung) / link.cos_rear
         spin = link.omega * link.omega + (link.cos_front * swung + link.sine * (second_a + second_b)) / chord
-        if link.sine == 1.0:
+        if link.followed:
             spin = link.omega * link.omega + (swung + second_a + second_b) / chord
         pull = 0.5 * (second_a + second_b + k_high * (rate_a * rate_a + link.rate * link.rate))
         bench_bounds(k, rate_a, link.rate, link.omega, spin, pull, sizes, motion)
@@ -265,6 +264,9 @@ def bound_climb(k, h, stretch, cosines, before, after, motion):
     motion[k + 1, CLIMB_ERROR] = climb_error
 
 
+# Input:  as for motion_bounds(), on a table of pieces.
+# State:  rate_low and third_a, bounds on the rate of handle k and on its |s'''|; the rest stands in its motion row.
+# Output: a motion row for every bench and the handle in front of it, see constants.py.
 def route_bounds(pieces, h, benches, sizes, before, after, climbing, motion):
     """motion_bounds() on a route. The chord lemma serves throughout, because no handle reverses where k chord < 2.
 

@@ -112,6 +112,6 @@ class Meetings:
         if exact and rows_gap_within(i, j, margin, self.frames) > margin:
             return
         if self.found < self.pairs.shape[0]:
-            self.pairs[self.found, 0] = a
-            self.pairs[self.found, 1] = b
+            self.pairs[self.found, PAIR_A] = a
+            self.pairs[self.found, PAIR_B] = b
         self.found += 1

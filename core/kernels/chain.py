@@ -14,7 +14,10 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 
 class Curve:
-    """A path. is_spiral: else a route; growth: of the spiral [m/rad], 1 on a route; pieces: the table of a route"""
+    """A path. is_spiral: else a route; pieces: the table of a route
+
+    growth: of the spiral [m/rad], 1 on a route: metres along the path for each unit of LAG, at least
+    """
 
     def __init__(self, is_spiral, growth, pieces):
         self.is_spiral = is_spiral
@@ -60,7 +63,7 @@ def extend_chain(growth, first, last, radius, sizes, chain):
         theta = chain[k, THETA]
         chord = sizes[k, CHORD]
         inverse = 1.0 / chord
-        reach = (chord / growth) * (chord / growth)
+        chord2 = (chord / growth) * (chord / growth)
         if k > first:
             alike = alike + 1 if sizes[k - 1, CHORD] == chord else 0
         if alike > 4:
@@ -71,35 +74,32 @@ def extend_chain(growth, first, last, radius, sizes, chain):
             delta = 3.0 * (theta - chain[k - 1, THETA] - (chain[k - 1, THETA] - chain[k - 2, THETA]))
             delta += chain[k - 2, THETA] - chain[k - 3, THETA]
         else:
-            delta = first_guess(theta, reach)
-        delta, s, c = next_handle(theta, reach, delta)
+            delta = first_guess(theta, chord2)
+        delta, s, c = next_handle(theta, chord2, delta)
         if delta == NO_ROOT:
             return FOLDED
         sine = 2.0 * s * c
-        rise = 2.0 * s * s
-        x = chain[k, COS]
-        y = chain[k, SIN]
-        chain[k + 1, COS] = x - (x * rise + y * sine)
-        chain[k + 1, SIN] = y - (y * rise - x * sine)
-        x = growth * theta * x
-        y = growth * theta * y
+        versine = 2.0 * s * s
+        cos_a = chain[k, COS]
+        sin_a = chain[k, SIN]
+        chain[k + 1, COS] = cos_b = cos_a - (cos_a * versine + sin_a * sine)
+        chain[k + 1, SIN] = sin_b = sin_a - (sin_a * versine - cos_a * sine)
         rest = delta + chain[k, REST]
         rear = theta + rest
-        length = rear - theta
-        chain[k + 1, REST] = (theta - (rear - length)) + (rest - length)
-        chain[k + 1, THETA] = theta = rear
-        length = sqrt(1.0 + theta * theta)
-        slope = 1.0 / length
-        c = chain[k + 1, COS]
-        s = chain[k + 1, SIN]
-        chain[k + 1, TX] = (theta * s - c) * slope
-        chain[k + 1, TY] = -(theta * c + s) * slope
-        c = growth * theta * c
-        s = growth * theta * s
-        chain[k, MX] = 0.5 * (x + c)
-        chain[k, MY] = 0.5 * (y + s)
-        chain[k, UX] = (x - c) * inverse
-        chain[k, UY] = (y - s) * inverse
+        added = rear - theta
+        chain[k + 1, REST] = (theta - (rear - added)) + (rest - added)
+        chain[k + 1, THETA] = rear
+        inverse_length = 1.0 / sqrt(1.0 + rear * rear)
+        chain[k + 1, TX] = (rear * sin_b - cos_b) * inverse_length
+        chain[k + 1, TY] = -(rear * cos_b + sin_b) * inverse_length
+        x = growth * theta * cos_a
+        y = growth * theta * sin_a
+        x_b = growth * rear * cos_b
+        y_b = growth * rear * sin_b
+        chain[k, MX] = 0.5 * (x + x_b)
+        chain[k, MY] = 0.5 * (y + y_b)
+        chain[k, UX] = (x - x_b) * inverse
+        chain[k, UY] = (y - y_b) * inverse
         chain[k + 1, RATE] = (
             chain[k, RATE]
             * (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY])
@@ -146,8 +146,8 @@ def route_trajectory(pieces, s, head_speed, sizes, chain, position, velocity, sp
             start_route(pieces, s[row], chain)
             extend_route(pieces, 0, last, FREE, sizes, chain)
             for k in range(last + 1):
-                position[row, k, 0] = chain[k, PX]
-                position[row, k, 1] = chain[k, PY]
-                velocity[row, k, 0] = head_speed * chain[k, RATE] * chain[k, TX]
-                velocity[row, k, 1] = head_speed * chain[k, RATE] * chain[k, TY]
+                position[row, k, X] = chain[k, PX]
+                position[row, k, Y] = chain[k, PY]
+                velocity[row, k, X] = head_speed * chain[k, RATE] * chain[k, TX]
+                velocity[row, k, Y] = head_speed * chain[k, RATE] * chain[k, TY]
                 speed[row, k] = head_speed * fabs(chain[k, RATE])

@@ -76,9 +76,9 @@ def least_with(scene, i, first, end, best, chain):
         dy = chain[j, MY] - chain[i, MY]
         far = scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + max(best.gap, 0.0)
         if dx * dx + dy * dy <= far * far:
-            far = row_gap_within(scene, i, j, best.gap, chain)
-            if far < best.gap:
-                best = Closest(far, i, j)
+            gap = row_gap_within(scene, i, j, best.gap, chain)
+            if gap < best.gap:
+                best = Closest(gap, i, j)
     return best
 
 

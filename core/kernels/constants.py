@@ -18,17 +18,14 @@ SMALL = 1e-4
 NO_LIMIT = 1e154
 
 # Columns of a chain row, one for each handle. On a spiral the frame has the head at polar angle 0.
-# Columns 0, 1 and 4 say where the handle stands, in the terms of either kind of path. They are the same ones because
-# code for either kind reads them under one name, like PLACE in core/ground/tracks.py; columns of their own gain no time
-# either (first contact takes 0.97 to 0.99 of the time, within the noise; measured 2026-11-23).
-COS = 0  # on a spiral: cos and sin of the polar angle
-SIN = 1
-PX = 0  # on a route: the position [m]
-PY = 1
-TX = 2  # unit tangent in the direction of travel
-TY = 3
+# Columns 0, 1 and 4 say where the handle stands, in the terms of either kind of path; columns of their own gain no time
+# (first contact takes 0.97 to 0.99 of the time, within the noise; measured 2026-11-23).
+COS, SIN = range(2)  # on a spiral: cos and sin of the polar angle
+PX, PY = range(2)  # on a route: the position [m]
+TX, TY = range(2, 4)  # unit tangent in the direction of travel
+LAG = 4  # for code that serves either kind: how far back it stands, THETA or PLACE; falls in the direction of travel
 THETA = 4  # on a spiral: the polar angle [rad]
-PLACE = 4  # on a route: minus the arc length s [m], which falls in the direction of travel as theta does
+PLACE = 4  # on a route: minus the arc length s [m]
 RATE = 5  # d s / d sigma [1]
 # Centre [m] and direction of the bench behind the handle.
 MX, MY, UX, UY = range(6, 10)
@@ -78,12 +75,17 @@ FRAME_COLUMNS = 6
 SEPARATION, WITNESS_AX, WITNESS_AY, WITNESS_BX, WITNESS_BY, NORMAL_X, NORMAL_Y, FEATURE_A, FEATURE_B = range(9)
 SEPARATION_COLUMNS = 9
 
-# Number of half planes of a hull, evenly spaced; number of hulls of a bench; and the columns of their corners [m].
+# Number of half planes of a hull, evenly spaced; number of hulls of a bench.
 DIRECTIONS = 64
 HULLS = 3
 AT_REST = -1  # in place of the number of a hull, or of its first corner: an edge at rest, which has none
-HULL_X = 0
-HULL_Y = 1
+
+# Columns of a point [m] or a vector, and of the two benches of a pair. Rows of samples of an angle.
+X, Y = range(2)
+PAIR_A, PAIR_B = range(2)
+SINE, COSINE = range(2)
+# Rows of the supports of a bench: of its front end and of its middle [m].
+FRONT_END, MIDDLE = range(2)
 
 # Features of a rectangle: its corners, then its edges.
 FRONT_LEFT, FRONT_RIGHT, REAR_RIGHT, REAR_LEFT, FRONT, RIGHT, REAR, LEFT = range(8)
@@ -118,8 +120,7 @@ K_END = 4  # on a crest K_START and K_END are a lower and an upper bound instead
 # Of a line: its point at S_START [m] and its unit direction.
 LINE_X, LINE_Y, LINE_DX, LINE_DY = range(5, 9)
 # Of an arc and of a spiral: its centre [m].
-CENTRE_X = 5
-CENTRE_Y = 6
+CENTRE_X, CENTRE_Y = range(5, 7)
 ARC_RADIUS = 7  # [m]
 ARC_ANGLE = 8  # at S_START [rad]
 SIGN = 9  # 1 for an arc that runs counter-clockwise and a spiral that runs outwards, else -1
@@ -136,9 +137,7 @@ BLEND = 1.0
 LOOSE = 16  # largest distance of the piece from the path, whose tangent is continuous at the joints [m]
 CURVATURE_SLACK = 17  # largest difference between its curvature and that of the path [1/m]
 PIECE_COLUMNS = 18
-LINE = 0
-ARC = 1
-SPIRAL = 2
+LINE, ARC, SPIRAL = range(3)
 CREST = 4
 PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
 

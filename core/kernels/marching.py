@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import fabs
 
-import core.kernels.constants as of_python  # its enums; in compiled code their names alone are those of C
+import core.kernels.constants as of_python  # for results: in compiled code its enums are plain numbers
 from core.kernels.results import Dip
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
@@ -50,7 +50,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # that much beyond the span that it claims.
 #
 # The choice of h only decides how soon a proof succeeds. It is at most twice the last step, and at most 0.95 of the
-# width at which the same bounds would just have proven the pairs of the last interval (`room`). After a refused step
+# width at which the same bounds would just have proven the pairs of the last interval. After a refused step
 # it is this width if that lies between half the step and the step, else half the step.
 #
 # Ends.
@@ -248,8 +248,7 @@ class March(Found):
         if self.at_start and passed(scene, self.leaders, self.opened, self.placed, self.opening, interval.before):
             self.at_start = False
             self.followers = min(self.leaders, scene.room)
-        room = 0.95 * nearest.room
-        self.h = room if room < 2.0 * self.h else 2.0 * self.h
+        self.h = min(0.95 * nearest.width, 2.0 * self.h)
         return Step.ADVANCED
 
     def must_follow(self, scene, interval):
@@ -277,14 +276,14 @@ class March(Found):
 
     def narrow(self, scene, interval, nearest):
         """After a step whose bound does not exceed the margin: look for a contact at its end, or shorten it."""
-        far = self.travel + self.h
+        end = self.travel + self.h
         if row_gap(scene, nearest.first, nearest.second, interval.after) > scene.margin:
-            room = 0.95 * nearest.room
-            self.refuse(0.5 if room < 0.5 * self.h or room >= self.h else room / self.h)
+            width = 0.95 * nearest.width
+            self.refuse(0.5 if width < 0.5 * self.h or width >= self.h else width / self.h)
             if self.h >= self.tolerance:
                 return Step.REFUSED
-            far = self.peek(scene, nearest.first, nearest.second)
-            if far > self.stop:
+            end = self.peek(scene, nearest.first, nearest.second)
+            if end > self.stop:
                 return Step.REFUSED
         self.first = nearest.first
         self.second = nearest.second
@@ -295,7 +294,7 @@ class March(Found):
             self.meet(self.travel + self.h)
             return self.end(Ended.TOUCHED)
         width = CROSSING_WIDTH * self.tolerance
-        self.target = contact_between(scene, self.travel, far, self.first, self.second, width, self.probe.before)
+        self.target = contact_between(scene, self.travel, end, self.first, self.second, width, self.probe.before)
         self.aims = self.target > 0.0  # a contact before travel 0 is bracketed by the step after it
         self.meet(self.target)
         way = self.target - self.tolerance - self.travel

@@ -1,7 +1,7 @@
 """Lower bounds on the separation of any two benches over an interval of head travel, or over a band of pitches too."""
 
 import cython
-from cython.cimports.libc.math import sqrt
+from cython.cimports.libc.math import isnan, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
@@ -13,7 +13,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 
 # Input:  an interval whose chains are laid out, and the number of benches that lead pairs (`active`).
-# State:  the least bound so far with its K and its pair; `room`, the widest interval that the pairs so far would allow.
+# State:  the least bound so far with its K and its pair; `widest`, the widest interval that these pairs would allow.
 # Output: the record Nearest.
 #
 # Each pair that is near enough gets a bound of its own from pair_least(), less the rounding of its gaps: one rough
@@ -25,7 +25,7 @@ def interval_least(scene, interval, active):
     before: cython.double[:, ::1] = interval.before
     motion: cython.double[:, ::1] = interval.motion
     sizes: cython.double[:, ::1] = scene.sizes
-    best = room = FREE
+    best = widest = FREE
     curvature = 0.0
     tried = a = b = 0
     if not interval.bound(False):
@@ -51,21 +51,21 @@ def interval_least(scene, interval, active):
             dy = before[j, MY] - before[i, MY]
             distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
             square = dx * dx + dy * dy
-            width = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
-            if square > width * width or (i == scene.left_out and j == scene.left_out_too):
+            near = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
+            if square > near * near or (i == scene.left_out and j == scene.left_out_too):
                 continue
             tried += 1
             least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
-            if least != least:  # NaN is no bound
+            if isnan(least):
                 return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
-            width = 8.0 * (least - scene.margin) / k + interval.h * interval.h
-            room = min(room, sqrt(width) if width > 0.0 else 0.0)
+            width2 = 8.0 * (least - scene.margin) / k + interval.h * interval.h
+            widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
             if least < best:
                 best = least
                 curvature = k
                 a = i
                 b = j
-    return Nearest(best, curvature, a, b, room, rounding.point, tried)
+    return Nearest(best, curvature, a, b, widest, rounding.point, tried)
 
 
 def interval_rounding(scene, interval):
@@ -75,11 +75,11 @@ def interval_rounding(scene, interval):
         end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
         error = max(error, end)
         gap = any_rounding(error, interval.handles, interval.h, scene.margin, scene.rings)
-        if gap > 0.0:
+        if gap < FREE:
             return Rounding(error, gap)
     interval.round()
     error = max(interval.before[interval.handles - 1, ERROR], interval.after[interval.handles - 1, ERROR])
-    return Rounding(error, 0.0)
+    return Rounding(error, FREE)
 
 
 def innermost(scene, interval, k, rate):
@@ -107,13 +107,13 @@ def stays_beyond(scene, interval, leaders, error):
     if not scene.curve.is_spiral:
         return coil_stays_beyond(scene, interval, leaders, error)
     growth = scene.curve.growth
-    high = growth * max(interval.before[leaders, THETA], interval.after[leaders, THETA])
-    high += drift(interval.motion[leaders - 1, HANDLE_SPEED], interval.h, growth, high) + error
-    low = growth * min(interval.before[0, THETA], interval.after[0, THETA])
-    high = leaders_reach(growth, low, high, scene.rings)
-    low = growth * min(interval.before[interval.handles, THETA], interval.after[interval.handles, THETA]) - error
-    low -= drift(interval.motion[interval.handles - 1, HANDLE_SPEED], interval.h, growth, low)
-    return low >= radius_beyond(growth, high + scene.margin, scene.rings)
+    rear = growth * max(interval.before[leaders, THETA], interval.after[leaders, THETA])
+    rear += drift(interval.motion[leaders - 1, HANDLE_SPEED], interval.h, growth, rear) + error
+    head = growth * min(interval.before[0, THETA], interval.after[0, THETA])
+    reach = leaders_reach(growth, head, rear, scene.rings)
+    last = growth * min(interval.before[interval.handles, THETA], interval.after[interval.handles, THETA]) - error
+    last -= drift(interval.motion[interval.handles - 1, HANDLE_SPEED], interval.h, growth, last)
+    return last >= radius_beyond(growth, reach + scene.margin, scene.rings)
 
 
 def coil_stays_beyond(scene, interval, leaders, error):
@@ -148,18 +148,21 @@ def band_rounding(scene, band):
         error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.after))
         error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.before))
         gap = any_rounding(error, handles, max(band.low.h, band.high.h), scene.margin, scene.rings)
-        if gap > 0.0:
+        if gap < FREE:
             return Rounding(error, gap)
     band.low.round()
     band.high.round()
     error = max(band.low.before[handles - 1, ERROR], band.low.after[handles - 1, ERROR])
     error = max(error, max(band.high.before[handles - 1, ERROR], band.high.after[handles - 1, ERROR]))
-    return Rounding(error, 0.0)
+    return Rounding(error, FREE)
 
 
+# Input:  a band whose four chains are laid out, with bounds on the motion and on the shift, and the number of benches
+#         that lead pairs (`leaders`).
+# State and output: as for interval_least().
 def band_least(scene, band, leaders):
     """interval_least() over a band, of pairs led by the first `leaders` benches."""
-    best = room = FREE
+    best = widest = FREE
     curvature = 0.0
     tried = a = b = 0
     growth = scene.curve.growth
@@ -181,23 +184,20 @@ def band_least(scene, band, leaders):
             dy = band.low.after[j, MY] - band.low.after[i, MY]
             distance = sqrt(dx * dx + dy * dy)
             slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
-            slack += (
-                (band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE])
-                * (growth_high - growth)
-                * (1.0 + BAND_ROUNDING)
-            )
+            shifted = band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE]
+            slack += shifted * (growth_high - growth) * (1.0 + BAND_ROUNDING)
             slack += 16.0 * error
             if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
                 continue  # far apart
             tried += 1
             least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
-            if least != least:
+            if isnan(least):
                 return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
             if least < best:
                 best = least
                 curvature = k
                 a = i
                 b = j
-            width = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
-            room = min(room, sqrt(width) if width > 0.0 else 0.0)
-    return Nearest(best, curvature, a, b, room, error, tried)
+            width2 = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
+            widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
+    return Nearest(best, curvature, a, b, widest, error, tried)

@@ -65,11 +65,10 @@ def corner_most(interval, i, j, curvature):
         width = sizes[j, HALF_WIDTH] if corner % 2 == 0 else -sizes[j, HALF_WIDTH]
         p, q = corner_in(i, j, length, width, before)
         p_end, q_end = corner_in(i, j, length, width, after)
-        p = max(fabs(p), fabs(p_end)) + 0.125 * curvature * h * h - sizes[i, HALF_LENGTH]
-        q = max(fabs(q), fabs(q_end)) + 0.125 * curvature * h * h - sizes[i, HALF_WIDTH]
-        p_end = max(p, 0.0)
-        q_end = max(q, 0.0)
-        best = min(best, max(p, q) if p <= 0.0 and q <= 0.0 else sqrt(p_end * p_end + q_end * q_end))
+        along = max(fabs(p), fabs(p_end)) + 0.125 * curvature * h * h - sizes[i, HALF_LENGTH]
+        aside = max(fabs(q), fabs(q_end)) + 0.125 * curvature * h * h - sizes[i, HALF_WIDTH]
+        excess2 = max(along, 0.0) * max(along, 0.0) + max(aside, 0.0) * max(aside, 0.0)
+        best = min(best, max(along, aside) if along <= 0.0 and aside <= 0.0 else sqrt(excess2))
     return best
 
 
@@ -118,9 +117,9 @@ def pair_rounding(i, j, distance, sizes, before, after):
 
 
 def any_rounding(error, handles, h, margin, rings):
-    """Upper bound of pair_rounding() for all pairs not far apart, from spiral_error() [m]; 0: no bound is known."""
+    """Upper bound of pair_rounding() for all pairs not far apart, from spiral_error() [m]; FREE: none is known."""
     if handles * error > SMALL * rings.all_shortest:
-        return 0.0
+        return FREE
     return 4.0 * error + (4.0 * error / rings.all_shortest + 60.0 * ULP) * (
         4.0 * rings.all_radius + fabs(margin) + 4.0 * h
     )
@@ -135,6 +134,9 @@ def axis_least(scene, interval, i, j, after_decides, curvature):
     return least_between(gap, gap_along(i, j, along, left, scene.sizes, interval.after), curvature, interval.h)
 
 
+# Input:  an interval with bounds on its motion, two of its rows, and a gap that is enough.
+# State:  `best`, the largest bound of the axes tried so far.
+# Output: this bound, and K of the last axis; for a band the same in band_pair().
 def pair_least(scene, interval, i, j, enough, distance):
     """Lower bound of the separation of benches i and j over the interval, without rounding [m].
 
@@ -173,12 +175,12 @@ def corner_axis(scene, i, j, chain):
 
 
 def proven_gap(scene, interval, i, j, distance, rounding):
-    """pair_least() less its rounding [m]. rounding: a bound for any gap, or 0 if this pair needs its own [m]"""
+    """pair_least() less its rounding [m]. rounding: a bound for any gap, or FREE if this pair needs its own [m]"""
     allowance = rounding
-    if rounding <= 0.0:
+    if rounding >= FREE:
         allowance = pair_rounding(i, j, distance, scene.sizes, interval.before, interval.after)
     least, curvature = pair_least(scene, interval, i, j, scene.margin + allowance, distance)
-    if rounding > 0.0:
+    if rounding < FREE:
         if not (scene.margin < least <= scene.margin + rounding):
             return least - rounding, curvature
         interval.round()
@@ -239,9 +241,9 @@ def band_pair_rounding(scene, band, i, j, distance):
 
 def proven_band_gap(scene, band, i, j, distance, rounding):
     """proven_gap() over a band."""
-    allowance = rounding if rounding > 0.0 else band_pair_rounding(scene, band, i, j, distance)
+    allowance = rounding if rounding < FREE else band_pair_rounding(scene, band, i, j, distance)
     least, curvature = band_pair(scene, band, i, j, scene.margin + allowance, distance)
-    if rounding > 0.0:
+    if rounding < FREE:
         if not (scene.margin < least <= scene.margin + rounding):
             return least - rounding, curvature
         band.low.round()

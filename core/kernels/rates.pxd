@@ -1,9 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport spiral_curvature, spiral_theta
+from core.kernels.spiral cimport spiral_curvature
 from core.kernels.stretches cimport blur_of, steepest_curvature
-from core.kernels.route cimport extend_route, first_place, start_route
-from core.kernels.chain cimport Curve, extend, extend_chain, start_chain
+from core.kernels.route cimport extend_route
+from core.kernels.chain cimport Curve, extend, extend_chain, start
 from core.kernels.bounds cimport LOOSEN, SPIRAL_SWAY, followed_error, link_cosines
 from core.kernels.rings cimport drift
 from core.kernels.scene cimport Interval, Scene

@@ -5,11 +5,11 @@ from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import LOOSEN, SPIRAL_SWAY, followed_error, link_cosines
-    from core.kernels.chain import extend, extend_chain, start_chain
+    from core.kernels.chain import extend, extend_chain, start
     from core.kernels.constants import *
     from core.kernels.rings import drift
-    from core.kernels.route import extend_route, first_place, start_route
-    from core.kernels.spiral import spiral_curvature, spiral_theta
+    from core.kernels.route import extend_route
+    from core.kernels.spiral import spiral_curvature
     from core.kernels.stretches import blur_of, steepest_curvature
 
 
@@ -25,14 +25,12 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 def lively_chain(curve, place, last, calm, sizes, chain):
     """Fill in a chain up to the first calm handle, or the last; returns that handle's number, FOLDED at a fold.
 
-    place: of the head; calm: on a spiral the radius from which handles are calm [m]; on a route > 0 if its first piece
-    is calm
+    place: of the head [m]; calm: LAG from which backwards handles are calm, FREE if none are
     """
+    start(curve, place, chain)
     if curve.is_spiral:
-        start_chain(spiral_theta(place / curve.growth), chain)
-        return extend_chain(curve.growth, 0, last, 2.0 * calm, sizes, chain)
-    start_route(curve.pieces, -place, chain)
-    return extend_route(curve.pieces, 0, last, first_place(curve.pieces) if calm > 0.0 else FREE, sizes, chain)
+        return extend_chain(curve.growth, 0, last, 2.0 * (curve.growth * calm), sizes, chain)
+    return extend_route(curve.pieces, 0, last, calm, sizes, chain)
 
 
 def fastest(benches, chain):
@@ -86,6 +84,9 @@ def climbs(curve, last, sizes, chain):
 # 60 roundings for each link, and LOOSEN twice makes up for these.
 
 
+# Input:  a bounded interval of a spiral, from motion_bounds().
+# State:  `jerk`, the bound on |s'''| of handle k.
+# Output: RATE_JERK of the handles.
 def spiral_jerks(growth, interval):
     """Fill in bounds on |s'''| of the handles of a spiral over an interval [1/m^2]; FREE where a link may fold."""
     before: cython.double[:, ::1] = interval.before
@@ -147,6 +148,9 @@ def smooth_bound(start, start_slope, end, end_slope, jerk, h, kink):
 BOUND_ROUNDING = 1e-14  # [1]
 
 
+# Input:  the chains at both ends of an interval, with climbs().
+# State:  `error` and `climb`, e and d above, of handle k.
+# Output: RATE_ERROR and CLIMB_ERROR of the handles.
 def spiral_errors(growth, handles, sizes, before, after, motion):
     """Fill in RATE_ERROR and CLIMB_ERROR of the handles of a spiral; FREE where no bound is known."""
     error = climb = 0.0
@@ -193,7 +197,7 @@ def rate_bound(scene, interval, calm):
         if handles < scene.benches:
             inner = scene.curve.growth * min(interval.before[handles, THETA], interval.after[handles, THETA])
             rate = interval.motion[handles - 1, HANDLE_SPEED]
-            if inner - drift(rate, interval.h, scene.curve.growth, inner) < calm:
+            if inner - drift(rate, interval.h, scene.curve.growth, inner) < scene.curve.growth * calm:
                 return FREE
         if interval.motion[handles, RATE_LOW] > 0.0:
             return upper

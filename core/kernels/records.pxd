@@ -8,6 +8,7 @@ cdef struct Seen:
 
 cdef struct Link:
     double cos_front, cos_rear, sine, rate, rate_low, omega, omega_low, swing_front, swing_rear
+    bint followed, bounded
 
 cdef struct Stretch:
     double chord, low, high, slope, widened, sine, blur
@@ -28,7 +29,7 @@ cdef struct Laid:
 cdef struct Nearest:
     double least, gap_curvature
     Py_ssize_t first, second
-    double room, error
+    double width, error
     Py_ssize_t tried
 
 cdef struct Rounding:

@@ -42,13 +42,15 @@ class Link(NamedTuple):
     omega_low: float  # lower bound of that [1/m]
     swing_front: float  # upper bound of |alpha'| at its front handle [1/m]
     swing_rear: float  # upper bound of |alpha'| at its rear handle [1/m]
+    followed: bool  # whether its angles were followed, where the chord lemma does not serve
+    bounded: bool  # whether these bounds are known
 
 
 class Stretch(NamedTuple):
     """The stretch of a route that a bench sweeps over an interval."""
 
     chord: float  # of the bench [m]
-    low: float  # range of its curvature, positive in the sense in which it curvatures [1/m]
+    low: float  # range of its curvature, positive in the sense in which it bends [1/m]
     high: float
     slope: float  # bound on |d curvature / d s| [1/m^2]
     widened: float  # error of the curvature, which the range includes [1/m]
@@ -94,7 +96,7 @@ class Nearest(NamedTuple):
     gap_curvature: float  # K of the pair with that bound [1/m]
     first: int  # that pair
     second: int
-    room: float  # the widest interval for which the same pairs would have been proven [m]
+    width: float  # the widest interval for which the same pairs would have been proven [m]
     error: float  # largest error of points [m]
     tried: int  # number of pairs that were near enough to be tried
 
@@ -103,7 +105,7 @@ class Rounding(NamedTuple):
     """Largest errors of points and gaps over an interval."""
 
     point: float  # [m]
-    gap: float  # of any pair that is not far apart [m]; 0 where each pair needs a bound of its own
+    gap: float  # of any pair that is not far apart [m]; FREE where each pair needs a bound of its own
 
 
 class Curvatures(NamedTuple):

@@ -64,15 +64,9 @@ def seen_from(a, b):
     dx = b.x - a.x
     dy = b.y - a.y
     return Seen(
-        dx * a.ux + dy * a.uy,
-        dy * a.ux - dx * a.uy,
-        a.ux * b.ux + a.uy * b.uy,
-        a.ux * b.uy - a.uy * b.ux,
-        a.half_length,
-        a.half_width,
-        b.half_length,
-        b.half_width,
-    )
+        dx * a.ux + dy * a.uy, dy * a.ux - dx * a.uy, a.ux * b.ux + a.uy * b.uy, a.ux * b.uy - a.uy * b.ux,
+        a.half_length, a.half_width, b.half_length, b.half_width,
+    )  # fmt: skip
 
 
 def face_gap(seen):
@@ -146,6 +140,9 @@ def pair_separation(a, b, out):
 # hl') is equally deep, and the witness is the middle of the part that it shares with the face.
 
 
+# Input:  rectangle a, and b as a sees it.
+# State:  the chosen face of a: e, half of its depth h and width w; q, ue and uf as above; t, the place along the face.
+# Output: `out`, if these are the witnesses.
 def edge_witness(a, seen, out):
     """Fill out for the face of a with the largest gap; False if the rectangles are apart and corners are nearest."""
     gap = fabs(seen.along) - seen.hl - (fabs(seen.c) * seen.other_hl + fabs(seen.s) * seen.other_hw)
@@ -170,22 +167,19 @@ def edge_witness(a, seen, out):
         h = seen.hw
         w = seen.hl
         edge = LEFT if side > 0.0 else RIGHT
-    half = -1.0
-    if fabs(uf) <= PARALLEL_SINE:
-        half = seen.other_hw
-        other_feature = REAR if ue > 0.0 else FRONT
-    elif fabs(ue) <= PARALLEL_SINE:
+    if fabs(uf) <= PARALLEL_SINE or fabs(ue) <= PARALLEL_SINE:
         half = seen.other_hl
         other_feature = LEFT if uf > 0.0 else RIGHT
-    else:
-        other_feature = corner_at(-ue, uf)
-    if half >= 0.0:
+        if fabs(uf) <= PARALLEL_SINE:
+            half = seen.other_hw
+            other_feature = REAR if ue > 0.0 else FRONT
         low = q - half if q - half > -w else -w
         high = q + half if q + half < w else w
         if gap > 0.0 and low > high:
             return False
         t = 0.5 * (low + high)
     else:
+        other_feature = corner_at(-ue, uf)
         t = q - side_of(ue) * uf * seen.other_hl + side_of(uf) * ue * seen.other_hw
         if fabs(t) > w:
             if gap > 0.0:
@@ -203,17 +197,20 @@ def edge_witness(a, seen, out):
     return True
 
 
+# Input:  as for edge_witness().
+# State:  the nearest corner (px, py) of b so far, in the frame of a, and its squared distance `least`; afterwards the
+#         point of a that is nearest to it.
+# Output: `out`.
 def corner_witness(a, seen, out):
     """Fill out for the corner of the other that is nearest to a."""
-    px = py = 0.0
-    least = -1.0
+    px = py = least = 0.0
     for k in range(4):
         l_side = seen.other_hl if k < REAR_RIGHT else -seen.other_hl
         w_side = seen.other_hw if k == FRONT_LEFT or k == REAR_LEFT else -seen.other_hw
         cx = seen.along + seen.c * l_side - seen.s * w_side
         cy = seen.left + seen.s * l_side + seen.c * w_side
         squared = point_gap_squared(cx, cy, seen.hl, seen.hw)
-        if least < 0.0 or squared < least:
+        if k == 0 or squared < least:
             least = squared
             px = cx
             py = cy
@@ -253,13 +250,9 @@ def corner_witness(a, seen, out):
 def framed(frames, i):
     """The rectangle in row i of frames, whose columns are FRAME_X to FRAME_HALF_WIDTH."""
     return Rectangle(
-        frames[i, FRAME_X],
-        frames[i, FRAME_Y],
-        frames[i, FRAME_UX],
-        frames[i, FRAME_UY],
-        frames[i, FRAME_HALF_LENGTH],
-        frames[i, FRAME_HALF_WIDTH],
-    )
+        frames[i, FRAME_X], frames[i, FRAME_Y], frames[i, FRAME_UX], frames[i, FRAME_UY],
+        frames[i, FRAME_HALF_LENGTH], frames[i, FRAME_HALF_WIDTH],
+    )  # fmt: skip
 
 
 def rows_gap_within(i, j, limit, frames):

@@ -12,7 +12,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.route import extend_route, stands_first, start_route
     from core.kernels.spiral import spiral_curvature, spiral_theta
 
-# A handle counts as having passed a place once it is this far beyond it, relative to 1 + |theta| or 1 + |s| [1], and
+# A handle counts as having passed a place once it is this far beyond it, relative to 1 + |LAG| [1], and
 # further than the errors of both. On a spiral where no handle is followed this is more than SLIP: that is at most
 # u (32 n c + 16 r (theta - theta_0) + 2 r n) (spiral_error()), with n c <= r theta, an angle below
 # u (48 theta + 2 n), n < 1e6.
@@ -98,17 +98,17 @@ def route_between(scene, place, leaders, allowance, chain):
 def passed(scene, first, last, placed, opening, chain):
     """Whether every handle from `first` to `last` has passed where its predecessor began, by more than rounding.
 
-    The theta of a handle that is SLIP along a spiral from its true place is off by at most SLIP / growth.
+    The LAG of a handle that is SLIP along its path from its true place is off by at most SLIP / growth.
     """
     for i in range(first, last + 1):
-        if i > placed or chain[i, THETA] + PASSED_BY * (1.0 + fabs(chain[i, THETA])) > opening[i - 1, THETA]:
+        if i > placed or chain[i, LAG] + PASSED_BY * (1.0 + fabs(chain[i, LAG])) > opening[i - 1, LAG]:
             return False
     chain_rounding(scene.curve, last, scene.sizes, opening)
     if first <= last:
         chain_rounding(scene.curve, last, scene.sizes, chain)
     for i in range(first, last + 1):
         slip = (chain[i, SLIP] + opening[i - 1, SLIP]) / scene.curve.growth
-        if chain[i, THETA] + slip > opening[i - 1, THETA]:
+        if chain[i, LAG] + slip > opening[i - 1, LAG]:
             return False
     return True
 

@@ -167,7 +167,7 @@ DISCERNED = 1e-3
 
 # Input:  the extremes of the benches (Rings), a range of growths, and the radius of the inner bench's front handle.
 # State:  `gap`, the bound for benches a turn or more apart, the lesser of its values at both growths; `same_turn`, the
-#         bound for benches with another one between them.
+#         bound for benches with another one between them, from their least angle and the largest, of the whole dragon.
 # Output: the lesser of the two, or NO_BOUND.
 def ring_least(growth_low, growth, radius, rings, total=1e150):
     """Lower bound of the separation of two non-neighbours, the inner one's front handle at `radius` or further out [m].
@@ -201,16 +201,15 @@ def ring_least(growth_low, growth, radius, rings, total=1e150):
         at = growth
     gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
     x_rear = 0.5 * chord + 1.67 * growth
-    same_turn = radius + PI * growth * chord / radius
-    same_turn = rings.between_shortest * rho / sqrt(growth * growth + same_turn * same_turn)
-    spread = 2.0 * (overhang + x_rear * half_width / d) / rho
-    same_turn = same_turn / rho - spread
-    if same_turn <= 0.0:
+    rear = radius + PI * growth * chord / radius
+    overhangs = 2.0 * (overhang + x_rear * half_width / d) / rho
+    least = rings.between_shortest * rho / sqrt(growth * growth + rear * rear) / rho - overhangs
+    if least <= 0.0:
         return NO_BOUND
-    same_turn = 2.0 * rho * sin(0.5 * same_turn) if same_turn < PI else 2.0 * rho
-    spread += total * asin(0.5 * chord / radius) / (0.5 * chord)
-    if spread < TWO_PI:
-        gap = max(gap, 2.0 * rho * sin(0.5 * spread) if spread > PI else 2.0 * rho)
+    same_turn = 2.0 * rho * sin(0.5 * least) if least < PI else 2.0 * rho
+    whole = overhangs + total * asin(0.5 * chord / radius) / (0.5 * chord)
+    if whole < TWO_PI:
+        gap = max(gap, 2.0 * rho * sin(0.5 * whole) if whole > PI else 2.0 * rho)
     if gap <= 0.0:
         return NO_BOUND
     return gap if gap < same_turn else same_turn

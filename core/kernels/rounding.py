@@ -54,9 +54,9 @@ def slipped(slip, ratio, slope, local, spots, inverse):
     ratio: of their rates; slope: 1 / cos alpha_b; local: error that the link itself adds [m]; spots: sum of E - SLIP of
     both [m]; inverse: of the chord [1/m]
     """
-    slip = slip * max(1.0, fabs(ratio)) + local
-    ratio = ((64.0 * slip + 3.0 * spots) * inverse + 24.0 * ULP) * slope
-    return slip + slip * ratio if 0.0 < ratio < 0.5 else FREE
+    passed_on = slip * max(1.0, fabs(ratio)) + local
+    more = ((64.0 * passed_on + 3.0 * spots) * inverse + 24.0 * ULP) * slope
+    return passed_on + passed_on * more if 0.0 < more < 0.5 else FREE
 
 
 def swayed(k, chain, ratio, local, spread, inverse):
@@ -89,10 +89,10 @@ def spiral_rounding(growth, last, sizes, chain):
         ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
         turned = ULP * (k + 5.0 + 12.0 * (theta - chain[0, THETA]))
         local = ULP * (7.0 * chord * slope + growth * sqrt(1.0 + theta * theta) * (2.5 * delta + 0.05))
-        theta *= growth
-        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * theta * turned, inverse)
-        chain[k, ERROR] = chain[k + 1, SLIP] + theta * turned
-        chain[k, SWAY] = turned + swayed(k, chain, ratio, local, theta * ULP * (7.0 + 12.0 * delta), inverse)
+        radius = growth * theta
+        chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, 2.0 * radius * turned, inverse)
+        chain[k, ERROR] = chain[k + 1, SLIP] + radius * turned
+        chain[k, SWAY] = turned + swayed(k, chain, ratio, local, radius * ULP * (7.0 + 12.0 * delta), inverse)
     chain[0, FILLED] = max(first, last)
 
 
@@ -156,11 +156,8 @@ def spot_error(pieces, p, s, theta, x, y):
     elif kind == ARC:
         error += 5.0 * pieces[p, ARC_RADIUS]
     elif kind == SPIRAL:
-        error += (
-            pieces[p, COIL_GROWTH]
-            * theta
-            * (6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION]))
-        )
+        turned = 6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION])
+        error += pieces[p, COIL_GROWTH] * theta * turned
     else:
         error += 12.0 * cubic_size(pieces, p)
     if s < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:
@@ -188,6 +185,9 @@ def piece_end(pieces, p, s):
     return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, T_END])
 
 
+# Input:  a table of pieces.
+# State:  the gaps at the joint before piece p, widened by the rounding of both pieces there.
+# Output: a row of MISS_COLUMNS for every piece but the first.
 def joint_misses(pieces, out):
     """Fill in upper bounds of the gap between every piece and the one before it: across and along the path [m], in
     direction [rad], in curvature [1/m]. out: (rows, MISS_COLUMNS), of which the first row stays as it is
@@ -210,10 +210,10 @@ def joint_misses(pieces, out):
             if pieces[q, PIECE_KIND] == SPIRAL and pieces[q, COIL_ROTATION] != 0.0:
                 kink += ULP * fabs(theta + pieces[q, COIL_ROTATION])
             if pieces[q, PIECE_KIND] > SPIRAL:
-                theta = cubic_size(pieces, q)
-                curvature = theta / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
-                kink += 15.0 * ULP * curvature
-                step += 72.0 * ULP * curvature * curvature / theta
+                size = cubic_size(pieces, q)
+                ratio = size / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
+                kink += 15.0 * ULP * ratio
+                step += 72.0 * ULP * ratio * ratio / size
         out[p, MISS_ACROSS] = across
         out[p, MISS_ALONG] = along
         out[p, MISS_KINK] = kink
@@ -239,8 +239,8 @@ def route_rounding(pieces, last, sizes, chain):
         slope = 1.0 / (chain[k + 1, TX] * chain[k, UX] + chain[k + 1, TY] * chain[k, UY])
         ratio = (chain[k, TX] * chain[k, UX] + chain[k, TY] * chain[k, UY]) * slope
         # u is the difference of the points over the chord; | |u| - 1 | <= 0.6 | |u|^2 - 1 | unless the link is far off
-        local = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
-        local = (chord * (0.6 * fabs(local - 1.0) + 8.0 * ULP) + spots) * slope
+        u2 = chain[k, UX] * chain[k, UX] + chain[k, UY] * chain[k, UY]
+        local = (chord * (0.6 * fabs(u2 - 1.0) + 8.0 * ULP) + spots) * slope
         chain[k + 1, SLIP] = slipped(chain[k, SLIP], ratio, slope, local, spots, inverse)
         chain[k, ERROR] = chain[k + 1, SLIP] + spots
         if k > 0:

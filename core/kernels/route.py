@@ -61,13 +61,9 @@ def route_point(pieces, p, s):
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
     u = s - pieces[p, S_START]
     if kind == LINE:
-        return (
-            pieces[p, LINE_X] + u * pieces[p, LINE_DX],
-            pieces[p, LINE_Y] + u * pieces[p, LINE_DY],
-            pieces[p, LINE_DX],
-            pieces[p, LINE_DY],
-            0.0,
-        )
+        dx = pieces[p, LINE_DX]
+        dy = pieces[p, LINE_DY]
+        return pieces[p, LINE_X] + u * dx, pieces[p, LINE_Y] + u * dy, dx, dy, 0.0
     if kind == ARC:
         a = pieces[p, ARC_ANGLE] + pieces[p, SIGN] * u / pieces[p, ARC_RADIUS]
         c = cos(a)
@@ -231,6 +227,9 @@ def put_handle(k, point, chain):
     chain[k, PX], chain[k, PY], chain[k, TX], chain[k, TY], chain[k, CURVATURE] = point
 
 
+# Input:  a chain up to handle k, and a first guess of the step along the path to the next one.
+# State:  `step`, and the bracket [low, high] of it.
+# Output: where handle k + 1 stands, in its row.
 def seek_rear(pieces, k, p, step, chord, chain):
     """Place handle k + 1 by Newton's method with bisections, starting a step along the path behind handle k [m].
 
@@ -252,10 +251,8 @@ def seek_rear(pieces, k, p, step, chord, chain):
             low = step
         else:
             high = step
-        if (
-            fabs(distance - chord) <= 4e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY]))
-            or high - low <= 1e-15 * chord
-        ):
+        close = 4e-16 * (chord + fabs(chain[k, PX]) + fabs(chain[k, PY]))
+        if fabs(distance - chord) <= close or high - low <= 1e-15 * chord:
             break
         step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
     chain[k + 1, PLACE] = step - s

@@ -78,7 +78,7 @@ def way_out(pieces, alike, sizes, chain):
 class Peak:
     """The largest |rate| of any handle over a run, with a proven upper bound.
 
-    interval: of a scene with room for all benches; spare: rows for one more chain; calm: as in lively_chain()
+    interval: of a scene with room for all benches; spare: rows for one more chain; calm: see lively_chain()
     alike: the first of the benches that have the same chord up to the last
     start, stop: the run [m of head travel]; rounding: largest error of a travel [m], by which the proven way begins
         before `start` and ends after `stop`

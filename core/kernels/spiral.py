@@ -240,17 +240,17 @@ def write_handles(block, row, k, position, velocity, speed):
         vy[lane] = block.rate[lane] * (block.y[lane] + block.theta[lane] * block.x[lane])
         pace[lane] = fabs(block.rate[lane]) * sqrt(1.0 + block.theta[lane] * block.theta[lane])
     for lane in range(block.standing):
-        position[row + lane, k, 0] = px[lane]
-        position[row + lane, k, 1] = py[lane]
-        velocity[row + lane, k, 0] = vx[lane]
-        velocity[row + lane, k, 1] = vy[lane]
+        position[row + lane, k, X] = px[lane]
+        position[row + lane, k, Y] = py[lane]
+        velocity[row + lane, k, X] = vx[lane]
+        velocity[row + lane, k, Y] = vy[lane]
         speed[row + lane, k] = pace[lane]
 
 
+# Input:  a growth, the angle of the head at every instant, the chords, and the speed of the head.
 # State:  `row`, the first instant of the block; `block`, the state of its lanes at handle k; `alike`, the number of
 #         equal chords up to this one, whose deltas predict the next one.
-
-
+# Output: a row of each table for every instant before a fold, and their number.
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, budget):
     """Fill in position, velocity and speed of every handle for every head angle; returns how many rows precede a fold.
 

@@ -149,7 +149,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
 
 
 def _calm(search: Search) -> float:
-    """Argument of kernels.Peak that excludes handles which are no faster than those before them."""
+    """Lag from which backwards handles are no faster than those before them, and are left out."""
     return search.path.calm(2.0 * kernels.SINE_LIMIT / search.rings.all_chord)
 
 
@@ -242,8 +242,8 @@ def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) 
 
     def faster(time: float) -> int | None:
         """A handle that is certainly faster than the limit at an instant."""
-        place = stretch.place(time)
-        outcome, excess = _excess(search, place, place, stretch.speed, ratio)
+        travel = stretch.travel(time)
+        outcome, excess = _excess(search, travel, travel, stretch.speed, ratio)
         return excess.handle if outcome is Judged.EXCEEDED else None
 
     until = stretch.end

@@ -100,7 +100,7 @@ class Trajectory(Shown):
     def _ahead(self, time: float, velocity: Floats) -> Floats:
         """The head's direction of travel (2,); during a pause that of the path."""
         if self.dance is not None and not velocity.any():
-            return self.dance.path.tangent(self.dance.clock.place(time))
+            return self.dance.path.tangent(self.dance.clock.travel(time))
         ahead: Floats = velocity / np.hypot(*velocity)
         return ahead
 

@@ -1,4 +1,4 @@
-"""A dragon on a route: the bends that every bench can follow, and the head's place when the whole dragon has room."""
+"""A dragon on a route: the bends that every bench can follow, and the head's travel when the whole dragon has room."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.paths.path import Path
 from core.paths.route import Route
 from core.sampling import bisected
 
-# Width of the bracket around the earliest place of the head: absolute [m], and relative to that place [1].
+# Width of the bracket around the earliest travel of the head: absolute [m], and relative to it [1].
 ROOM_WIDTH = 1e-9
 
 
@@ -44,19 +44,19 @@ def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     raise InvalidValue("path", f"{rule}, got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m")
 
 
-def earliest_place(dragon: Dragon, path: Path, tail_begin: float) -> float:
-    """Place of the head when the last handle is at the beginning of the path [m].
+def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
+    """Travel of the head when the last handle is at the beginning of the path [m].
 
     A chord spans between 1 and pi / 2 times its own length of the path. These bounds, and the end of the path, give the
-    interval for a bisection of the place of the head.
+    interval for a bisection of the travel of the head.
     """
     sizes = np.zeros((dragon.benches, kernels.SIZE_COLUMNS))
     sizes[:, kernels.CHORD] = dragon.chords
     chain = np.empty((dragon.benches + 1, kernels.CHAIN_COLUMNS))
 
     def has_room(s: float) -> bool:
-        path.follow(-min(s, path.end), dragon.benches, sizes, chain)
-        return bool(-chain[dragon.benches, kernels.PLACE] >= tail_begin)
+        path.follow(float(path.lags(np.array([min(s, path.end)]), 0.0)[0]), dragon.benches, sizes, chain)
+        return float(path.along(chain[dragon.benches, kernels.LAG])) >= tail_begin
 
     low, straight = tail_begin, float(dragon.chords.sum())
     high = low + 0.5 * math.pi * straight

@@ -32,7 +32,9 @@ class Path(Protocol):
     limit: largest s of the head in a search [m], infinity if a search may pass the end a little
     growth: radial advance [m/rad], 1 on a route
     curve, place: the path in the form of the kernels, and their place for s = 0 [m]: the arc length from the centre of
-        a spiral, 0 on a route
+        a spiral, 0 on a route. A place falls in the direction of travel, by 1 m for each metre
+    A lag says how far back a handle stands, as its column LAG in a chain: the polar angle on a spiral in its own frame
+        [rad], minus s on a route [m]
     slide: largest distance of a point from its s along the path, in addition to the rounding of s [m]
     block: number of places of the head for which handles() is quick, and multiples of it
     frame: the own frame, in which everything is computed; standard: the path in that frame
@@ -89,26 +91,26 @@ class Path(Protocol):
         budget: ends it before it is done; the caller looks at it afterwards
         """
 
-    def places(self, s: Floats, last: float) -> Floats:
-        """Column PLACE of the head's row in a chain, at arc lengths s (T,) [m]; last: as for handles()."""
+    def lags(self, s: Floats, last: float) -> Floats:
+        """Column LAG of the head's row in a chain, at arc lengths s (T,) [m]; last: as for handles()."""
 
-    def follow(self, place: float, last: int, sizes: Floats, chain: Floats) -> None:
-        """Fill in a chain up to handle `last`, with the head at a place as from places()."""
+    def follow(self, lag: float, last: int, sizes: Floats, chain: Floats) -> None:
+        """Fill in a chain up to handle `last`, with the head at a lag."""
 
-    def along(self, places: Floats) -> Floats:
-        """Arc lengths [m] of handles from their column PLACE (...)."""
+    def along(self, lags: Floats) -> Floats:
+        """Arc lengths [m] of lags (...)."""
 
     def piece_at(self, row: Floats) -> int:
         """Number of the piece of a handle, from its row of a chain."""
 
     def calm(self, curvature: float) -> float:
-        """Part of the path where handles are no faster than their leaders, in the form of kernels.Peak.
+        """Lag from which backwards handles are no faster than their leaders; FREE if there is none.
 
         curvature: largest curvature at which handles follow without moving backwards [1/m]
         """
 
-    def gentle_theta(self, curvature: float) -> float:
-        """PLACE from which backwards no handle reverses, where the |curvature| is at most this [1/m]."""
+    def gentle_lag(self, curvature: float) -> float:
+        """Lag from which backwards no handle reverses, where the |curvature| is at most this [1/m]."""
 
     def gentle_end(self, curvature: float) -> float:
         """Largest s at which the |curvature| is at most this [1/m]; infinity on a route, whose bends Dance checks."""
@@ -122,13 +124,13 @@ class Path(Protocol):
         None on a spiral, where a dance ends in a fold.
         """
 
-    def last_theta(self, chord: float) -> float:
-        """PLACE of the front handle just before a lone bench folds; 0 if it never does. chord: [m]"""
+    def last_lag(self, chord: float) -> float:
+        """Lag of the front handle just before a lone bench folds; 0 if it never does. chord: [m]"""
 
     def rear_way(self, s: float, way: float, chord: float, last: float) -> float:
         """Upper bound of the way of a lone bench's rear handle while its front one goes a way from s [m].
 
-        last: last_theta(chord); returns: FREE where no bound is known
+        last: last_lag(chord); returns: FREE where no bound is known
         """
 
     def as_route(self, stop: float) -> Path:

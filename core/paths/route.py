@@ -171,25 +171,25 @@ class Route(Shown):
         kernels.route_trajectory(self.table, s, head_speed, sizes, chain, *columns)
         return s.size
 
-    def places(self, s: Floats, last: float) -> Floats:
+    def lags(self, s: Floats, last: float) -> Floats:
         """Minus the arc lengths s (T,) [m]."""
         return -s
 
-    def follow(self, place: float, last: int, sizes: Floats, chain: Floats) -> None:
+    def follow(self, lag: float, last: int, sizes: Floats, chain: Floats) -> None:
         """Fill in a chain up to handle `last`, with the head at minus its arc length [m]."""
-        kernels.place_chain(self.curve, place, last, sizes, chain)
+        kernels.place_chain(self.curve, lag, last, sizes, chain)
 
-    def along(self, places: Floats) -> Floats:
-        """Arc lengths [m] of places (...)."""
-        return -places
+    def along(self, lags: Floats) -> Floats:
+        """Arc lengths [m] of lags (...)."""
+        return -lags
 
     def piece_at(self, row: Floats) -> int:
         """Number of the piece of a handle, from its row of a chain."""
         return int(row[kernels.PIECE])
 
     def calm(self, curvature: float) -> float:
-        """1 if no handle on the first piece is faster than its leader, else 0, in the form of kernels.Peak."""
-        return 1.0 if self.calm_beginning else 0.0
+        """Minus the s up to which handles stand on the first piece itself, if its curvature does not fall [m]."""
+        return kernels.BLEND - float(self.table[0, S_END]) if self.calm_beginning else kernels.FREE
 
     def words(self) -> str:
         """The route in a sentence that names all that matters for a proof."""
@@ -197,7 +197,7 @@ class Route(Shown):
         listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
         return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
 
-    def gentle_theta(self, curvature: float) -> float:
+    def gentle_lag(self, curvature: float) -> float:
         """Minus infinity, because no handle reverses on a route that a dance can follow."""
         return -math.inf
 
@@ -220,7 +220,7 @@ class Route(Shown):
             for rows in joined
         ]
 
-    def last_theta(self, chord: float) -> float:
+    def last_lag(self, chord: float) -> float:
         """0, because no bench folds on a route that a dance can follow."""
         return 0.0
 

@@ -24,7 +24,7 @@ from core.values import Floats, Point
 START_TURNS_MAX = 1e5
 # Number of points in each drawn turn of a spiral.
 DRAWN_POINTS = 120
-# Relative width to which gentle_theta() is bisected [1].
+# Relative width to which gentle_lag() is bisected [1].
 GENTLE_WIDTH = 1e-9
 # Relative distance between the end of a run and its fold, so that every chord has a place there in spite of rounding
 # [1]; 1e-14 was enough for 1,494 random dragons (measured 2026-11-21).
@@ -128,25 +128,25 @@ class Spiral(Shown):
         """Arc length from the start to a polar angle [m]."""
         return self.length - self.growth * float(kernels.spiral_arc(theta))
 
-    def places(self, s: Floats, last: float) -> Floats:
+    def lags(self, s: Floats, last: float) -> Floats:
         """Polar angles at arc lengths s (T,) [rad], not inside `last` in spite of rounding."""
         return np.maximum(self.theta(s), last)
 
-    def follow(self, place: float, last: int, sizes: Floats, chain: Floats) -> None:
+    def follow(self, lag: float, last: int, sizes: Floats, chain: Floats) -> None:
         """Fill in a chain up to handle `last`, with the head at a polar angle [rad]."""
-        kernels.start_chain(place, chain)
+        kernels.start_chain(lag, chain)
         kernels.extend_chain(self.growth, 0, last, kernels.FREE, sizes, chain)
 
-    def along(self, places: Floats) -> Floats:
+    def along(self, lags: Floats) -> Floats:
         """Arc lengths of polar angles (...) [m]."""
-        arcs: Floats = 0.5 * (places * np.sqrt(1.0 + places * places) + np.arcsinh(places))
+        arcs: Floats = 0.5 * (lags * np.sqrt(1.0 + lags * lags) + np.arcsinh(lags))
         return self.length - self.growth * arcs
 
     def piece_at(self, row: Floats) -> int:
         """0, the only coil."""
         return 0
 
-    def gentle_theta(self, curvature: float) -> float:
+    def gentle_lag(self, curvature: float) -> float:
         """Polar angle beyond which the |curvature| stays below this [1/m]; rounded up [rad].
 
         Curvature growth is (2 + theta^2) / (1 + theta^2)^(3/2), which falls and is at most 2 / theta.
@@ -159,7 +159,7 @@ class Spiral(Shown):
 
     def gentle_end(self, curvature: float) -> float:
         """Largest s at which the |curvature| is at most this [1/m]."""
-        return self._s(min(self.gentle_theta(curvature), self.start_theta))
+        return self._s(min(self.gentle_lag(curvature), self.start_theta))
 
     def sharpest_before(self, s: float) -> float:
         """Upper bound of the |curvature| at arc length s and before it [1/m]."""
@@ -169,7 +169,7 @@ class Spiral(Shown):
         """No stretches, because a dance ends in a fold where the spiral is too tight."""
         return []
 
-    def last_theta(self, chord: float) -> float:
+    def last_lag(self, chord: float) -> float:
         """Polar angle of the front handle just before a lone bench folds; 0 if it reaches the centre."""
         return float(kernels.fold_theta((chord / self.growth) ** 2)) * (1.0 + FOLD_ROUNDING)
 
@@ -210,11 +210,11 @@ class Spiral(Shown):
         self, s: Floats, last: float, chords: Floats, head_speed: float, columns: Columns, budget: kernels.Budget
     ) -> int:
         """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
-        return kernels.spiral_trajectory(self.growth, self.places(s, last), chords, head_speed, *columns, budget)
+        return kernels.spiral_trajectory(self.growth, self.lags(s, last), chords, head_speed, *columns, budget)
 
     def calm(self, curvature: float) -> float:
-        """Radius outside which the |curvature| is at most this [1/m], in the form of kernels.Peak [m]."""
-        return self.growth * self.gentle_theta(curvature)
+        """Polar angle from which outwards the |curvature| is at most this [1/m], as for gentle_lag() [rad]."""
+        return self.gentle_lag(curvature)
 
     def words(self) -> str:
         """The spiral in a sentence that names all that matters for a proof."""

@@ -40,8 +40,8 @@ INSTANTS_MAX, SAMPLES_MAX = 10_000_000, 10_000_000
 SEED_MAX = 2**53 - 1
 # Number of handles in a batch of samples that dance side by side [1]: the nominal dance is laid out once for a batch.
 HANDLES_TOGETHER = 1_000_000
-# Largest room of a bench, relative to the shortest chord [1]: see core/kernels/wobble.py.
-ROOM_PART = 0.25
+# Largest safe stray of a bench, relative to the shortest chord [1]: see core/kernels/wobble.py.
+SAFE_PART = 0.25
 # Confidence of the limits: probability with which the probability of the model lies between them [1].
 CONFIDENCE = 0.95
 
@@ -188,11 +188,10 @@ class _Sampled:
         radii = 0.5 * np.hypot(dragon.lengths, dragon.widths)
         sizes[:benches] = np.stack([dragon.chords, 0.5 * dragon.lengths, 0.5 * dragon.widths, radii], axis=1)
         chain, boxes = (np.zeros((benches + 1, columns)) for columns in (kernels.UY + 1, kernels.BOX_COLUMNS))
-        loud = np.zeros(2 * benches + 2, dtype=np.int8)
-        self.wobbler = kernels.Wobbler(sizes, budget, chain, boxes, loud)
+        self.wobbler = kernels.Wobbler(sizes, budget, chain, boxes, *np.zeros((2, benches + 1), dtype=np.int8))
         self.wobbler.lateral, self.wobbler.forward, self.wobbler.along = model.lateral, model.forward, model.along
         self.gains = gains(dragon)
-        self.most_room = ROOM_PART * float(dragon.chords.min())
+        self.safe_most = SAFE_PART * float(dragon.chords.min())
         self.memory = np.full(times.size, memory)
         self.memory[0] = 0.0
         self.numbers = _Numbers(seed)
@@ -211,13 +210,13 @@ class _Sampled:
             shared = self._as_it_should_be(rows) if self.model.pitch_error == 0.0 else None
             still = []
             for k in going:
-                places, tangents, rooms = shared or self._on_pitch(rows, pitches[k])
+                places, tangents, safe = shared or self._on_pitch(rows, pitches[k])
                 length = len(places)
                 self.budget.afford(float(length * handles))
                 drawn = self.numbers.of(batch[k], part).standard_normal((length, handles, 2))
                 self.wobbler.furthest = found.strays[first + k]
                 memory = self.memory[low : low + length]
-                clear = self.wobbler.dance(memory, drawn, play[k], places, tangents, rooms, state[k])
+                clear = self.wobbler.dance(memory, drawn, play[k], places, tangents, safe, state[k])
                 found.strays[first + k] = self.wobbler.furthest
                 if clear < length:
                     found.instant[first + k] = low + clear
@@ -229,12 +228,12 @@ class _Sampled:
             yield rows.stop / count
 
     def _as_it_should_be(self, rows: slice) -> tuple[Floats, Floats, Floats]:
-        """Nominal places and tangents (T, n + 1, 2) of all handles, and room of every bench (T, n) [m]."""
+        """Nominal places and tangents (T, n + 1, 2) of all handles, and safe stray of every bench (T, n) [m]."""
         placed = trajectory(self.nominal, self.times[rows])
         places, tangents = placed.position, placed.velocity / placed.speed[..., None]
-        rooms = np.empty((len(places), places.shape[1] - 1))
-        self.wobbler.measure(self.most_room, self.gains, places, rooms)
-        return places, tangents, rooms
+        safe = np.empty((len(places), places.shape[1] - 1))
+        self.wobbler.measure(self.safe_most, self.gains, places, safe)
+        return places, tangents, safe
 
     def _play(self, batch: range) -> Sequence[Floats]:
         """Offsets of the holes of every bench from their pins, (n, 4) for every sample [m]."""
@@ -254,7 +253,7 @@ class _Sampled:
         return [spiral.pitch + size * float(self.numbers.of(sample, 1).standard_normal()) for sample in batch]
 
     def _on_pitch(self, rows: slice, pitch: float) -> tuple[Floats, Floats, Floats]:
-        """As _as_it_should_be(), on a spiral of another pitch [m], up to its fold at most; no bench has room."""
+        """As _as_it_should_be(), on a spiral of another pitch [m], up to its fold at most; no stray counts as safe."""
         spiral, chords = self.nominal.path.spiral, self.nominal.dragon.chords
         assert spiral is not None
         theta = spiral.theta(self.times[rows] * self.nominal.head_speed) * (spiral.pitch / pitch)

@@ -134,7 +134,7 @@ def tolerance(
 
 
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:
-    fields, travels = [], (dance.clock.place(span[0]), dance.clock.place(span[1]))
+    fields, travels = [], (dance.clock.travel(span[0]), dance.clock.travel(span[1]))
     if dance.dragon.benches > 2:
         last, fold = travels[1], None
         if dance.nears_fold(span[1]):
@@ -160,7 +160,7 @@ def _exhibit(field: Field, found: Found, time: float, frame: Frame) -> Exhibit |
         other = frames(pose[b : b + 1], size[b : b + 1])
     else:
         search = field.search(0.0)
-        search.place_leaders(field.dance.clock.place(time), a + 1)
+        search.place_leaders(field.dance.clock.travel(time), a + 1)
         x, y, ux, uy = (float(search.rows[0, b, column]) for column in (MX, MY, UX, UY))
         edge = Body(x, y, math.atan2(uy, ux), 0.0, float(search.sizes[b, HALF_LENGTH]), 0.0)
         other = frames(np.array([[x, y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))

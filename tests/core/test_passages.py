@@ -48,7 +48,7 @@ PASSED = st.lists(
 
 def test_times_and_places_are_those_of_the_passages() -> None:
     clock = DANCE.clock
-    places = {
+    travels = {
         -3.0: -3.0,
         0.0: 0.0,
         10.0: 5.0,
@@ -59,8 +59,8 @@ def test_times_and_places_are_those_of_the_passages() -> None:
         120.0: 60.0,
         130.0: 70.0,
     }
-    assert {time: clock.place(time) for time in places} == places
-    assert [clock.time(place) for place in (-3.0, 0.0, 5.0, 20.0, 40.0, 60.0, 70.0)] == [-3, 0, 10, 40, 110, 120, 130]
+    assert {time: clock.travel(time) for time in travels} == travels
+    assert [clock.time(travel) for travel in (-3.0, 0.0, 5.0, 20.0, 40.0, 60.0, 70.0)] == [-3, 0, 10, 40, 110, 120, 130]
     assert clock.speed(np.array([-1.0, 0.0, 40.0, 99.0, 100.0, 120.0])).tolist() == [1.0, 0.5, 0.0, 0.0, 2.0, 1.0]
 
 
@@ -72,12 +72,12 @@ def test_a_place_is_first_reached_at_its_time(passed: list[tuple[float, float, b
         end = (end[0] + lasts, end[1] + speed * lasts)
         passages.append(Passage(speed, None, end[0]) if by_time or speed == 0.0 else Passage(speed, end[1]))
     clock = Clock(1.5, passages)
-    place = clock.place(time)
-    first = clock.time(place)
+    travel = clock.travel(time)
+    first = clock.time(travel)
     assert first <= time + 1e-9
-    assert clock.place(first) == pytest.approx(place, abs=1e-9)
-    assert clock.place(first - 0.1) < place
-    assert clock.steady(np.array([time])).item() * 1.5 == pytest.approx(place, abs=1e-9)
+    assert clock.travel(first) == pytest.approx(travel, abs=1e-9)
+    assert clock.travel(first - 0.1) < travel
+    assert clock.steady(np.array([time])).item() * 1.5 == pytest.approx(travel, abs=1e-9)
 
 
 def test_handles_stand_where_they_stand_without_passages_and_move_by_the_speed_of_the_head() -> None:
@@ -140,7 +140,7 @@ def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit()
     found = maximum_head_speed(DANCE, limit, stop=300.0)
     assert found.passage == 2
     played = DANCE.played(found.head_speed)
-    assert played.clock.places == pytest.approx(DANCE.clock.places)
+    assert played.clock.travels == pytest.approx(DANCE.clock.travels)
     faster = highest_speed(played, stop=300.0 / found.head_speed)
     assert faster.speed == pytest.approx(limit, rel=1e-9)
     assert faster.time == pytest.approx(found.time, abs=1e-9)

@@ -14,15 +14,14 @@ RUNS = {
     "turn and a long way out": (Turn(1.7), 0.0, 300.0),
     "way out alone": (Turn(1.7), 30.0, 300.0),
 }
-CALM = 0.0  # no handle is left out
 ROUNDING = 1e-11
 
 
 def peak_of(
     path: Spiral | Route, start: float, stop: float, alike: int = 1, benches: int = 6
 ) -> tuple[Search, kernels.Peak]:
-    search, calm = Search(Dragon(benches), path, 0.0), CALM if isinstance(path, Route) else 1e9
-    return search, kernels.Peak(search.interval, search.rows[2], calm, alike, start, stop, 1e-12)
+    search = Search(Dragon(benches), path, 0.0)  # no handle is left out as calm
+    return search, kernels.Peak(search.interval, search.rows[2], kernels.FREE, alike, start, stop, 1e-12)
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -1,4 +1,4 @@
-"""Wobbling dragons as they are laid out: joints and chords, how alike people stand, and what rooms promise."""
+"""Wobbling dragons as they are laid out: joints and chords, how alike people stand, and what safe strays promise."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from core.values import Floats
 DRAGON = Dragon.of([3.4, 2.2, 2.0, 2.2, 2.4] * 4, [0.3] * 20, [0.275] * 20)
 NOMINAL = trajectory(Dance(DRAGON, Spiral()), np.arange(280.0, 300.0))
 PLACES, TANGENTS = NOMINAL.position, NOMINAL.velocity / NOMINAL.speed[..., None]
-NO_PLAY, NO_ROOM = np.zeros((20, 4)), np.zeros((20, 20))
+NO_PLAY, NOT_SAFE = np.zeros((20, 4)), np.zeros((20, 20))
 ALONG, MEMORY, MOST = 0.7, 0.9, 0.4
 
 
@@ -21,7 +21,7 @@ def wobbler(size: float, along: float = ALONG) -> kernels.Wobbler:
     half = 0.5 * np.stack([DRAGON.lengths, DRAGON.widths, np.hypot(DRAGON.lengths, DRAGON.widths)], axis=1)
     sizes[:-1] = np.concatenate([DRAGON.chords[:, None], half], axis=1)
     chain, boxes = np.zeros((len(sizes), kernels.UY + 1)), np.zeros((len(sizes), kernels.BOX_COLUMNS))
-    made = kernels.Wobbler(sizes, kernels.Budget(1e9), chain, boxes, np.zeros(2 * len(sizes), dtype=np.int8))
+    made = kernels.Wobbler(sizes, kernels.Budget(1e9), chain, boxes, *np.zeros((2, len(sizes)), dtype=np.int8))
     made.lateral, made.forward, made.along = size, 0.5 * size, along
     return made
 
@@ -38,7 +38,7 @@ def test_chords_and_joints_are_kept_and_each_rear_hole_is_where_its_person_wants
     made, state = wobbler(0.02), np.zeros((21, 2))
     play = rng.uniform(-0.004, 0.004, (20, 4))
     numbers = rng.standard_normal((1, 21, 2))
-    made.dance(np.zeros(1), numbers, play, PLACES[:1], TANGENTS[:1], NO_ROOM[:1], state)
+    made.dance(np.zeros(1), numbers, play, PLACES[:1], TANGENTS[:1], NOT_SAFE[:1], state)
     left = np.stack([-TANGENTS[0, :, 1], TANGENTS[0, :, 0]], axis=-1)
     wanted = PLACES[0] + 0.02 * state[:, :1] * left + 0.01 * state[:, 1:] * TANGENTS[0]
     front, rear = holes(made.chain)
@@ -58,7 +58,7 @@ def test_people_stand_alike_as_their_correlations_say() -> None:
     for _ in range(4_000):
         state, at = np.zeros((21, 2)), []
         for t in range(3):
-            made.dance(memory[t : t + 1], rng.standard_normal((1, 21, 2)), NO_PLAY, PLACES, TANGENTS, NO_ROOM, state)
+            made.dance(memory[t : t + 1], rng.standard_normal((1, 21, 2)), NO_PLAY, PLACES, TANGENTS, NOT_SAFE, state)
             at.append(state.copy())
         stood.append(at)
     samples = np.array(stood)  # (samples, instants, people, 2)
@@ -69,25 +69,25 @@ def test_people_stand_alike_as_their_correlations_say() -> None:
     assert abs((samples[:, 0, 5, 0] * samples[:, 0, 5, 1]).mean()) < spread
 
 
-def test_a_room_is_what_a_bench_and_its_nearest_have_between_them() -> None:
-    made, rooms, gain = wobbler(0.05), np.empty((20, 20)), gains(DRAGON)
-    made.measure(MOST, gain, PLACES, rooms)
+def test_a_safe_stray_is_what_a_bench_and_its_nearest_have_between_them() -> None:
+    made, safe, gain = wobbler(0.05), np.empty((20, 20)), gains(DRAGON)
+    made.measure(MOST, gain, PLACES, safe)
     a, b = np.triu_indices(DRAGON.benches, 2)
     sizes = np.stack([DRAGON.lengths, DRAGON.widths], axis=1)
     for t in (0, 19):
         poses = bench_poses(PLACES[t])
         between = separation(poses[a], sizes[a], poses[b], sizes[b]).separation / (gain[a] + gain[b])
         least = [min(MOST, between[(a == k) | (b == k)].min()) for k in range(DRAGON.benches)]
-        assert rooms[t] == pytest.approx(np.array(least), abs=2e-9)
+        assert safe[t] == pytest.approx(np.array(least), abs=2e-9)
 
 
-def test_the_first_overlap_is_found_and_rooms_change_nothing() -> None:
+def test_the_first_overlap_is_found_and_safe_strays_change_nothing() -> None:
     rng = np.random.default_rng(5)
-    made, rooms, clear = wobbler(0.06), np.empty((20, 20)), []
-    made.measure(MOST, gains(DRAGON), PLACES, rooms)
+    made, safe, clear = wobbler(0.06), np.empty((20, 20)), []
+    made.measure(MOST, gains(DRAGON), PLACES, safe)
     for _ in range(40):
         numbers, answers = rng.standard_normal((20, 21, 2)), []
-        for given in (rooms, NO_ROOM):
+        for given in (safe, NOT_SAFE):
             memory, state = np.full(20, MEMORY), np.zeros((21, 2))
             instants = made.dance(memory, numbers, NO_PLAY, PLACES, TANGENTS, given, state)
             answers.append((instants, (made.first, made.second) if instants < 20 else None))
@@ -97,7 +97,7 @@ def test_the_first_overlap_is_found_and_rooms_change_nothing() -> None:
         state, before = np.zeros((21, 2)), min(instants, 19)
         for last in (before, before + 1):
             rows = slice(0 if last == before else before, last)
-            part = [numbers[rows], NO_PLAY, PLACES[rows], TANGENTS[rows], rooms[rows], state]
+            part = [numbers[rows], NO_PLAY, PLACES[rows], TANGENTS[rows], safe[rows], state]
             made.dance(np.full(last - rows.start, MEMORY), *part)
             if last:
                 found = overlapping(made.chain)

@@ -24,7 +24,7 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
-from core.paths.following import ROOM_WIDTH, earliest_place
+from core.paths.following import ROOM_WIDTH, earliest_travel
 from tests.core.paths.test_route import DRAGON, PLACE_ERROR, SAME, first_behind
 
 
@@ -89,9 +89,9 @@ def test_a_path_a_hair_longer_than_the_dragon_has_room() -> None:
 
 
 @pytest.mark.parametrize("begin", [0.0, 3.0])
-def test_at_its_earliest_place_the_head_is_a_dragon_ahead_of_the_beginning(begin: float) -> None:
+def test_at_its_earliest_travel_the_head_is_a_dragon_ahead_of_the_beginning(begin: float) -> None:
     route = Route([Waypoints(((0, 0), (8, 1), (12, 6), (9, 12), (0, 14)))])
-    s = head = earliest_place(DRAGON, route, begin)
+    s = head = earliest_travel(DRAGON, route, begin)
     for chord in DRAGON.chords.tolist():
         s = first_behind(route, s, chord)
     assert begin - PLACE_ERROR <= s <= begin + ROOM_WIDTH * (1.0 + head)
