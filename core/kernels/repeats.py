@@ -61,35 +61,35 @@ def route_between(scene, place, leaders, allowance, chain):
     return Laid(k, leading)
 
 
-# The family lemma. Let m be the first of the benches that are alike to the tail (`leaders` = m + 1), and let place_i(t)
-# be where handle i stands with the head at travel t. The handle behind one at place p is the first point behind p at
+# The family lemma. Let m be the first of the benches that are alike to the tail (`leaders` = m + 1), and let lag_i(t)
+# be the LAG of handle i with the head at travel t. The handle behind one at lag p is the first point behind p at
 # its chord (spiral.py, route.py): a function N_i of p alone, and N_i = N for all i >= m. So all handles from i on, and
-# with them the benches i and j > i, stand at N_i, N_(i+1) N_i, ... of place_i: the separation of (i, j) is a function
-# of place_i alone, and for i >= m one of place_i and j - i alone, g_(j - i)(place_i). (m, m + j - i) is a pair too, as
+# with them the benches i and j > i, stand at N_i, N_(i+1) N_i, ... of lag_i: the separation of (i, j) is a function
+# of lag_i alone, and for i >= m one of lag_i and j - i alone, g_(j - i)(lag_i). (m, m + j - i) is a pair too, as
 # m + j - i <= j.
 #
-# Places fall in the direction of travel, and are continuous in t. Let the pairs led by every bench that may touch be
+# Lags fall in the direction of travel, and are continuous in t. Let the pairs led by every bench that may touch be
 # followed from `start` to T, and only those led by benches 0 to m from T to t, and let nothing come within the margin.
-# Pairs led by 0 to m were followed throughout. For a pair (i, j), i > m, at t, and x = place_i(t), it suffices that
+# Pairs led by 0 to m were followed throughout. For a pair (i, j), i > m, at t, and x = lag_i(t), it suffices that
 # g_(j - i) was followed at x: in a pair led by some bench i' in [m, i], which has an outer bench i' + j - i <= j, at an
-# instant with place_i' = x. Bench m was followed over all places between place_m(start) and the least of place_m until
-# t, every other such i' over those between place_i'(start) and place_i'(T). If
-#     passed():   place_i'(T) <= place_(i'-1)(start)   for all i' in (m, i],
-# these stretches overlap, each with the one of the bench before it, and cover all from the least of place_m to
-# place_i(start); and x >= place_m(t), as no handle overtakes. So x is covered if
-#     place_i(t) <= place_i(start),
+# instant with lag_i' = x. Bench m was followed over all lags between lag_m(start) and the least of lag_m until
+# t, every other such i' over those between lag_i'(start) and lag_i'(T). If
+#     passed():   lag_i'(T) <= lag_(i'-1)(start)   for all i' in (m, i],
+# these stretches overlap, each with the one of the bench before it, and cover all from the least of lag_m to
+# lag_i(start); and x >= lag_m(t), as no handle overtakes. So x is covered if
+#     lag_i(t) <= lag_i(start),
 # that is, if bench i is not further back than where it started. On a route this always holds: handles only go forward
 # (route.py). On a spiral a handle reverses where the link before it stands across the path, near the fold: while one
 # may stand behind its start (slid_back()), all pairs are followed again.
 #
-# Bench i leads no pair that may touch while place_i >= clear, which is clear_place on a route and clear_radius / growth
+# Bench i leads no pair that may touch while lag_i >= clear, which is clear_place on a route and clear_radius / growth
 # on a spiral. Let `opened` be the first bench that started there. Benches behind it need neither of the two conditions:
-# x < clear lies before place_opened(start), and benches m to `opened` cover that by passed() alone. (If m >= opened,
+# x < clear lies before lag_opened(start), and benches m to `opened` cover that by passed() alone. (If m >= opened,
 # bench m itself covers everything from clear on.) chain_between() leaves these benches out at the far end of every
 # step. Where handles only go forward, they were beyond `clear` during the whole step; a handle that may reverse is
 # kept among the leaders while it is within a drift of clear_radius (`reversing`).
 #
-# With edges at rest in place of the second bench the same holds for g(place_i), the separation of a bench and an edge.
+# With edges at rest in place of the second bench the same holds for g(lag_i), the separation of a bench and an edge.
 
 
 # Input:  the chain at the start (`opening`) and the chain now, with the benches from `first` on.

@@ -1,4 +1,4 @@
-"""The compiled loops against the same files uncompiled: to the last bit, through everything in core that uses them."""
+"""The compiled loops against the same files uncompiled: to the last bit, through the questions of core that use any."""
 
 from __future__ import annotations
 
@@ -65,6 +65,15 @@ EXPRESSIONS = {
     "contacts by chance": "core.contact_probability("
     "Dance(Dragon(12), Spiral()), Wobble(0.05, 0.02, 4.0, hole=0.06, pin=0.04), 4, 1, start=404.0, stop=412.0)",
     "clearance profile": "core.clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 405.0, 410.0])",
+    "least clearance": "core.least_clearance(Dance(Dragon(20), Spiral()), start=405.0, stop=411.0)",
+    "edges of a venue": "core.venue_clearance(Dance(Dragon(4), Turn(1.7)), core.Venue(core.Area("
+    "'square', (((-9, -9), (9, -9), (9, 9), (-9, 9), (-9, -9)),))), start=0.0, stop=6.0)",
+    "highest speed": "core.highest_speed(Dance(Dragon(4), Turn(1.7)), start=8.0, stop=14.0)",
+    "highest speed before a fold": "core.highest_speed(Dance(Dragon(4), Spiral(1.2, 3.0)), stop=30.7)",
+    "envelope": "core.envelope(Dance(Dragon(4), Turn(1.7)), start=6.0, stop=8.0)",
+    "tolerance": "core.tolerance(Dance(Dragon(12), Spiral()), start=400.0, stop=410.0)",
+    "shortest turn": "core.shortest_turn(Dragon(8), 1.7)",
+    "pitch scan": "core.pitch_scan(Dragon(10), [0.5, 0.55], start_turns=6.0)",
 }
 
 
