@@ -20,6 +20,7 @@ from app.questions.figures import InstantQuery
 from app.questions.overlaps import OverlapsAnswer, OverlapsRequest
 from app.wire.messages import checked
 from app.wire.question import Terms
+from core import InvalidValue
 from core.errors import said
 
 
@@ -67,7 +68,11 @@ def overlaps(
     if file:
         why = "describes a dance, and FILE gives the benches: give one of the two"
         unused(context, InstantQuery.model_fields, why)
-        benches = checked(OverlapsRequest, read_json(file))
+        told = {} if file.suffix.lower() == ".toml" else read_json(file)
+        if "benches" not in told:
+            words = "must be JSON with benches, each a rectangle with x, y, heading, length and width"
+            raise InvalidValue.in_words("file", f"{file} {words}: ask check or clearance about a dance")
+        benches = checked(OverlapsRequest, told)
     with show.waiting("overlaps"):
         answer = together.overlaps(benches, Terms()) if file else together.of_dance(asked, Terms())
     show.print_found(answer, json, _overlap_parts(answer, benches.margin if file else asked.margin))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -78,6 +79,10 @@ def figures(
     unused(context, FigureOptions.model_fields.keys() - used, why)
     requests = {one: of_file(file, ASKED[one].body or FigureOptions, context) if file else asked for one in kinds}
     folder.mkdir(parents=True, exist_ok=True)
+    if file and not kind:
+        name = Kind.PITCH_SCAN.value
+        why = f"it is about all pitches, not about one path: --kind {name} draws it for the dragon of the FILE"
+        print(f"{name} is left out: {why}.", file=sys.stderr)
     files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
     for picture in files.values():
         checked_output("format", picture)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -14,11 +15,13 @@ import typer
 from pydantic import BaseModel
 
 from app.files.disk import object_words, read_dance
-from app.wire.dances import TimeRange
+from app.settings import Settings
+from app.wire.dances import DanceFields, SpanFields, TimeRange
 from app.wire.messages import checked
 from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
+from core.dance import DEFAULT_SPAN
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -32,6 +35,8 @@ FILE = inspect.Parameter(
         Path | None, typer.Argument(help="Dance as a .toml or .json file, as for check: any dragon, any path.")
     ],
 )
+# Mark in the context of a command whose instants follow from start, stop and step.
+RANGED = "app.command.options.ranged"
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
 
 
@@ -63,44 +68,56 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
 def of_file(file: Path, body: type[Model], context: typer.Context, instead: str = "") -> Model:
     """The request for the dance in a file, as for `check`, with the options of the question.
 
-    Fields of other questions in the file, such as a venue, are ignored; of strays a note says so.
+    Values for `check` that this question does not take, such as a venue, are ignored; of strays a note says so.
     instead: which strays count in place of those in the file, for a question about strays
     raises: InvalidValue, OSError
     """
+    from app.questions.check import CheckRequest  # The import takes 0.02 s, and only a FILE needs it.
+
     unused(context, DanceQuery.model_fields, "cannot be combined with FILE, which describes the dance")
-    told, own = read_dance(file), body.model_fields.keys()
-    if instead and (strays := [name for name in Strays.model_fields if told.get(name) and name not in own]):
+    held, own = read_dance(file), body.model_fields.keys()
+    if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: not counted: {', '.join(strays)}: {instead}.", file=sys.stderr)
-    told = {name: value for name, value in told.items() if name in own or name not in _asked_of_a_dance()}
+    told = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
     told |= {name: context.params[name] for name in given(context, *own)}
-    if steps := _steps(body, context):
-        told["times"] = {name: context.params[name] for name in steps}
     if isinstance(told.get("times"), str):
         told["times"] = numbers("times", told["times"], float)
+    elif "times" in own and (steps := _steps(held, body, context)):
+        told["times"] = steps
+    elif "time" in own and "start" in held:
+        told.setdefault("time", held["start"])
     return checked(body, told, object_words(file))
 
 
-def _steps(body: type[BaseModel], context: typer.Context) -> list[str]:
-    """The options that give a range of instants in place of the times in the FILE."""
-    return given(context, *TimeRange.model_fields) if "times" in body.model_fields else []
+def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) -> dict[str, Any]:
+    """Evenly spaced instants from the options, and from start and stop of a file that holds no times; empty for none.
+
+    Where only one of start and stop is known and the file gives it, the other is that of the whole dance, 300 s later
+    at most.
+    """
+    steps = {name: context.params[name] for name in given(context, *TimeRange.model_fields)}
+    ends = {} if "times" in held else {name: held[name] for name in SpanFields.model_fields if name in held}
+    ends = checked(SpanFields, ends).model_dump(exclude_none=True)
+    if steps or ends:
+        context.meta[RANGED] = True
+    if ends and not steps.keys() | ends.keys() >= SpanFields.model_fields.keys():
+        request = checked(DanceFields, {name: held[name] for name in DanceFields.model_fields if name in held})
+        with refusing(request):
+            dance = request.to_dance(Settings().benches_max)
+            start = (ends | steps).get("start", dance.default_start)
+        ends = {"start": start, "stop": max(start, min(start + DEFAULT_SPAN, math.floor(dance.end.time)))} | ends
+    return ends | steps
 
 
 @contextmanager
-def _in_options(body: type[BaseModel] | None, context: typer.Context) -> Iterator[None]:
-    """Context that removes "times." from refusals of --start, --stop and --step, if those options were given."""
+def _in_options(context: typer.Context | None) -> Iterator[None]:
+    """Context that removes "times." from refusals of start, stop and step, if these were given without `times`."""
     try:
         yield
     except BenchDragonError as error:
-        if body is None or not _steps(body, context):
+        if context is None or RANGED not in context.meta:
             raise
         raise error.renamed(lambda name: name.removeprefix("times.")) from error
-
-
-def _asked_of_a_dance() -> set[str]:
-    from app.questions.registry import QUESTIONS  # It imports all questions in 0.2 s, and only a FILE needs it.
-
-    bodies = [question.body for question in QUESTIONS.values() if question.body]
-    return {name for body in bodies if "dragon" in body.model_fields for name in body.model_fields}
 
 
 def asks(
@@ -129,7 +146,7 @@ def asks(
             context = values["context"] if "context" in own else values.pop("context", None)
             file = values.pop("file", None) if body else None
             flat = {name: values.pop(name) for name in model.model_fields}
-            with _in_options(body if file else None, context):
+            with _in_options(context):
                 request = of_file(file, body, context, instead) if body and file else checked(model, flat)
                 with refusing(request):
                     command(request, **values)

@@ -162,16 +162,18 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
         elif value is not None:
             unit = unit_of(field)
             exact = isinstance(value, (float, tuple)) and (name in PROVEN or name.endswith("_bracket"))
-            words = _digits(value) if exact else shown(value)
-            yield label, f"{words} {unit if value != [] else ''}".rstrip()
+            words = _digits(value, unit) if exact else f"{shown(value)} {unit if value != [] else ''}".rstrip()
+            yield label, words
         elif name in SAID_BY_NULL:
             yield label, SAID_BY_NULL[name]
 
 
-def _digits(value: float | tuple[float | None, ...]) -> str:
+def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
     """A proven value with all its digits, because a rounded value could claim more than the proof."""
     ends = value if isinstance(value, tuple) else (value,)
-    return ", ".join("unknown" if end is None else said(end) for end in ends)
+    each = f" {unit}" if None in ends else ""
+    words = ", ".join("unknown" if end is None else said(end) + each for end in ends)
+    return words if each else f"{words} {unit}".rstrip()
 
 
 def separation(metres: float, unit: str = "", decimals: int = 9) -> str:

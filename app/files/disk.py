@@ -98,11 +98,12 @@ def read_dance(file: Path) -> dict[str, Any]:
         raise InvalidValue.in_words(
             "file", f"{file} must end in {' or '.join(DANCE_ENDINGS)}, got {ending or 'no ending'}"
         )
-    if ending != ".toml":
+    piped = _standard_input() if str(file) == "-" else b""
+    if ending != ".toml" and (not piped.strip() or piped.lstrip().startswith(b"{")):
         asked = read_json(file)
     else:
         try:
-            asked = tomllib.loads(file.read_text(encoding="utf-8"))
+            asked = tomllib.loads((piped or file.read_bytes()).decode())
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise InvalidValue.in_words("file", f"{file} is not TOML: {error}") from error
     if not asked:

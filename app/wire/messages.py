@@ -133,16 +133,21 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> str:
         case "too_long":
             return f" must have at most {limits['max_length']} entries, got more"
         case "union_tag_invalid":
-            return f" must be one of {limits['expected_tags']}, got {shown(limits['tag'])}"
+            return f" must be one of {_quoted(limits['expected_tags'])}, got {shown(limits['tag'])}"
         case "too_deep":
             return f" must nest objects and lists at most {limits['most']} deep"
         case "literal_error" | "enum":
-            return f" must be {limits['expected']}, {got}"
+            return f" must be {_quoted(limits['expected'])}, {got}"
         case "benches":
             return f": {limits['words']}"
         case "too_many_names":
             return f" must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
     return f": {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+
+
+def _quoted(words: str) -> str:
+    """Words of pydantic about allowed values, in the quotes of JSON."""
+    return words.replace("'", '"')
 
 
 def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:

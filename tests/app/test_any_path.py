@@ -218,7 +218,7 @@ BAD_PATHS = {
     "no_pieces": (route(), "/path/pieces", ("at least 1 entry",)),
     "many_pieces": (route(*[LANE] * 1001), "/path/pieces", ("at most 1000",)),
     "piece_without_kind": (route({"start": [0, 0], "end": [1, 0]}), "/path/pieces/0/kind", ("missing",)),
-    "unknown_piece": (route({"kind": "loop"}), "/path/pieces/0/kind", ("'line'", "'coil'", '"loop"')),
+    "unknown_piece": (route({"kind": "loop"}), "/path/pieces/0/kind", ('"line"', '"coil"', '"loop"')),
     "piece_as_number": (route(3), "/path/pieces/0", ("JSON object",)),  # type: ignore[arg-type]
     "point_of_one": (route(LANE | {"start": [0]}), "/path/pieces/0/start", ("at least 2 entries", "got 1")),
     "point_of_three": (route(LANE | {"start": [0, 0, 0]}), "/path/pieces/0/start", ("at most 2 entries",)),
@@ -245,7 +245,7 @@ BAD_PATHS = {
     "entry_outside_the_circle": (TURN | {"entry_radius": 5}, "/path/entry_radius", ("at most 4.5 m", "got 5")),
     "lopsided_turn": (TURN | {"ratio": 1000}, "/path/ratio", ("at most 100", "got 1000")),
     "unknown_name": (TURN | {"radius": 4.5}, "/path/radius", ("unknown",)),
-    "kind_as_list": ({"kind": []}, "/path/kind", ("'turn'",)),
+    "kind_as_list": ({"kind": []}, "/path/kind", ('"turn"',)),
 }  # fmt: skip
 BAD_DANCES = {
     "before_the_path": ({"start": 1}, "/start", ("at least 7.81", "whole dragon", "got 1 s")),

@@ -148,7 +148,7 @@ def test_the_engines_judge_the_whole_dragon_the_pair_or_nobody(
 def test_a_cross_check_of_anybody_else_is_refused(client: httpx.Client) -> None:
     refused = client.get("/collision-time?cross_check=everybody")
     assert refused.status_code == 422
-    assert refused.json()["detail"] == "cross_check must be 'dragon', 'pair' or 'none', got \"everybody\""
+    assert refused.json()["detail"] == 'cross_check must be "dragon", "pair" or "none", got "everybody"'
     refused = client.post("/check", json={"cross_check": None})
     assert (refused.status_code, refused.json()["errors"][0]["pointer"]) == (422, "/cross_check")
     for call in ("/pitch-scan", "/clearance", "/figures/contact.svg"):

@@ -81,7 +81,7 @@ BAD_BODIES = [
         "/dragon/overhangs/1",
         ("half",),
     ),
-    Bad("other_path", '{"path": {"kind": "maze"}}', "/path/kind", ("'spiral'", "'route'", "maze")),
+    Bad("other_path", '{"path": {"kind": "maze"}}', "/path/kind", ('"spiral"', '"route"', "maze")),
     Bad("path_as_list", '{"path": []}', "/path", ("JSON object",)),
     Bad("unknown_field", '{"path": {"pich": 0.5}}', "/path/pich", ("unknown", "did you mean pitch?")),
     Bad("slash_in_name", '{"a/b": 1}', "/a~1b", ("unknown",)),

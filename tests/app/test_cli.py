@@ -29,6 +29,8 @@ import typer
 
 import core
 from app.command.main import app
+from app.command.show import print_answer
+from app.questions.maximum_head_speed import MaximumHeadSpeed
 from app.service.workers import SILENT_SECONDS, START_SECONDS
 from app.settings import Settings
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
@@ -645,7 +647,7 @@ def test_completion_is_offered_once() -> None:
     ("arguments", "words"),
     [
         (["check", "dance.json", "--time", "3"], "--time is the instant that --figure draws: give --figure"),
-        (["check", "dance.json", "--cross-check", ""], "cross_check must be 'dragon', 'pair' or 'none', got \"\""),
+        (["check", "dance.json", "--cross-check", ""], 'cross_check must be "dragon", "pair" or "none", got ""'),
         (["overlaps", "--pitch", "1", "benches.json"], "--pitch describes a dance, and FILE gives the benches"),
         (["overlaps", "--margin=0", "benches.json"], "--margin describes a dance, and FILE gives the benches"),
         (["figures", "out", "--kind", "trajectory", "--samples", "50"], "--samples does not apply to the figure"),
@@ -695,3 +697,12 @@ def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for() -> None:
     done = run("trajectory", "--benches", "3", "--times", "0,100", "--decimals", "2")
     assert re.search(r"0 head +8\.80 +-?\d\.\d\d ", done.stdout)
     assert not re.search(r"\d\.\d{3}", done.stdout)
+
+
+def test_an_unknown_end_of_a_bracket_has_no_unit(capsys: pytest.CaptureFixture[str]) -> None:
+    answer = MaximumHeadSpeed(
+        head_speed=1.5, head_speed_bracket=(None, 1.5), speed_ratio=2.0, handles=[1], time=3.0,
+        time_at_unit_head_speed=4.5, passage=None,
+    )  # fmt: skip
+    print_answer("Maximum head speed", answer, json=False)
+    assert re.search(r"head speed bracket +unknown, 1\.5 m/s\n", capsys.readouterr().out)

@@ -98,7 +98,7 @@ def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
     assert "all 30 benches" in answer_of("check", str(file), "--cross-check", "dragon")
     refused = run("check", str(file), "--cross-check", "all")
     assert (refused.returncode, refused.stdout) == (2, "")
-    assert refused.stderr == "Error: cross_check must be 'dragon', 'pair' or 'none', got \"all\"\n"
+    assert refused.stderr == 'Error: cross_check must be "dragon", "pair" or "none", got "all"\n'
 
 
 def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
@@ -221,7 +221,7 @@ def test_benches_that_overlap_at_the_start_are_said_to(tmp_path: Path) -> None:
         ("margin = 0.9", "margin = 9", ["margin must be at most 2 m"]),
         ("end = [60, 0]", "end = [0, 0]", ["path.pieces[0]", "got 0 m"]),
         ("end = [60, 0]", "end = [60]", ["path.pieces[0].end", "at least 2 entries"]),
-        ('"line"', '"maze"', ["path.pieces[0]", "'line'", "maze"]),
+        ('"line"', '"maze"', ["path.pieces[0]", '"line"', "maze"]),
         ("yard.geojson", "garden.geojson", ["garden.geojson", "No such file"]),
         ("margin =", "margin", ["not TOML"]),
         ("start = 15", "start = 1", ["start must be at least 7.81", "got 1 s"]),

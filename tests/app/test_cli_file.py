@@ -54,10 +54,12 @@ def file(tmp_path: Path) -> str:
         (["collision-time", "--margin", "0.1"], "collision-time", {"margin": 0.1, "start": 20}),
         (["collision-time", "--cross-check", "none"], "collision-time",
          {"margin": 0.2, "start": 20, "cross_check": "none"}),
-        (["trajectory"], "trajectory", {}),
+        (["trajectory"], "trajectory", {"times": [*range(20, 41)]}),
         (["trajectory", "--times", "10,11.5", "--decimals", "3"], "trajectory", {"times": [10, 11.5], "decimals": 3}),
         (["trajectory", "--start", "10", "--stop", "12"], "trajectory", {"times": {"start": 10, "stop": 12}}),
-        (["clearance"], "clearance", {}),
+        (["trajectory", "--stop", "22"], "trajectory", {"times": [20, 21, 22]}),
+        (["clearance"], "clearance", {"times": [*range(20, 41)]}),
+        (["clearance", "--step", "10"], "clearance", {"times": [20, 30, 40]}),
         (["clearance", "--start", "10", "--stop", "12", "--step", "0.5"], "clearance",
          {"times": {"start": 10, "stop": 12, "step": 0.5}}),
         (["maximum-head-speed"], "maximum-head-speed", {"speed_limit": 1.5, "start": 20}),
@@ -101,6 +103,7 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
         (["trajectory", "FILE", "--head-speed", "1"], "--head-speed cannot be combined with FILE, which describes"),
         (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times replaces --stop"),
         (["clearance", "FILE", "--stop", "1e5"], "stop must be at most"),
+        (["clearance", "FILE", "--stop", "10"], "stop must not be before start (20 s), got 10 s"),
         (["figures", "FILE", "FILE"], "FOLDER must be a folder, got the file"),
         (["figures", "FOLDER", "README.md"], "README.md must end in .toml or .json, got .md"),
         (["figures", "README.md"], "README.md must end in .toml or .json, got .md"),
@@ -120,6 +123,89 @@ def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, argu
     assert done.stderr.startswith(f"Error: {words}")
     assert len(done.stderr.splitlines()) == 1
     assert not folder.exists()
+
+
+# Values that questions have for themselves.
+OWN = {("trajectory", "decimals"), ("film", "seconds"), ("tolerance", "turning_diameter"),
+       ("contact-probability", "turning_diameter"), ("contact-probability", "step")}  # fmt: skip
+MISPLACED = ("pitch", "start_turns", "turning_diameter", "decimals", "seconds", "step")
+ASKING = ("trajectory", "collision-time", "clearance", "maximum-head-speed", "envelope", "film", "figures", "tolerance",
+          "contact-probability")  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("command", "name"),
+    sorted({(c, n) for c in ASKING for n in MISPLACED} - OWN),
+)
+def test_a_value_that_check_would_refuse_is_no_silent_mistake(tmp_path: Path, command: str, name: str) -> None:
+    file = tmp_path / "flat.toml"
+    file.write_text(f"{name} = 2")
+    done = run(command, str(file))
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f'Error: "{name}" is unknown here')
+
+
+@pytest.mark.parametrize(("ends", "times"), [
+    ("start = 430", [430, 431, 432]), ("start = 20.5", [20.5 + k for k in range(301)]), ("stop = 2", [0, 1, 2]),
+    ("start = 7\nstop = 9", [7, 8, 9]), ("start = 7\ntimes = [3]", [3]),
+])  # fmt: skip
+@pytest.mark.parametrize("command", ["trajectory", "clearance"])
+def test_instants_are_those_of_start_and_stop_in_the_file(
+    tmp_path: Path, command: str, ends: str, times: list[float]
+) -> None:
+    file = tmp_path / "dance.toml"
+    file.write_text(ends)
+    assert json.loads(run(command, str(file), "--json").stdout)["time"] == times
+
+
+@pytest.mark.parametrize(("ends", "words"), [
+    ('start = "x"', 'start must be a number [s], got "x"'),
+    ("start = 500", "start must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
+    ("start = 9\nstop = 8", "stop must not be before start (9 s), got 8 s"),
+    ("stop = 500", "stop must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
+])  # fmt: skip
+def test_wrong_ends_in_a_file_are_named_as_there(tmp_path: Path, ends: str, words: str) -> None:
+    file = tmp_path / "dance.toml"
+    file.write_text(ends)
+    assert run("trajectory", str(file)).stderr == f"Error: {words}\n"
+
+
+def test_the_figure_of_a_file_is_drawn_at_its_start(tmp_path: Path) -> None:
+    file = tmp_path / "dance.toml"
+    drawn = []
+    for ends, options in (("start = 30", []), ("", ["--time", "30"])):
+        file.write_text(f"{ends}\ndragon.benches = 3")
+        run("figures", str(file), str(tmp_path), "--kind", "trajectory", "--format", "svg", *options)
+        drawn.append((tmp_path / "trajectory.svg").read_bytes())
+    assert drawn[0] == drawn[1]
+
+
+def test_the_figure_that_a_file_leaves_out_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "dance.toml"
+    file.write_text("dragon.benches = 3")
+    first, *_ = run("figures", str(file), str(tmp_path)).stderr.splitlines()
+    assert first.startswith("pitch-scan is left out: ")
+    assert run("figures", str(file), str(tmp_path), "--kind", "contact").stderr == f"{tmp_path}/contact.png\n"
+
+
+@pytest.mark.parametrize("text", ['{"path": {"pitch": 0.5}}', "[path]\npitch = 0.5"], ids=["json", "toml"])
+def test_standard_input_is_json_or_toml(client: httpx.Client, text: str) -> None:
+    done = run("collision-time", "-", "--json", text=text)
+    assert json.loads(done.stdout) == client.get("/collision-time?pitch=0.5").raise_for_status().json()
+
+
+def test_an_empty_standard_input_is_no_dance() -> None:
+    done = run("collision-time", "-", text=" ")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("Error: - is not JSON: ")
+
+
+@pytest.mark.parametrize("name", ["dance.toml", "dance.json"])
+def test_rectangles_are_asked_for_where_a_dance_is_given(tmp_path: Path, name: str) -> None:
+    file = tmp_path / name
+    file.write_text("" if name.endswith("toml") else json.dumps(BODY))
+    words = "must be JSON with benches, each a rectangle with x, y, heading, length and width"
+    assert run("overlaps", str(file)).stderr == f"Error: {file} {words}: ask check or clearance about a dance\n"
 
 
 def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:

@@ -100,7 +100,7 @@ def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
         ({"over": {"pitch": {"start": 0, "stop": 1, "count": 1}}}, "over.pitch.count must be at least 2, got 1"),
         (
             {"over": {"pitch": {"start": 1, "stop": 2, "scale": "cubic"}}},
-            "over.pitch.scale must be 'linear' or 'log', got \"cubic\"",
+            'over.pitch.scale must be "linear" or "log", got "cubic"',
         ),
         ({"over": {"pitch": {"start": 0, "stop": 1, "step": 1}}}, "over.pitch.step is unknown here: leave it out"),
         ({"samples": {"count": 0}}, "samples.count must be at least 1, got 0"),
