@@ -60,9 +60,9 @@ EVENT_ID = re.compile(r"[0-9]{1,18}")
 NOT_KEPT = {"Cache-Control": "no-store"}
 # Results up to this size are read before the answer begins, so that an expiry does not interrupt the answer [bytes].
 READ_AT_ONCE = 1_000_000
-# Every form that a result may have. JSON comes first, because a generated client reads the first form that it knows.
-RESULT_FORMS = (JSON, *sorted({*SWEEP_FORMS, *(form for one in QUESTIONS.values() for form in one.forms)} - {JSON}))
-RESULT = {form: routes.SCHEMAS.get(form, routes.FILE) for form in RESULT_FORMS}
+# Every form that a result may have.
+RESULT_FORMS = sorted({*SWEEP_FORMS, *(form for one in QUESTIONS.values() for form in one.forms)})
+RESULT = routes.BYTES | {form: routes.SCHEMAS.get(form, routes.FILE) for form in RESULT_FORMS}
 PROBLEMS = routes.PROBLEMS | {
     403: "This service lists no jobs",
     404: "There is no such job, or no such format",

@@ -7,7 +7,7 @@ import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } 
 const MARKS = { contact: "✕", contact_at_start: "✕", folds: "!", clear: "✓", undecided: "?" };
 
 /** Metres in millimetres; a value that rounds to zero has no sign. */
-export const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
+const millimetres = (metres) => (1000 * metres).toFixed(3).replace(/^-(0\.0+)$/, "$1");
 const paragraph = (textContent, more) => make("p", { textContent, ...more });
 const pair = ([a, b], benches) => ({ a: benchName(a, benches), b: benchName(b, benches) });
 /** A separation in words: the gap, or for a negative one the depth of the overlap. metres: [m] */

@@ -9,7 +9,7 @@ const [TRAVEL, ON_PATH] = [3, 16];
 /** Step of an arrow key that moves a point, alone and with Shift [m]. */
 const [STEP, LONG_STEP] = [0.1, 1];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
-export const TREE_RADIUS = 0.5;
+const TREE_RADIUS = 0.5;
 const WALL_RADIUS = 0.15;
 
 export class Editor {

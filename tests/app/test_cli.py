@@ -705,4 +705,4 @@ def test_an_unknown_end_of_a_bracket_has_no_unit(capsys: pytest.CaptureFixture[s
         time_at_unit_head_speed=4.5, passage=None,
     )  # fmt: skip
     print_answer("Maximum head speed", answer, json=False)
-    assert re.search(r"head speed bracket +unknown, 1\.5 m/s\n", capsys.readouterr().out)
+    assert re.search(r"head speed bracket +unknown, 1\.5 m/s *\n", capsys.readouterr().out)

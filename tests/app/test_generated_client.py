@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import io
+import json
 import os
 import re
 import subprocess
@@ -70,7 +71,7 @@ def test_the_generator_warns_of_nothing_but_pictures_and_files(words: str) -> No
     warned = WARNING.findall(words)
     assert len(warned) == words.count("WARNING") + words.count("ERROR")
     files = {question.path for question in QUESTIONS.values() if question.model is None}
-    assert set(warned) == files - {QUESTIONS["maps"].path}  # It reads every map as it reads the first form, GeoJSON.
+    assert set(warned) == files - {QUESTIONS["maps"].path}  # Every map comes back as a file of bytes.
 
 
 @pytest.mark.parametrize(
@@ -97,8 +98,10 @@ def test_every_figure_is_drawn(own: Any, name: str, method: str, formats: Any) -
     scan = {"samples": 3} if name.startswith("pitch_scan") else {}
     small: dict[str, Any] = scan | ({"benches": 9} if method == "GET" else {"dragon": {"benches": 9}})
     asked = small if method == "GET" else {"body": body_of(module, small)}
-    begins = {"svg": b"<?xml", "png": b"\x89PNG", "geojson": b"{"}
-    for ending in begins.keys() & set(formats):
+    begins = {"svg": b"<?xml", "png": b"\x89PNG", "geojson": b"{", "kml": b"<?xml", "dxf": b"  0\n"}
+    if name == "maps":
+        asked = {"body": body_of(module, small | {"origin": {"longitude": 8.5, "latitude": 47.4}})}
+    for ending in formats:
         answer = module.sync_detailed(told(ending), client=own, **asked)
         assert answer.status_code == 200
         assert answer.content.startswith(begins[ending])
@@ -137,7 +140,27 @@ def test_the_result_of_a_job_comes_back_as_the_direct_answer(own: Any, client: h
     job = later.sync(client=own, body=body_of(later, {"question": name, "request": request}))
     client.get(f"/jobs/{job.job_id}/events").raise_for_status()  # Its events end when it is finished.
     plain = client.request(method, "/minimum-pitch", params=example.query, json=example.body)
-    assert call("jobs", "job_result").sync(job.job_id, client=own) == plain.raise_for_status().json()
+    found = call("jobs", "job_result").sync(job.job_id, client=own)
+    assert json.loads(found.payload.read()) == plain.raise_for_status().json()
+
+
+@pytest.mark.parametrize(
+    ("name", "request_", "accept", "begin"),
+    [
+        ("trajectory", {"dragon": {"benches": 3}}, "text/csv", b"time,handle"),
+        ("trajectory", {"dragon": {"benches": 3}}, "application/vnd.apache.arrow.file", b"ARROW1"),
+        ("trajectory_figure", {"benches": 3}, "image/svg+xml", b"<?xml"),
+        ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
+        ("maps", {"dragon": {"benches": 3}}, "image/vnd.dxf", b"  0\n"),
+    ],
+)
+def test_a_file_made_by_a_job_comes_back_as_its_bytes(
+    own: Any, client: httpx.Client, name: str, request_: dict[str, Any], accept: str, begin: bytes
+) -> None:
+    later = call("jobs", "ask_later")
+    job = later.sync(client=own, body=body_of(later, {"question": name, "request": request_, "accept": accept}))
+    client.get(f"/jobs/{job.job_id}/events").raise_for_status()
+    assert call("jobs", "job_result").sync(job.job_id, client=own).payload.read().startswith(begin)
 
 
 def test_the_result_of_a_failed_job_comes_back_as_its_problem(own: Any, client: httpx.Client) -> None:
