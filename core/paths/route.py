@@ -122,6 +122,17 @@ class Route(Shown):
             words = f"must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
             raise InvalidValue.in_words(name, f"{where} {words}")
 
+    @property
+    def _given(self) -> tuple[object, ...]:
+        """What makes two routes equal."""
+        return type(self), self.pieces, self.start
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Route) and self._given == other._given
+
+    def __hash__(self) -> int:
+        return hash(self._given)
+
     def __repr__(self) -> str:
         listed = f"Route({list(self.pieces)!r}, start={self.start!r})"
         return listed if len(listed) <= REPR_MOST else super().__repr__()

@@ -88,6 +88,10 @@ class Turn(Route):
         self.length = radii[0] * angles[0] + radii[1] * angles[1]
         self.start_turns = turns
 
+    @property
+    def _given(self) -> tuple[object, ...]:
+        return *super()._given, self.turning_radius
+
     def __repr__(self) -> str:
         deeper = f", entry_radius={self.entry_radius!r}" if self.entry_radius != self.turning_radius else ""
         given = f"{self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, start_turns={self.start_turns!r}{deeper}"

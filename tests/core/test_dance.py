@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import core
 from core import (
     Area,
     Dance,
@@ -194,3 +196,21 @@ def test_without_a_start_a_question_asks_from_the_default_start(
     stop = dance.default_start + 20.0
     assert repr(question(dance, stop=stop)) == repr(question(dance, start=dance.default_start, stop=stop))
     assert dance.span() == dance.span(None, None) == (dance.default_start, dance.end.time)
+
+
+@pytest.mark.parametrize(
+    ("path", "other"),
+    [
+        ("Spiral(0.55)", "Spiral(0.56)"),
+        ("Turn(1.7)", "Turn(1.7, 4.4)"),
+        ("Turn(1.7, 4.4)", "Turn(1.7, 4.5, entry_radius=4.4)"),
+        ("Route([Line((0.0, 0.0), (600.0, 0.0))], 500.0)", "Route([Line((0.0, 0.0), (600.0, 0.0))], 501.0)"),
+        ("Legs([(0.0, 0.0), (600.0, 0.0)], start=500.0)", "Legs([(0.0, 0.0), (600.0, 1.0)], start=500.0)"),
+    ],
+)
+def test_dances_of_equal_values_are_equal(path: str, other: str) -> None:
+    first, second, different = (Dance(Dragon(), eval(source, vars(core))) for source in (path, path, other))
+    assert first == second == pickle.loads(pickle.dumps(first))
+    assert hash(first) == hash(second)
+    assert first != different
+    assert first.path != different.path
