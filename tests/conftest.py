@@ -25,17 +25,16 @@ START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start take
 STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets running computations finish
 # Continuous integration sets this: every test must run there.
 STRICT = bool(os.environ.get("CI"))
-LEFT_OUT = pytest.StashKey[list[str]]()
+# Number of tests left out for each reason, and its name in what a process of several reports.
+LEFT_OUT_OUTPUT = "left_out"
+LEFT_OUT = pytest.StashKey[dict[str, int]]()
 NO_DISK = "they mount a small disk, which only root may do: run make test as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Skip the tests that this machine cannot run; one line for each reason is printed after the tests.
-
-    raises: UsageError if no test may be left out
-    """
+    """Leave out the tests that this machine cannot run; one line for each reason is printed after the tests."""
     has_browser = not any(map(_needs_browser, items)) or browser.found()
     kept: list[pytest.Item] = []
     groups: dict[str, list[pytest.Item]] = {}
@@ -50,13 +49,28 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             groups.setdefault(NO_CURL, []).append(item)
         else:
             kept.append(item)
-    lines = [f"{len(group)} tests are left out: {reason}" for reason, group in groups.items()]
-    if lines and STRICT:
-        raise pytest.UsageError("; ".join(lines))
-    config.stash[LEFT_OUT] = lines
+    left_out = {reason: len(group) for reason, group in groups.items()}
+    _note_left_out(config, left_out)
+    if hasattr(config, "workeroutput"):  # a process of several, whose output only the first one can print
+        config.workeroutput[LEFT_OUT_OUTPUT] = left_out
     for group in groups.values():
         config.hook.pytest_deselected(items=group)
-    items[:] = kept
+    items[:] = [] if left_out and STRICT else kept
+
+
+def _note_left_out(config: pytest.Config, left_out: dict[str, int]) -> None:
+    config.stash[LEFT_OUT] = config.stash.get(LEFT_OUT, {}) | left_out
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """Keep what a process left out: all collect the same tests."""
+    _note_left_out(node.config, getattr(node, "workeroutput", {}).get(LEFT_OUT_OUTPUT, {}))
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    if STRICT and session.config.stash.get(LEFT_OUT, {}):
+        session.exitstatus = pytest.ExitCode.USAGE_ERROR
 
 
 @pytest.hookimpl(wrapper=True)
@@ -80,8 +94,10 @@ def _needs_browser(item: pytest.Item) -> bool:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    for line in config.stash.get(LEFT_OUT, []):
-        terminalreporter.write_line(line, yellow=True)
+    for reason, count in config.stash.get(LEFT_OUT, {}).items():
+        terminalreporter.write_line(f"{count} tests are left out: {reason}", yellow=True)
+    if STRICT and config.stash.get(LEFT_OUT, {}):
+        terminalreporter.write_line("No test ran: where CI is set, every test must be able to.", red=True)
 
 
 @pytest.fixture(scope="session")

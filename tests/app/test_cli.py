@@ -461,14 +461,14 @@ def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
 
 def test_a_long_wait_shows_a_bar_and_ctrl_c_ends_it_cleanly(tmp_path: Path) -> None:
     leader, follower = pty.openpty()
-    # A workbook of 670,000 cells takes several seconds.
-    arguments = ["trajectory", "--step", "0.1", "--output", str(tmp_path / "dance.xlsx")]
+    # The film takes ten times as long as the wait before the bar.
+    arguments = ["film", "--output", str(tmp_path / "dance.mp4")]
     process = subprocess.Popen(
         [COMMAND, *arguments], stdout=subprocess.DEVNULL, stderr=follower, env=ENVIRONMENT, preexec_fn=heed_ctrl_c
     )
     os.close(follower)
     seen = b""
-    while b"trajectory" not in seen:
+    while b"film" not in seen:
         seen += os.read(leader, 1024)
     process.send_signal(signal.SIGINT)
     # Read on, or a full terminal would hold the process up; without a writer its end is an error, not an end of file.

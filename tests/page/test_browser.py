@@ -15,7 +15,6 @@ ROOT = Path(__file__).parents[2]
 # As on a machine where nothing that draws a page is installed.
 WITHOUT = "from tests.page import browser; browser.PLACES = ()"
 LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
-COLLECT = f"{WITHOUT}; import sys, pytest; sys.exit(pytest.main([sys.argv[1], '-q', '--collect-only']))"
 
 pytestmark = pytest.mark.uncompiled
 
@@ -70,14 +69,16 @@ def test_what_is_missing_or_cannot_run_is_no_browser(tmp_path: Path) -> None:
     assert not starts(str(tmp_path))
 
 
-def collected(environment: dict[str, str], place: str) -> subprocess.CompletedProcess[str]:
-    """The tests of this place as pytest finds them on a machine without a browser."""
-    command = [sys.executable, "-c", COLLECT, place]
+def without_browser(folder: Path, *arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
+    """What pytest does on a machine without a browser, in every process that it starts."""
+    (folder / "without_browser.py").write_text(WITHOUT)
+    environment = bare(folder) | {"PYTEST_PLUGINS": "without_browser", "PYTHONPATH": f"{folder}:{ROOT}"} | more
+    command = [sys.executable, "-m", "pytest", "-q", *arguments]
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
 
 
 def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) -> None:
-    done = collected(bare(tmp_path), "tests/page")
+    done = without_browser(tmp_path, "--collect-only", "tests/page")
     told = [line for line in done.stdout.splitlines() if LEFT_OUT in line]
     assert len(told) == 1
     count = told[0].split()[0]
@@ -86,10 +87,20 @@ def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) ->
     assert "test_everyone.py" not in done.stdout
 
 
-def test_continuous_integration_refuses_to_leave_anything_out(tmp_path: Path) -> None:
-    done = collected(bare(tmp_path) | {"CI": "true"}, "tests/page/test_everyone.py")
-    assert done.returncode == pytest.ExitCode.USAGE_ERROR
-    assert LEFT_OUT in done.stderr
+@pytest.mark.parametrize("processes", [[], ["-p", "xdist", "--numprocesses", "2"]], ids=["one process", "two"])
+def test_it_is_said_also_by_several_processes_and_continuous_integration_fails(
+    tmp_path: Path, processes: list[str]
+) -> None:
+    places = ("tests/page/test_everyone.py", "tests/core/test_values.py")
+    done, strict = (
+        without_browser(tmp_path, *processes, *places),
+        without_browser(tmp_path, *processes, *places, CI="true"),
+    )
+    assert [run.stdout.count(LEFT_OUT) for run in (done, strict)] == [1, 1]
+    assert (done.returncode, strict.returncode) == (pytest.ExitCode.OK, pytest.ExitCode.USAGE_ERROR)
+    assert "passed" in done.stdout
+    assert "passed" not in strict.stdout
+    assert strict.stderr == ""
 
 
 def got(folder: Path, user: int, *, has_apt: bool = True) -> tuple[str, str, list[str]]:
