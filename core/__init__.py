@@ -3,13 +3,10 @@
 import lazy_loader
 
 _lazily, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__all__.remove("proof")  # it needs an extra
 
 
 def __getattr__(name: str) -> object:
-    if name == "proof":  # not in __all__, because it needs an extra
-        from importlib import import_module
-
-        return import_module("core.proof")
     if name != "__version__":
         return _lazily(name)
     from importlib.metadata import version

@@ -1,3 +1,4 @@
+from . import proof as proof
 from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from .contact.cross_check import ContactCheck, contact_check, pitch_check

@@ -85,10 +85,7 @@ def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
         shape = " x ".join(map(str, value.shape))
         return f"array of {shape or 'one'}" + (f", {extent(value, unit, digits)}" if value.size else "")
     if isinstance(value, (tuple, list)):
-        between = "; " if value and isinstance(value[0], Shown) else ", "
-        some = between.join(_entry(entry, digits) for entry in value[:ENTRIES_MOST]) or "none"
-        more = f" and {len(value) - ENTRIES_MOST} more" if len(value) > ENTRIES_MOST else ""
-        return f"{some}{more} {unit if value else ''}".rstrip()
+        return f"{_entries(value, digits) or 'none'} {unit if value else ''}".rstrip()
     return f"{_entry(value, digits)} {unit}".rstrip()
 
 
@@ -107,6 +104,12 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
+def _entries(values: Sequence[object], digits: int) -> str:
+    between = "; " if values and isinstance(values[0], Shown) else ", "
+    more = f" and {len(values) - ENTRIES_MOST} more" if len(values) > ENTRIES_MOST else ""
+    return between.join(_entry(value, digits) for value in values[:ENTRIES_MOST]) + more
+
+
 def _entry(value: object, digits: int) -> str:
     if value is None:
         return "unknown"
@@ -117,5 +120,5 @@ def _entry(value: object, digits: int) -> str:
     if isinstance(value, float):
         return f"{value + 0.0:.{digits}g}"  # no -0
     if isinstance(value, tuple):
-        return f"({', '.join(_entry(entry, digits) for entry in value)})"
+        return f"({_entries(value, digits)})"
     return value._line() if isinstance(value, Shown) and type(value).__repr__ is Shown.__repr__ else str(value)

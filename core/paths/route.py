@@ -26,7 +26,7 @@ JOINT_GAP = 1e-9
 JOINT_KINK = 1e-9
 # Columns of the curvatures of a piece.
 BENDS = slice(K_START, K_END + 1)
-# Most pieces whose kinds are listed one by one [1].
+# Most pieces that are listed one by one [1].
 PIECES_LISTED = 6
 
 
@@ -128,7 +128,7 @@ class Route(Shown):
         return type(self), self.pieces, self.start
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Route) and self._given == other._given
+        return self._given == getattr(other, "_given", None)
 
     def __hash__(self) -> int:
         return hash(self._given)
@@ -144,7 +144,9 @@ class Route(Shown):
         return f"{pieces}, s from {worded(self.begin)} to {worded(self.end, 'm')}"
 
     def _rows(self) -> list[tuple[str, str]]:
-        rows = [(f"piece {k}", str(piece)) for k, piece in enumerate(self.pieces)]
+        rows = [(f"piece {k}", str(piece)) for k, piece in enumerate(self.pieces[:PIECES_LISTED])]
+        more = len(self.pieces) - PIECES_LISTED
+        rows += [("other pieces", str(more))] if more > 0 else []
         return [*rows, ("begin", worded(self.begin, "m", TABLE_DIGITS)), ("end", worded(self.end, "m", TABLE_DIGITS))]
 
     def _points(self, s: Floats | float) -> Floats:

@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent.parent
 # Asks the service in this process, and gives every call and return of a function to note, in every thread. The first
-# request, which imports modules and fills caches, is not noted; the second one asks about another pitch.
+# request, which imports modules and fills caches, is not noted; the second one asks about another pitch or dragon.
 ASKED = """
 import asyncio, json, sys, threading, types, httpx
 from app.service.main import create_app
@@ -22,19 +22,19 @@ seen = {}
 def ours(name):
     return name.partition(".")[0] in ("app", "core")
 
-async def ask(query, note):
+async def ask(first, query, note):
     transport = httpx.ASGITransport(create_app())
     async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
-        (await client.get(query + "0.551")).raise_for_status()
+        (await client.get(first)).raise_for_status()
         seen.clear()
         sys.setprofile(note)
-        answer = await client.get(query + "0.552")
+        answer = await client.get(query)
         sys.setprofile(None)
     return answer.raise_for_status().json()
 
-def asked(cross_check, note, told):
+def asked(query, note, told):
     threading.setprofile(note)
-    answer = asyncio.run(ask(f"/collision-time?cross_check={cross_check}&pitch=", note))
+    answer = asyncio.run(ask("/collision-time?pitch=0.551", "/collision-time?" + query, note))
     return told(answer)
 """
 # Every module of ours of which Python code runs; compiled loops are not noted. True if a function runs that is written
@@ -81,9 +81,11 @@ def holding(answer):
 """
 TOLD = """
 found = {
-    "none": asked("none", counted, lambda _: dict(seen)),
-    "dragon": asked("dragon", counted, lambda _: dict(seen)),
-    "represented": asked("dragon", represented, holding),
+    "none": asked("pitch=0.552&cross_check=none", counted, lambda _: dict(seen)),
+    "dragon": asked("pitch=0.553", counted, lambda _: dict(seen)),
+    "new dragon": asked("pitch=0.553&width=0.31", counted, lambda _: dict(seen)),
+    "near a graze": asked("pitch=0.450337393", counted, lambda _: dict(seen)),
+    "represented": asked("pitch=0.554", represented, holding),
 }
 print(json.dumps(found))
 """
@@ -108,6 +110,10 @@ CROSS_CHECK = {
     "core.shapes.engines",
     "core.shapes.rectangles",
 }
+# A dragon that is not among those kept from the requests before.
+NEW_DRAGON = {"core.dragon"}
+# A contact so near a graze that doubles do not narrow its bracket: the pair in decimals, on the pieces of the path.
+NEAR_GRAZE = {"core.contact.near_graze", "core.paths.pieces", "core.paths.route", "core.sampling"}
 # Of these only values are made, by the constructors of dataclasses.
 VALUES = {"core.contact.answer", "core.contact.clearance", "core.paths.frame", "core.paths.path"}
 CROSS_CHECK_VALUES = {"core.shapes.overlaps"}
@@ -125,8 +131,10 @@ def seen() -> dict[str, Any]:
     [
         ("none", EDGE | SEARCH, VALUES),
         ("dragon", EDGE | SEARCH | CROSS_CHECK, VALUES | CROSS_CHECK_VALUES),
+        ("new dragon", EDGE | SEARCH | CROSS_CHECK | NEW_DRAGON, VALUES | CROSS_CHECK_VALUES),
+        ("near a graze", EDGE | SEARCH | CROSS_CHECK | NEAR_GRAZE, VALUES | CROSS_CHECK_VALUES),
     ],
-    ids=["none", "dragon"],
+    ids=["none", "dragon", "new dragon", "near a graze"],
 )
 def test_a_collision_time_goes_through_no_other_modules(
     seen: dict[str, Any], asked: str, passed: set[str], made: set[str]

@@ -255,3 +255,14 @@ def test_ends_of_a_bracket_differ_in_a_table() -> None:
 def test_a_long_route_is_told_by_its_pieces() -> None:
     lines = [Line((float(k), 0.0), (k + 1.0, 0.0)) for k in range(40)]
     assert repr(Route(lines, start=2.5)) == "<Route: 40 pieces (Line, Line, Line, Line, ...), s from -2.5 to 37.5 m>"
+
+
+def test_a_table_of_many_pieces_or_points_stays_small() -> None:
+    route = Route([Line((float(x), 0.0), (x + 1.0, 0.0)) for x in range(300)])
+    table = route._repr_html_()
+    assert len(table) < 1_000
+    assert "<td>294</td>" in table
+    ring = tuple((20.0 * math.cos(k / 80.0), 20.0 * math.sin(k / 80.0)) for k in range(500))
+    table = Area("pond", ((*ring, ring[0]),))._repr_html_()
+    assert len(table) < 1_000
+    assert "and 495 more" in table
