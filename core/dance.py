@@ -62,7 +62,7 @@ class RunEnd(Shown):
         return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
 
 
-# The nodes are those of core/passages.py, without passages only time 0 at travel 0. speeds[k] holds from node k - 1 to
+# Nodes: see core/passages.py; without passages, the only node is time 0 at travel 0. speeds[k] holds from node k - 1 to
 # node k, and head_speed before the first node and after the last one.
 class Clock:
     """The travel of the head at any time. Without passages the speed is head_speed: a time is a travel divided by it.

@@ -14,7 +14,8 @@ LINE_DIGITS, TABLE_DIGITS = 9, 15
 TEXT_MOST, REPR_MOST = 60, 160
 # Most entries of a list in a table; a longer list shows its first entries.
 ENTRIES_MOST = 6
-# Units by field name: one word has one meaning. A class whose field means something else overrides it in `_units`.
+# Units by field name, because a name has one meaning. A class whose field means something else overrides it in
+# `_units`.
 _FIELDS = {
     "rad": "angle end_heading rotation start_angle start_heading start_theta sweep theta",
     "m": """

@@ -26,7 +26,7 @@ class Panel:
     """varied, answer: labels of the two axes, with units; points: the curve; own: the value of this problem
     smooth: True if the answer has no jumps, so that samples may be joined
 
-    There is no point where the question has no answer.
+    A value for which the question has no answer has no point.
     """
 
     varied: str

@@ -145,7 +145,7 @@ def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
 
 
 def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
-    """Lines with their labels. A line without one, below a label without an axis, is its y, as in merged cells."""
+    """Lines with their labels. Below a label without an axis, a line without a label is its y (merged cells)."""
     found: list[tuple[int, Label]] = []
     for k, label in enumerate(labels):
         if label is not None and label.handle is not None:

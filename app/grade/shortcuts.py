@@ -28,7 +28,7 @@ SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
 # Steps of time in students' searches for an event [s], and for the highest speed or the graze of a pitch [s].
 EVENT_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.04, 0.05, 0.08, 0.1, 0.2, 0.25, 0.5, 1.0)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-# Precision from which a number shows its shortcut, half of its last digit relative to it [1]: 1.3 has too few digits.
+# Largest half of the last digit, relative to the number, at which a shortcut is reported [1]: 1.3 has too few digits.
 DIGITS_SHARE = 2e-3
 # Steps of students' searches for the pitch [m].
 PITCH_GRIDS = (0.01, 0.005, 0.001, 0.0005, 0.0001, 0.00005)

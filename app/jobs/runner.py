@@ -94,7 +94,7 @@ class Work:
                 self.process.kill()
 
 
-# A process, and a message of it, or None when it has ended.
+# A process with one of its messages; None after it has ended.
 Word = tuple[Work, dict[str, Any] | None]
 
 

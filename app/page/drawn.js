@@ -51,7 +51,7 @@ export class Drawn {
     $("#invite").append(words("h3", "inviteTitle"), worded("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
   }
 
-  /** Begin to draw: with an S where nothing is drawn yet. */
+  /** Begin to draw; an empty drawing starts with an S-shaped path. */
   choose() {
     if (this.state.get("drawing") === EMPTY) this.state.set({ drawing: PRESETS.s }, false);
     this.state.choosePath("route");

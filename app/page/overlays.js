@@ -11,7 +11,7 @@ const CORNERS = ["top-right", "bottom-right", "top-left"];
 
 let said = 0;
 
-/** Gives the shown message in the language of the page. */
+/** Function that gives the shown message in the language of the page. */
 let message = () => "";
 
 /** Say that the service is lost. seconds: until the next try, 0 during one */

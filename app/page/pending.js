@@ -1,8 +1,8 @@
-/** What the page has begun and will end by itself, named in <html data-pending>: whoever drives it by a program, as its tests do, sees when it is at rest. */
+/** Work in progress, named in <html data-pending>, so that a program such as a test sees when the page is at rest. */
 
 const begun = new Set();
 
-/** what: a symbol, whose description is its name; is: has it begun, or ended? */
+/** what: a symbol, whose description names the work; is: true when it begins, false when it ends */
 export function pending(what, is) {
   if (is) begun.add(what);
   else begun.delete(what);

@@ -111,7 +111,7 @@ export class Questions {
   #refreshDrawn() {
     const asked = this.drawn();
     const { drawing } = asked;
-    // Where nothing is drawn nothing stays in sight: what comes next is asked anew, also what was there before.
+    // Without a drawing nothing stays visible, so the next one is asked about again, even if it is an earlier one.
     if (!drawing.path && drawing.points.length < 2) return this.#asked.clear();
     const { dragon, path } = this.body({}, asked);
     if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);

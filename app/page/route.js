@@ -60,7 +60,7 @@ export class RouteForm {
     this.steps.take({ ...this.#drawing, ...changes }, kind);
   }
 
-  /** Offer to begin at time 0 where a dance begins later, as the dragon does not yet fit. dance: as judged, or null */
+  /** Offer to begin at time 0 if the dance begins later, because the dragon does not yet fit on the path. dance: as judged, or null */
   offer(dance) {
     this.later.hidden = !(dance?.begin > 0) || dance.said.passages.length > 0;
     if (this.later.hidden) return;

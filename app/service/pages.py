@@ -91,7 +91,7 @@ class Files(StaticFiles):
     """Files of a page, without the Python file that makes their folder a package."""
 
     def edition(self) -> str:
-        """Name of the present files, which changes with their content; equal files have it on every machine."""
+        """Name of the current files, which changes with their content; equal files have it on every machine."""
         folders = [found for place in self.all_directories for found in sorted(os.walk(place))]
         paths = [os.path.join(folder, name) for folder, _, names in folders for name in sorted(names)]
         return _digest(tuple((path, os.stat(path).st_mtime_ns) for path in paths if not path.endswith(PYTHON)))

@@ -10,8 +10,8 @@ from fastapi.security import HTTPBearer
 from app.service.problems import Refused
 from app.wire.problem import ErrorItem
 
-# The token of a call that may need it, for the description of the service: guard() reads it. The second entry of such a
-# call's security says that a service may have none.
+# Security of a call that may need the token, in the schema; guard() reads the token. The empty second entry says that a
+# service may have none.
 TOKEN = Security(HTTPBearer(scheme_name="token", description="The token of a service that has one", auto_error=False))
 WITHOUT: list[dict[str, list[str]]] = [{}]
 

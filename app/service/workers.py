@@ -83,7 +83,7 @@ def listen(host: str, port: int) -> socket.socket:
 
 
 class _Supervisor(Multiprocess):
-    """uvicorn's supervisor, whose processes ignore Ctrl-C while they start, and leave no gauge behind when they die.
+    """uvicorn's supervisor, whose processes ignore Ctrl-C while they start, and leave no metrics behind when they die.
 
     It asks each process in turn whether it is alive and waits for the answer. This process closes its own copy of the
     other end of that pipe: the pipe then ends with a process that is killed, and the next one is started at once.

@@ -10,7 +10,7 @@ from app.wire.messages import fault_of, place_of
 from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, plain, problem_of
 from core import BenchDragonError
 
-# A function of the steps to the place of an error and its words; it returns the error of the problem.
+# A function that makes an error of the problem from the steps to its place and its words.
 Placing = Callable[[Sequence[Any], str], ErrorItem]
 
 

@@ -92,7 +92,7 @@ def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
 # Towards the fold handles move as the square root of the remaining travel. So a part whose bound is too low is divided
 # where a quarter of it remains: each side has about half of the motion. Its bound holds for both.
 def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
-    """A bound: from a travel to the fold no two benches come nearer than this, or than the margin [m]; None: not known.
+    """Lower bound of all gaps from a travel to the fold, or the margin if they exceed it [m]; None if unknown.
 
     The way is divided into at most FOLD_STRETCHES parts, until the bound exceeds the margin.
     """
@@ -139,7 +139,7 @@ def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
 # gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
 # that can be the least.
 def least_left(search: Search, travel: float, theta: float) -> float:
-    """A bound: from a travel until the head is at theta no two benches come nearer than this, or than the margin [m].
+    """Lower bound of all gaps from a travel until the head is at theta, or the margin if they exceed it [m].
 
     It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
     sizes; NO_BOUND if a bench without a place in rows[0] could come near one that leads a pair.

@@ -53,7 +53,7 @@ class Search:
     work: remaining work of its marches, see WORK_BUDGET, within the budget of the whole question. After a stop of that
         budget, every function that examines benches raises Halted
     timing: largest distance of the head from its place at a rounded time, in addition to the rounding of its travel [m]
-    between: least number of benches between the two of a pair, at least 1 [1]
+    between: fewest benches between the two of a pair, 1 or more [1]
     place: origin of the kernels' places, at time 0: arc length from the centre of a spiral, minus s on a route [m]
     """
 

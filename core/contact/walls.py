@@ -162,7 +162,8 @@ def venue_end(dance: Dance) -> float:
 def is_clear_beyond(
     dance: Dance, venue: Venue, *, margin: float, stray: float = 0.0, start: float, seen: float
 ) -> bool:
-    """True if a spiral dance is proven to stay clear of the venue to its end, if it was clear from start to `seen` [s].
+    """True if a spiral dance is proven to stay clear of the venue to its end, given that it is clear from start to
+    `seen` [s].
 
     The head goes inwards, so the benches up to the first of the equal ones stay in the disc around the centre that the
     chords from the head to that bench span. Every other bench, once it has passed the start of the bench before it, is

@@ -71,7 +71,7 @@ class MinimumPitch(Shown):
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is `pitch` without a scan, the
         second is None for every larger pitch
     scan_step: None without a scan
-    evaluations: number of marched ways from the start to the circle, plus the bands of pitches, see
+    evaluations: number of ways marched from the start to the circle, plus the number of bands of pitches, see
         `core/design/pitch_bands.py`
     """
 

@@ -21,8 +21,8 @@ from core.paths.spiral import Spiral
 # Lower end of the first band of a descent, as a part of its top [1]: the top is seldom far above the border. With it
 # the default takes 14.7 ms and a circle of 4 m 5.9 ms, without it 17.7 and 9.0 ms (measured 2026-11-21).
 FIRST_BAND = 0.9
-# Half width of the bracket around the border of feasible pitches [m of pitch]. A graze this far above its border must
-# exceed the proven error of gaps, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
+# Half width of the bracket around the border of feasible pitches [m of pitch]. The gap of a graze this far above the
+# border must exceed the proven error of gaps, 3e-13 m for benches 0 and 19 of the default (pair_rounding()).
 BORDER_WIDTH = 5e-13
 # A narrower band that is neither proven nor touching ends the descent [m of pitch].
 BAND_MIN = 1e-11
@@ -130,7 +130,7 @@ class Bands:
         return clear
 
     def descend(self, top: float, lowest: float) -> tuple[float, str]:
-        """The pitch down to which all pitches from `top` are proven clear [m], and the reason why it ends there.
+        """The pitch down to which all pitches from `top` are proven clear [m], and the reason for that.
 
         'lowest': all are clear; 'border': a contact that becomes a graze, as computed, less than 2 BORDER_WIDTH below;
         'stuck': the next BAND_MIN could not be proven; 'unbounded': no bound holds, a handle moves backwards, or

@@ -13,10 +13,10 @@ from core.kernels.constants import FREE, NO_BOUND
 from core.values import Floats
 
 # Rounding of the bound, in units of the lengths in its sums, u = 2^-53 [1]. The relative error of k is at most 8 u,
-# that of angles 14 u, that of 1 - cos phi 12 u + 14 u phi sin phi; so every factor of a length is good to fewer than 60
-# u. The lengths of one sum are together at most 4 times those named in least(). If `across` is longer than these, it
-# exceeds every margin that the gap exceeds. Angles at their limits need no more, because the bound is smooth there.
-# The test whether a dragon is too short to reach half around has the same allowance.
+# that of angles 14 u, that of 1 - cos phi 12 u + 14 u phi sin phi; so every factor of a length is accurate to 60 u. The
+# lengths of one sum are together at most 4 times those named in least(). If `across` is longer than these, it exceeds
+# every margin that the gap exceeds. Angles at their limits need no more, because the bound is smooth there. The test
+# whether a dragon is too short to reach half around has the same allowance.
 STRAIGHT_ROUNDING = 3e-14
 # S is chosen so that benches further apart along the path have at least the gap of a straight line between them, and at
 # least this part of the distance that two benches can bridge [1].
@@ -49,7 +49,7 @@ SPARE = 0.05
 #                                                 >= 2 pi b / sqrt(1 + (pi b / (2 rho))^2),
 # both growing with b; a dragon whose arcs together are shorter than pi rho has no such points. So where the arc from
 # the rear handle of i to the front handle of j is S or longer, the benches are apart by the lesser of the two less 2 h.
-# S is at most the least sum of two consecutive chords between others. If that is too short, S is taken longer, and
+# S is at most the least sum of two consecutive chords between others. If that is too short, a longer S is used, and
 # benches nearer than S along the path are compared along one direction as above, that in the middle of their tangents:
 # these turn by at most k S + 4 beta from i to j, so with phi = k S / 2 + 2 beta <= pi / 2 they are apart by at least
 #     (sum of the chords between) - o_i - o_j - S (1 - cos phi) - 2 w sin phi,

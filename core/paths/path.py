@@ -35,8 +35,8 @@ class Path(Protocol):
         a spiral, 0 on a route. A place falls in the direction of travel, by 1 m for each metre
     A lag says how far back a handle stands, as its column LAG in a chain: the polar angle on a spiral in its own frame
         [rad], minus s on a route [m]
-    slide: largest distance of a point from its s along the path, in addition to the rounding of s [m]
-    block: number of places of the head for which handles() is quick, and multiples of it
+    slide: largest distance along the path between a point and its s, in addition to the rounding of s [m]
+    block: number of places of the head that handles() computes together: it is quick for multiples of it
     frame: the own frame, in which everything is computed; standard: the path in that frame
     spiral: the path itself if it is a Spiral, which alone has a pitch, one centre and a fold; None on a route
     knots: s of the points that define the path, empty for other paths [m]

@@ -303,7 +303,7 @@ class RoutePose(Benches):
             self.along.append((self.points[k] - self.points[k + 1]) / self.sizes[k].chord)
 
     def far_from(self, count: int) -> bool:
-        """False: no bound covers all benches of a route at once; they are compared pair by pair, quickly (10.)."""
+        """False: no bound covers all benches of a route at once; comparing them pair by pair is quick (10.)."""
         return False
 
     def angles(self, k: int) -> tuple[arb, arb]:

@@ -137,7 +137,7 @@ class _FclBoxes:
 
 
 class _Kept:
-    """Boxes of the most recent dragons. Each thread has its boxes for itself: python-fcl never releases Python's lock,
+    """Boxes of the most recent dragons. Each thread has its own boxes: python-fcl never releases Python's lock,
     but Python may pass the lock on during a callback, and a body can only be in one place."""
 
     def __init__(self) -> None:

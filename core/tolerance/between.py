@@ -54,7 +54,7 @@ from core.values import Floats
 
 # Number of cells of a full circle at first, and the number of times that they are cut in four, down to 2e-4 rad [1].
 CELLS, CUTS = 24, 9
-# Largest number of cells that are tried together [1]; with more cells, the bound known by then is the result.
+# Largest number of cells that are tried together [1]; if more are needed, the bound reached so far is the result.
 CELLS_MOST = 200_000
 # Largest number of different triples of benches in a dragon that are tried, which takes 0.1 s [1].
 TRIPLES_MOST = 100

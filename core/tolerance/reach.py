@@ -113,7 +113,7 @@ def gains(dragon: Dragon) -> Floats:
 
 @lru_cache(maxsize=4)  # a march that continues asks again
 def simple_reach(dragon: Dragon, stray: float) -> Reach:
-    """reach() by the simple bound, never smaller: every bench widened on all sides by its gain times the stray."""
+    """Upper bound of reach(): every bench widened on all sides by its gain times the stray."""
     return _reach(dragon, stray, _simple_supports)
 
 

@@ -75,7 +75,7 @@ class FirstOrder:
 
 
 def union_bound(dance: Dance, model: Wobble, times: Floats, budget: Budget) -> float:
-    """Upper bound of the probability that two benches touch at one of some instants (T,) [s]; 1 if none is known.
+    """Upper bound of the probability that two benches touch at one of some instants (T,) [s]; 1 if no bound is known.
 
     raises: Halted
     """
@@ -126,7 +126,7 @@ def first_order(dragon: Dragon, model: Wobble, places: Floats, tangents: Floats)
 
 
 def left_out(dragon: Dragon, laid: FirstOrder, deviations: float) -> Floats | None:
-    """Bounds (T, n, 4) of what e_k and e_{k+1} have beyond their first order, along and across bench k [m].
+    """Bounds (T, n, 4) of e_k and e_{k+1} minus their first order, along and across bench k [m].
 
     None where the assumption allows a rotation beyond STEEPEST
     """
@@ -157,7 +157,7 @@ def _meeting(dragon: Dragon, places: Floats, laid: FirstOrder, deviations: float
     if bounds is None:
         return 1.0
     along, across, _, turning = np.moveaxis(deviations * laid.deviations, -1, 0)
-    # e_{k+1} is along the bench what e_k is, and across it e_k and v together
+    # Along the bench, e_{k+1} equals e_k; across it, it equals the sum of e_k and v.
     front = np.hypot(along + bounds[..., 0], across + bounds[..., 1])
     rear = np.hypot(along + bounds[..., 2], across + turning + bounds[..., 3])
     furthest = (gains(dragon) * np.maximum(front, rear)).max(axis=1)
