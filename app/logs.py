@@ -12,7 +12,7 @@ from typing import Any
 request_id: ContextVar[str] = ContextVar("request_id", default="")
 
 
-class Named(logging.Filter):
+class RequestName(logging.Filter):
     """Adds the name of the request to a record."""
 
     def filter(self, record: logging.LogRecord) -> bool:
@@ -42,7 +42,7 @@ def log_config(in_json: bool) -> dict[str, Any]:
     from uvicorn.config import LOGGING_CONFIG  # The processes of jobs log without uvicorn.
 
     config = deepcopy(LOGGING_CONFIG)
-    config["filters"] = {"named": {"()": Named}}
+    config["filters"] = {"named": {"()": RequestName}}
     for handler in config["handlers"].values():
         handler["filters"] = ["named"]
     for formatter in config["formatters"].values():

@@ -12,13 +12,13 @@ from collections.abc import Callable
 import xlsxwriter
 
 from app.files.tables import XLSX_DECIMALS, Language, trajectory_sheets
-from app.files.workbooks import Sheet, rounded_away, workbook
+from app.files.workbooks import Worksheet, rounded_away, workbook
 from core import Dance, Dragon, Spiral, trajectory
 
 ROUNDS = 2
 
 
-def cell_by_cell(sheets: list[Sheet], options: dict[str, bool]) -> bytes:
+def cell_by_cell(sheets: list[Worksheet], options: dict[str, bool]) -> bytes:
     """The same workbook, written by XlsxWriter alone."""
     sink = io.BytesIO()
     with xlsxwriter.Workbook(sink, options) as book:

@@ -19,7 +19,7 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, OutsideRun, checked_number, checked_type, said, said_bound
-from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Stretch, checked_passages, nodes, words
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes, words
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import FOLD_ROUNDING, Spiral
@@ -111,15 +111,15 @@ class Clock:
         """Largest distance of the head from its place at a rounded time up to `until`, if there are passages [m]."""
         return TIME_ROUNDING * max(self.speeds) * max(abs(until), *self.times) if self.passages else 0.0
 
-    def stretches(self, begin: float, until: float) -> Iterator[Stretch]:
-        """The stretches of one speed between two times [s], in order."""
+    def periods(self, begin: float, until: float) -> Iterator[Period]:
+        """The periods of one speed between two times [s], in order."""
         edges = [begin, *(time for time in self.times if self.passages and begin < time < until), until]
         for start, end in pairwise(edges):
             k = bisect_right(self.times, start)
             node, passage = max(k - 1, 0), k - 1 if 0 < k <= len(self.passages) else None
             first, origin = self.travel(start), (self.times[node], self.travels[node])
             last = self.travel(end) if end == until else self.travels[self.times.index(end)]
-            yield Stretch(start, end, first, last, self.speeds[k], passage, origin)
+            yield Period(start, end, first, last, self.speeds[k], passage, origin)
 
     def words(self) -> str:
         """The speeds of the head in a sentence."""

@@ -35,7 +35,7 @@ class Passage(Shown):
         return f"{said(self.speed)} m/s until {end}"
 
 
-class Stretch(NamedTuple):
+class Period(NamedTuple):
     """An interval of time with one speed of the head.
 
     begin, end: [s]; first, last: travels of the head then [m]; speed: [m/s]
@@ -51,11 +51,11 @@ class Stretch(NamedTuple):
     origin: tuple[float, float]
 
     def time(self, travel: float) -> float:
-        """Time at which the head has travelled this far, within the stretch [s]."""
+        """Time at which the head has travelled this far, within the period [s]."""
         return min(max(self.origin[0] + (travel - self.origin[1]) / self.speed, self.begin), self.end)
 
     def travel(self, time: float) -> float:
-        """Travel of the head at a time of the stretch [m]."""
+        """Travel of the head at a time of the period [m]."""
         return self.origin[1] + (time - self.origin[0]) * self.speed
 
 

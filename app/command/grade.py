@@ -16,7 +16,7 @@ from app.command import show
 from app.command.options import Json
 from app.files.disk import checked_output, write_whole
 from app.files.tables import Language
-from app.grade.layout import SHEETS, Kind
+from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
 from app.grade.report import (
     DiagnosisAnswer,
@@ -155,7 +155,7 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
     verdict = say(sheet.verdict.value, language)
     if sheet.decimals:
         verdict += say("to_decimals", language, decimals=sheet.decimals)
-    title = sheet.sheet or say(SHEETS[Kind(sheet.holds)], language)
+    title = sheet.sheet or say(SHEETS[TableKind(sheet.holds)], language)
     counts = {"right": f"{sheet.right:,}", "cells": f"{sheet.cells:,}"}
     yield "  " + say("sheet_line", language, title=title, verdict=verdict, **counts)
     yield from (f"    {one}" for one in sheet.notes)

@@ -14,7 +14,7 @@ from app.command.options import Json
 from app.extras import require
 from app.files.disk import checked_output, object_words, read_dance
 from app.files.tables import Language
-from app.maps.layout import Found
+from app.maps.layout import DanceParts
 from app.maps.places import Places, read_map
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
 from app.questions.maps import maps as maps_of
@@ -57,7 +57,7 @@ def places(
     _print(found)
 
 
-def _print(found: Found) -> None:
+def _print(found: DanceParts) -> None:
     table = show.new_table("What the map holds", "name", "what", "x [m]", "y [m]")
     for area in found.venue.areas if found.venue else ():
         what = "square" if found.venue and area is found.venue.square else "obstacle"

@@ -13,7 +13,7 @@ import numpy as np
 import orjson
 
 from app.extras import require
-from app.files.workbooks import Sheet, workbook
+from app.files.workbooks import Worksheet, workbook
 from app.wire.answers import Columns
 from app.wire.clocks import time_of_day
 from core import InvalidValue, TooLarge, Trajectory
@@ -160,7 +160,7 @@ def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: L
     return workbook(trajectory_sheets(result, language), decimals)
 
 
-def trajectory_sheets(result: Trajectory, language: Language) -> list[Sheet]:
+def trajectory_sheets(result: Trajectory, language: Language) -> list[Worksheet]:
     """Positions, with two rows for each handle, x above y, and speeds: handles as rows, instants as columns."""
     instants, handles = result.speed.shape
     chinese = language is Language.CHINESE
@@ -169,8 +169,8 @@ def trajectory_sheets(result: Trajectory, language: Language) -> list[Sheet]:
     positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
     axes = [f"{name}{gap}{axis} (m)" for name in names for axis in "xy"]
     return [
-        Sheet("位置" if chinese else "positions", times, axes, positions),
-        Sheet("速度" if chinese else "speeds", times, _speed_labels(names, chinese), result.speed.T),
+        Worksheet("位置" if chinese else "positions", times, axes, positions),
+        Worksheet("速度" if chinese else "speeds", times, _speed_labels(names, chinese), result.speed.T),
     ]
 
 
@@ -180,12 +180,12 @@ def _speed_labels(names: Sequence[str], chinese: bool) -> list[str]:
     return [f"{name}{'  ' if chinese and name not in ends else ' '}(m/s)" for name in names]
 
 
-def instant_sheet(result: Trajectory, language: Language) -> Sheet:
+def instant_sheet(result: Trajectory, language: Language) -> Worksheet:
     """A row for each handle at the only instant of a trajectory: x, y and speed."""
     chinese, handles = language is Language.CHINESE, result.speed.shape[-1]
     columns = ["横坐标x (m)", "纵坐标y (m)", "速度 (m/s)"] if chinese else ["x (m)", "y (m)", "speed (m/s)"]
     numbers = np.column_stack([result.position.reshape(handles, 2), result.speed.reshape(handles)])
-    return Sheet("Sheet1", columns, own_names(result, language), numbers)
+    return Worksheet("Sheet1", columns, own_names(result, language), numbers)
 
 
 def trajectory_writer(

@@ -38,7 +38,7 @@ NO_ROWS, RANGE = b"<sheetData/>", re.compile(rb'<dimension ref="[^"]*"/>')
 
 
 @dataclass(frozen=True)
-class Sheet:
+class Worksheet:
     """title; columns: C names; rows: R names; numbers: (R, C)"""
 
     title: str
@@ -64,7 +64,7 @@ def rounded_away(values: Floats, decimals: int) -> Floats:
     return result + 0.0
 
 
-def workbook(sheets: Sequence[Sheet], decimals: int) -> bytes:
+def workbook(sheets: Sequence[Worksheet], decimals: int) -> bytes:
     """The bytes of an xlsx file; equal sheets give equal bytes.
 
     decimals: of every number, in its value and in its format
@@ -86,7 +86,7 @@ def workbook(sheets: Sequence[Sheet], decimals: int) -> bytes:
     return sink.getvalue()
 
 
-def _without_numbers(sheets: Sequence[Sheet], decimals: int) -> bytes:
+def _without_numbers(sheets: Sequence[Worksheet], decimals: int) -> bytes:
     import xlsxwriter
 
     sink = io.BytesIO()
@@ -101,7 +101,7 @@ def _without_numbers(sheets: Sequence[Sheet], decimals: int) -> bytes:
     return sink.getvalue()
 
 
-def _filled(page: bytes, sheet: Sheet, decimals: int) -> bytes:
+def _filled(page: bytes, sheet: Worksheet, decimals: int) -> bytes:
     """The sheet's XML with its rows."""
     letters = [letters_of(k).encode() for k in range(len(sheet.columns) + 1)]
     rows = [_row(1, letters, [b"", *map(_text, sheet.columns)])]

@@ -17,7 +17,7 @@ import numpy as np
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
 from app.grade.geometry import Model, geometries, time_at
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, Kind
+from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, TableKind
 from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding, explained
 from app.grade.verdict import RIGHT, ROUNDED, Judgement
@@ -62,9 +62,9 @@ def diagnosed(judgements: list[Judgement], budget: Budget) -> list[Finding]:
     if written < DECIMALS_LEAST or not any(one.is_off for one in judgements):
         return []
     by_kind = {one.table.kind: one for one in judgements}
-    if Kind.CONTACT in by_kind:
-        return _of_contact(by_kind[Kind.CONTACT], budget)
-    return _over_time(by_kind.get(Kind.POSITION), by_kind.get(Kind.SPEED), budget)
+    if TableKind.CONTACT in by_kind:
+        return _of_contact(by_kind[TableKind.CONTACT], budget)
+    return _over_time(by_kind.get(TableKind.POSITION), by_kind.get(TableKind.SPEED), budget)
 
 
 def _fit(one: Judgement, given: Floats, at: Ints | slice = slice(None)) -> _Fit:

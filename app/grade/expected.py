@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from app.grade.layout import BENCHES, COMPONENTS, HANDLES, Kind
+from app.grade.layout import BENCHES, COMPONENTS, HANDLES, TableKind
 from core import Dance, Dragon, Spiral, Turn, first_contact
 from core import trajectory as trajectory_of
 from core.values import Floats
@@ -30,9 +30,9 @@ class Workbook(StrEnum):
 
 # Kinds of sheets of each workbook.
 KINDS = {
-    Workbook.RESULT1: (Kind.POSITION, Kind.SPEED),
-    Workbook.RESULT2: (Kind.CONTACT,),
-    Workbook.RESULT4: (Kind.POSITION, Kind.SPEED),
+    Workbook.RESULT1: (TableKind.POSITION, TableKind.SPEED),
+    Workbook.RESULT2: (TableKind.CONTACT,),
+    Workbook.RESULT4: (TableKind.POSITION, TableKind.SPEED),
 }
 
 
@@ -63,7 +63,7 @@ def times_of(workbook: Workbook) -> Floats:
     return np.arange(first, last + 1, dtype=np.float64)
 
 
-def cells_of(workbook: Workbook, kind: Kind) -> int:
+def cells_of(workbook: Workbook, kind: TableKind) -> int:
     """Number of cells with numbers in a sheet."""
     return times_of(workbook).size * HANDLES * len(COMPONENTS[kind])
 

@@ -29,7 +29,7 @@ MARGIN = 8
 LABELS_LEAST = 3
 
 
-class Kind(StrEnum):
+class TableKind(StrEnum):
     """Kind of a table: x and y; speeds; or x, y and speed at one instant."""
 
     POSITION = "position"
@@ -38,8 +38,8 @@ class Kind(StrEnum):
 
 
 # Title of a table by its kind, if its sheet has none.
-SHEETS = {Kind.POSITION: "position", Kind.SPEED: "speeds", Kind.CONTACT: "contact"}
-COMPONENTS = {Kind.POSITION: (X, Y), Kind.SPEED: (SPEED,), Kind.CONTACT: (X, Y, SPEED)}
+SHEETS = {TableKind.POSITION: "position", TableKind.SPEED: "speeds", TableKind.CONTACT: "contact"}
+COMPONENTS = {TableKind.POSITION: (X, Y), TableKind.SPEED: (SPEED,), TableKind.CONTACT: (X, Y, SPEED)}
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Table:
     """
 
     title: str
-    kind: Kind
+    kind: TableKind
     times: Floats
     handles: Ints
     by_order: Ints
@@ -103,7 +103,7 @@ def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
     times, t = np.unique(instants, return_inverse=True)
     handles, h = np.unique(numbers.astype(np.int64), return_inverse=True)
     found = []
-    for kind in (Kind.POSITION, Kind.SPEED):
+    for kind in (TableKind.POSITION, TableKind.SPEED):
         if not {"xyv"[component] for component in COMPONENTS[kind]} <= columns.keys():
             continue
         wanted = [columns["xyv"[component]] for component in COMPONENTS[kind]]
@@ -128,7 +128,7 @@ def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
     heads = cells[max(0, first - MARGIN) : first]
     lines = _lines(labels[aside])
     named = {k: label.component for k, label in _head_labels(heads, aside).items()}
-    if {X, Y} <= set(named.values()) and len(named) <= len(COMPONENTS[Kind.CONTACT]) + 1:
+    if {X, Y} <= set(named.values()) and len(named) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
         return _contact(grid, cells, lines, _head_labels(heads, aside), turned)
     return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
 
@@ -191,7 +191,7 @@ def _over_time(
         by_speed = not twice
     if by_speed:
         lines = [(k, replace(label, component=SPEED)) for k, label in lines if label.component in (None, SPEED)]
-    return _filled(grid, cells, Kind.SPEED if by_speed else Kind.POSITION, lines, times, turned)
+    return _filled(grid, cells, TableKind.SPEED if by_speed else TableKind.POSITION, lines, times, turned)
 
 
 def _contact(
@@ -200,7 +200,7 @@ def _contact(
     """x, y and speed of handles at one instant."""
     columns = {label.component: (k, label.unit) for k, label in heads.items()}
     rows = [k for k, _ in lines]
-    shape = (1, len(rows), len(COMPONENTS[Kind.CONTACT]))
+    shape = (1, len(rows), len(COMPONENTS[TableKind.CONTACT]))
     values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
     notes: list[Note] = []
     for component, (k, unit) in columns.items():
@@ -208,13 +208,13 @@ def _contact(
         values[0, :, component] = [_value(cells[n][k], notes, n, k, turned) * unit for n in rows]
         row[0, :, component], column[0, :, component] = rows, k
     above, aside = (column, row) if turned else (row, column)
-    return Table(grid.title, Kind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, notes)
+    return Table(grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, notes)
 
 
 def _filled(
     grid: Grid,
     cells: list[list[Cell]],
-    kind: Kind,
+    kind: TableKind,
     lines: list[tuple[int, Label]],
     times: dict[int, float],
     turned: bool,
@@ -266,10 +266,10 @@ def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
     numbered = enumerate(range(first, len(cells)))
     lines = [(k, Label(n // 2 if twice else n, n % 2 if twice else SPEED, 1.0)) for n, k in numbered]
     aside = next(k for k, cell in enumerate(cells[first]) if isinstance(cell, float)) - 1
-    if not twice and len(cells[first]) - aside - 1 == len(COMPONENTS[Kind.CONTACT]):
-        heads = {aside + 1 + c: Label(None, c, 1.0) for c in COMPONENTS[Kind.CONTACT]}
+    if not twice and len(cells[first]) - aside - 1 == len(COMPONENTS[TableKind.CONTACT]):
+        heads = {aside + 1 + c: Label(None, c, 1.0) for c in COMPONENTS[TableKind.CONTACT]}
         return _contact(grid, cells, lines, heads, False)
-    kind = Kind.POSITION if twice else Kind.SPEED
+    kind = TableKind.POSITION if twice else TableKind.SPEED
     return _filled(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
 
 

@@ -12,7 +12,7 @@ from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import Unreadable
-from app.grade.layout import BENCHES, COMPONENTS, SHEETS, Kind, cell_name, tables_of
+from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind, cell_name, tables_of
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
 from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn, right_answer
@@ -235,7 +235,7 @@ def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer
     )
 
 
-def _lacking(kind: Kind, cells: int, language: Language) -> SheetAnswer:
+def _lacking(kind: TableKind, cells: int, language: Language) -> SheetAnswer:
     said = say("no_sheet", language, kind=say(SHEETS[kind], language))
     return SheetAnswer(
         sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,

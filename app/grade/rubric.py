@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.grade.expected import Workbook
-from app.grade.layout import HANDLES, Kind
+from app.grade.layout import HANDLES, TableKind
 from app.grade.shortcuts import Finding
 from app.grade.verdict import Judgement, Rating
 from app.grade.words import Note, note
@@ -41,8 +41,8 @@ def rubric_of(judgements: Sequence[Judgement], findings: Sequence[Finding]) -> l
     return list(_criteria({one.table.kind: one for one in judgements}, {one.error for one in findings}))
 
 
-def _criteria(by_kind: dict[Kind, Judgement], errors: set[str]) -> Iterator[Criterion]:
-    position, speed, contact = (by_kind.get(kind) for kind in (Kind.POSITION, Kind.SPEED, Kind.CONTACT))
+def _criteria(by_kind: dict[TableKind, Judgement], errors: set[str]) -> Iterator[Criterion]:
+    position, speed, contact = (by_kind.get(kind) for kind in (TableKind.POSITION, TableKind.SPEED, TableKind.CONTACT))
     placed = position or contact
     branch = None if placed is None else "wrong_ring" not in errors if placed.verdict in GOOD or errors else None
     yield _criterion("branch", branch)

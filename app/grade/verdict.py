@@ -13,7 +13,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.layout import COMPONENTS, HANDLES, Ints, Kind, Table
+from app.grade.layout import COMPONENTS, HANDLES, Ints, Table, TableKind
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -110,7 +110,7 @@ class Judgement:
 
 def workbook_of(tables: list[Table], name: str) -> Workbook:
     """Workbook of some tables: by their kinds, by the name of the file, or by the number of instants."""
-    if any(table.kind is Kind.CONTACT for table in tables):
+    if any(table.kind is TableKind.CONTACT for table in tables):
         return Workbook.RESULT2
     if any(table.times.min() < 0 for table in tables):
         return Workbook.RESULT4
@@ -124,7 +124,7 @@ def judged(table: Table, workbook: Workbook) -> Judgement:
     notes = [*table.notes[:3]]
     if len(table.notes) > len(notes):
         notes.append(note("more_text", count=len(table.notes) - len(notes)))
-    times = np.array([contact_time()]) if table.kind is Kind.CONTACT else table.times
+    times = np.array([contact_time()]) if table.kind is TableKind.CONTACT else table.times
     told = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
     motion = of_dance(dance_of(workbook))(np.where(told, times, 0.0))[..., list(COMPONENTS[table.kind])]
     values = table.values * _scale(table, motion, notes)

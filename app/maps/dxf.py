@@ -13,7 +13,7 @@ import orjson
 
 from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
-from app.maps.features import Counted, Drawing, Feature, area_of, drawn_as, holds, inner_point, role_of
+from app.maps.features import Counted, Drawing, MapFeature, area_of, drawn_as, holds, inner_point, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
 from core.venue import Ring
@@ -74,7 +74,7 @@ def _drawing(document: Any) -> Drawing:
     )
 
 
-def _refuse_wide(features: list[Feature]) -> None:
+def _refuse_wide(features: list[MapFeature]) -> None:
     """Refuse a drawing without a unit that is too wide for metres."""
     points = [point for one in features for ring in one.rings for point in ring]
     across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
@@ -120,7 +120,7 @@ class _Reader:
         kind, layer = entity.dxftype(), str(entity.dxf.get("layer", ""))
         handle = str(entity.dxf.get("handle"))
         name, radius = self.names.get(handle), self.radii.get(handle)
-        feature = Feature("point", (), name, role_of(layer, name), radius, properties={"layer": layer})
+        feature = MapFeature("point", (), name, role_of(layer, name), radius, properties={"layer": layer})
         if kind in TEXTS:
             words = entity.plain_text() if kind == "MTEXT" else str(entity.dxf.text)
             self.texts.append((words.strip(), self._place(entity.dxf.insert)))
@@ -134,7 +134,7 @@ class _Reader:
         elif entity.dxf.get("layer") != LAYERS["mark"][0]:
             self.counted.leave_out(kind)
 
-    def _add_curve(self, entity: Any, feature: Feature) -> None:
+    def _add_curve(self, entity: Any, feature: MapFeature) -> None:
         made = self.flat.make_path(entity)
         points = tuple(self._place(point) for point in made.flattening(FLATTENED / self.factor, segments=4))
         points = tuple(b for a, b in zip((None, *points), points, strict=False) if a != b)
@@ -150,7 +150,7 @@ class _Reader:
     def _place(self, point: Any) -> tuple[float, float]:
         return float(point[0]) * self.factor, float(point[1]) * self.factor
 
-    def named(self) -> Iterator[Feature]:
+    def named(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text inside it."""
         features = list(_with_holes(self.counted.features))
         words: dict[int, str] = {}
@@ -164,13 +164,13 @@ class _Reader:
             yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
 
 
-def _is_in(feature: Feature, place: tuple[float, float]) -> bool:
+def _is_in(feature: MapFeature, place: tuple[float, float]) -> bool:
     if feature.shape == "polygon":
         return holds(feature.rings, place)
     return feature.shape == "point" and dist(feature.rings[0][0], place) <= (feature.radius or 0.0)
 
 
-def _with_holes(features: list[Feature]) -> Iterator[Feature]:
+def _with_holes(features: list[MapFeature]) -> Iterator[MapFeature]:
     """The features; a ring on a layer of holes becomes a hole of the polygon around it."""
     holes = [one for one in features if _layer_of(one).endswith("_HOLES")]
     for feature in features:
@@ -181,7 +181,7 @@ def _with_holes(features: list[Feature]) -> Iterator[Feature]:
         yield replace(feature, rings=(*feature.rings, *own))
 
 
-def _layer_of(feature: Feature) -> str:
+def _layer_of(feature: MapFeature) -> str:
     return str(feature.properties.get("layer", ""))
 
 
@@ -218,7 +218,7 @@ def written(drawing: Drawing) -> bytes:
     return dxf_bytes(document)
 
 
-def _drawn(space: Any, feature: Feature, ring: Ring, layer: str) -> Any:
+def _drawn(space: Any, feature: MapFeature, ring: Ring, layer: str) -> Any:
     attributes: dict[str, object] = {"layer": layer}
     if feature.shape == "point":
         return space.add_circle(ring[0], feature.radius or 0.5 * CROSS, dxfattribs=attributes)

@@ -42,7 +42,7 @@ def role_of(*words: object) -> str | None:
 
 
 @dataclass(frozen=True, slots=True)
-class Feature:
+class MapFeature:
     """One thing on a map.
 
     rings: the point alone, the points of a line, or the closed rings of a polygon, the outer one first
@@ -56,7 +56,7 @@ class Feature:
     radius: float | None = None
     properties: Mapping[str, object] = field(default_factory=dict)
 
-    def moved(self, move: Callable[[Floats], Floats]) -> Feature:
+    def moved(self, move: Callable[[Floats], Floats]) -> MapFeature:
         """The same feature elsewhere. move: function of points (N, 2)"""
         return replace(self, rings=tuple(tuple(map(tuple, move(np.array(ring)).tolist())) for ring in self.rings))
 
@@ -71,7 +71,7 @@ class Drawing:
     left_out: kinds of things that were not read, and their numbers
     """
 
-    features: tuple[Feature, ...]
+    features: tuple[MapFeature, ...]
     degrees: bool | None
     origin: Origin | None = None
     path: Mapping[str, object] | None = None
@@ -83,11 +83,11 @@ class Counted:
     """Collector of features, with the limits of a map."""
 
     def __init__(self) -> None:
-        self.features: list[Feature] = []
+        self.features: list[MapFeature] = []
         self.left_out: dict[str, int] = {}
         self._points = 0
 
-    def add(self, feature: Feature) -> None:
+    def add(self, feature: MapFeature) -> None:
         """raises: InvalidValue when there are too many"""
         self._points += sum(map(len, feature.rings))
         self.features.append(feature)
@@ -99,17 +99,17 @@ class Counted:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1
 
 
-def drawn_as(line: Feature) -> Feature:
+def drawn_as(line: MapFeature) -> MapFeature:
     """The feature of a line; if it ends at its beginning, the polygon inside it, unless it is a path or has a width."""
     (points,) = line.rings
     closed = len(points) > 3 and points[0] == points[-1] and line.role != PATH and line.radius is None
     return replace(line, shape="polygon" if closed else "line")
 
 
-def features_of(things: Sequence[Thing]) -> list[Feature]:
+def features_of(things: Sequence[Thing]) -> list[MapFeature]:
     """The things of a venue as features, the square first."""
     return [
-        Feature(*_form(rings, radius), name, OBSTACLE if k else SQUARE, radius)
+        MapFeature(*_form(rings, radius), name, OBSTACLE if k else SQUARE, radius)
         for k, (name, rings, radius) in enumerate(things)
     ]
 
@@ -147,7 +147,7 @@ def _crossings(rings: tuple[Ring, ...], level: float) -> Iterator[float]:
             yield a[0] + (level - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
 
 
-def area_of(feature: Feature) -> float:
+def area_of(feature: MapFeature) -> float:
     """Area of a polygon without its holes, or of a round thing."""
     if feature.shape == "point":
         return math.pi * (feature.radius or 0.0) ** 2

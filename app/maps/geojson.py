@@ -8,7 +8,7 @@ from typing import Any, TypeGuard
 
 import orjson
 
-from app.maps.features import Counted, Drawing, Feature, Shape, drawn_as, role_of
+from app.maps.features import Counted, Drawing, MapFeature, Shape, drawn_as, role_of
 from app.wire.degrees import GEOGRAPHIC, Origin, named_system
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
@@ -29,7 +29,7 @@ COLLECTIONS = {"FeatureCollection": "features", "GeometryCollection": "geometrie
 def read(told: Mapping[str, Any]) -> Drawing:
     """The map in a GeoJSON object. raises: InvalidValue at the member at fault"""
     counted = Counted()
-    for feature in _features("file", told, Feature("point", ())):
+    for feature in _features("file", told, MapFeature("point", ())):
         counted.add(feature)
     system = named_system(told)
     path = next((one.properties["path"] for one in counted.features if "path" in one.properties), None)
@@ -61,7 +61,7 @@ def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterator[Feature]:
+def _features(field: str, told: object, like: MapFeature, depth: int = 0) -> Iterator[MapFeature]:
     """Every feature of a GeoJSON object in its order; `like` has the name and the role of the object around it."""
     if depth > DEPTH_MAX:
         raise InvalidValue(field, f"must not nest objects deeper than {DEPTH_MAX}")
@@ -75,7 +75,7 @@ def _features(field: str, told: object, like: Feature, depth: int = 0) -> Iterat
         properties = {str(name): value for name, value in given.items()} if isinstance(given, Mapping) else {}
         name, radius = properties.get("name"), properties.get("radius")
         own, role = name if isinstance(name, str) and name else None, role_of(properties.get("role"), name)
-        around = Feature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
+        around = MapFeature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
         yield from _features(f"{field}.geometry", told.get("geometry"), around, depth + 1)
     elif kind in COLLECTIONS:
         member = COLLECTIONS[kind]
@@ -131,12 +131,12 @@ def written(drawing: Drawing) -> bytes:
     return orjson.dumps({"type": "FeatureCollection", **origin, "features": features})
 
 
-def _properties(feature: Feature) -> dict[str, object]:
+def _properties(feature: MapFeature) -> dict[str, object]:
     radius = {} if feature.radius is None else {"radius": feature.radius}
     return {"name": feature.name, "role": feature.role, **radius, **feature.properties}
 
 
-def geometry_of(feature: Feature) -> dict[str, object]:
+def geometry_of(feature: MapFeature) -> dict[str, object]:
     """Geometry of a feature, in the unit of its points."""
     rings = [[list(point) for point in ring] for ring in feature.rings]
     if feature.shape == "polygon":

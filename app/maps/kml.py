@@ -15,7 +15,7 @@ from xml.parsers import expat
 
 import orjson
 
-from app.maps.features import POINTS_MAX, Counted, Drawing, Feature, Shape, drawn_as, role_of
+from app.maps.features import POINTS_MAX, Counted, Drawing, MapFeature, Shape, drawn_as, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
 from core.venue import Ring
@@ -141,7 +141,7 @@ class _Reader:
         if origin := _json(told.get("origin", "")):
             self.told["origin"] = _origin(origin)
         role = role_of(told.get("role"), told.get("name"), *reversed(self.folders))
-        feature = Feature("point", (), told.get("name") or None, role, _number(told.get("radius", "")))
+        feature = MapFeature("point", (), told.get("name") or None, role, _number(told.get("radius", "")))
         for shape, rings in self.shapes:
             one = replace(feature, shape=shape, rings=rings)
             self.counted.add(drawn_as(one) if shape == "line" else one)
@@ -210,7 +210,7 @@ def _words(text: str) -> str:
     return escape(re.sub("[\ufffe\uffff]", "", text), quote=False)
 
 
-def _geometry(feature: Feature) -> str:
+def _geometry(feature: MapFeature) -> str:
     lists = [" ".join(f"{x!r},{y!r}" for x, y in ring) for ring in feature.rings]
     if feature.shape == "polygon":
         outer, *inner = (f"<LinearRing><coordinates>{one}</coordinates></LinearRing>" for one in lists)

@@ -14,7 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from app.files.words import Say
 from app.maps import geojson
-from app.maps.features import MARK, PATH, SQUARE, Drawing, Feature, area_of, holds
+from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, area_of, holds
 from app.maps.marks import line_of
 from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
@@ -41,7 +41,7 @@ TRIED = 200
 
 
 @dataclass(frozen=True)
-class Found:
+class DanceParts:
     """The parts of a dance in a file.
 
     path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0
@@ -54,7 +54,7 @@ class Found:
     origin: Origin | None = None
     dance: Mapping[str, Any] | None = None
     notes: Sequence[str] = ()
-    things: Sequence[Feature] = ()
+    things: Sequence[MapFeature] = ()
 
     @property
     def geometry(self) -> dict[str, Any] | None:
@@ -65,12 +65,12 @@ class Found:
         return {"type": "FeatureCollection", **origin, "features": [_told(one) for one in self.things]}
 
 
-def _told(one: Feature) -> dict[str, Any]:
+def _told(one: MapFeature) -> dict[str, Any]:
     properties = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
-def _checked(things: list[Feature]) -> Venue:
+def _checked(things: list[MapFeature]) -> Venue:
     """The venue of features, checked like a request, so that a request can use them."""
     told = {"type": "FeatureCollection", "features": [_told(one) for one in things]}
     try:
@@ -105,7 +105,7 @@ class Reading:
         for kind, count in drawing.left_out.items():
             self.notes.append(say(f"Left out: {kind}, {count} times.", f"未读取：{kind}，{count} 个。"))
 
-    def found(self) -> Found:
+    def found(self) -> DanceParts:
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
         told = [one for one in lines if one.role == PATH]
@@ -115,9 +115,9 @@ class Reading:
         path = self._path(danced[0]) if danced else None
         others = [one for one in self.features if one is not square and one not in danced]
         things = self._things(square, others)
-        return Found(path, _checked(things) if things else None, self.origin, None, self.notes, things)
+        return DanceParts(path, _checked(things) if things else None, self.origin, None, self.notes, things)
 
-    def _walls(self, free: list[Feature]) -> bool:
+    def _walls(self, free: list[MapFeature]) -> bool:
         """True if lines without a role are walls: there are several, so none of them is clearly the path."""
         if len(free) > 1:
             self._note(
@@ -159,7 +159,7 @@ class Reading:
     def _note(self, english: str, chinese: str) -> None:
         self.notes.append(self.say(english, chinese))
 
-    def _square(self) -> Feature | None:
+    def _square(self) -> MapFeature | None:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
         polygons = [one for one in self.features if one.shape == "polygon"]
         told = next((one for one in polygons if one.role == SQUARE), None)
@@ -170,7 +170,7 @@ class Reading:
         others = (one for one in self.features if one is not largest)
         return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
 
-    def _things(self, square: Feature | None, others: list[Feature]) -> list[Feature]:
+    def _things(self, square: MapFeature | None, others: list[MapFeature]) -> list[MapFeature]:
         """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
@@ -183,7 +183,7 @@ class Reading:
             points = np.array([point for one in self.features for ring in one.rings for point in ring])
             (left, low), (right, high) = (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
             outline = ((left, low), (right, low), (right, high), (left, high), (left, low))
-            square = Feature("polygon", (outline,), "square")
+            square = MapFeature("polygon", (outline,), "square")
             self._note(
                 f"No polygon is the square, so it ends {AROUND:g} m beyond everything. Name one `square`.",
                 f"没有多边形是广场：取所有图形外 {AROUND:g} m 为界。请将其中一个命名为 square。",
@@ -193,7 +193,7 @@ class Reading:
         named = (replace(one, name=names.new(one.name or f"obstacle {k}")) for k, one in enumerate(obstacles, start=1))
         return [square, *named]
 
-    def _obstacle(self, one: Feature) -> Feature:
+    def _obstacle(self, one: MapFeature) -> MapFeature:
         """An obstacle, with a radius if it is a point or a line."""
         name = one.name or one.role or one.shape
         if one.shape == "polygon":
@@ -204,7 +204,7 @@ class Reading:
             self.assumed.setdefault(radius, []).append(name)
         return replace(one, radius=radius)
 
-    def _path(self, line: Feature) -> Mapping[str, Any]:
+    def _path(self, line: MapFeature) -> Mapping[str, Any]:
         points = np.array(line.rings[0])
         told = self.drawing.path
         if told is not None:
@@ -241,7 +241,7 @@ class _Names:
         return found
 
 
-def _closed(feature: Feature) -> Feature:
+def _closed(feature: MapFeature) -> MapFeature:
     """The same feature with closed rings, because some programs leave out the last point of a polygon."""
     if feature.shape != "polygon":
         return feature
@@ -249,7 +249,7 @@ def _closed(feature: Feature) -> Feature:
     return replace(feature, rings=rings)
 
 
-def _length(line: Feature) -> float:
+def _length(line: MapFeature) -> float:
     return sum(math.dist(a, b) for a, b in pairwise(line.rings[0]))
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.maps.features import Drawing, Feature, features_of
+from app.maps.features import Drawing, MapFeature, features_of
 from app.wire.degrees import Origin, Plane
 from app.wire.geojson import Thing
 from app.wire.question import check_limit
@@ -78,10 +78,10 @@ def drawing_of(
     path = dance.path
     low, high = path.drawn_between(min(float(marks.s[0]), path.begin), path.end)
     line = tuple(map(tuple, line_of(path, low, high).tolist()))
-    features.append(Feature("line", (line,), "path", "path", properties={"path": told}))
+    features.append(MapFeature("line", (line,), "path", "path", properties={"path": told}))
     for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
         properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4)}
-        features.append(Feature("point", (((point[0], point[1]),),), name, "mark", properties=properties))
+        features.append(MapFeature("point", (((point[0], point[1]),),), name, "mark", properties=properties))
     return Drawing(tuple(features), False, origin)
 
 

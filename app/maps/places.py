@@ -14,7 +14,7 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, kml
 from app.maps.features import features_of
-from app.maps.layout import Found, Reading, checked_path
+from app.maps.layout import DanceParts, Reading, checked_path
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
 from core import BenchDragonError, Budget, Dragon, InvalidValue
@@ -39,7 +39,7 @@ class Places(Answer):
     notes: list[str] = Field(description="Assumptions, and things left out, in sentences")
 
     @classmethod
-    def of(cls, found: Found) -> Self:
+    def of(cls, found: DanceParts) -> Self:
         return cls(path=found.path, venue=found.geometry, dance=found.dance, notes=list(found.notes))
 
 
@@ -51,7 +51,7 @@ def read_places(data: bytes, units: Coordinates | None, language: Language, budg
         return type(error), error.field, error.message
 
 
-def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
+def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     """Square and path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, recognised by its first bytes.
 
     units: of its coordinates; None: as the file says, else degrees if the numbers allow it
@@ -81,7 +81,7 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> Found:
         raise InvalidValue.in_words("file", f"{words}, got none of these: read as TOML, {error}") from error
 
 
-def _of_dance(told: Mapping[str, Any], say: Say) -> Found:
+def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
     """A file that describes a dance, as `check` takes it."""
     path, venue, notes = told.get("path"), told.get("venue"), []
     others = {name: value for name, value in told.items() if name not in ("path", "venue", "coordinates")}
@@ -95,10 +95,10 @@ def _of_dance(told: Mapping[str, Any], say: Say) -> Found:
     elif venue is not None:
         place = place_of(venue, told.get("coordinates"), Dragon())
     place = place or Place()
-    return Found(path, place.venue, place.origin, others, notes, features_of(place.things))
+    return DanceParts(path, place.venue, place.origin, others, notes, features_of(place.things))
 
 
-def read_map(file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH) -> Found:
+def read_map(file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH) -> DanceParts:
     """The square and the path in a map. raises: InvalidValue, OSError"""
     with file.open("rb") as source:
         data = source.read(FILE_MAX + 1)

@@ -41,7 +41,7 @@ ROUND = 4
 
 
 @dataclass(frozen=True)
-class Ground:
+class GroundMap:
     """The content of a map.
 
     swept: the ground that benches sweep; clear: the zone to keep clear around it; width: of that zone [m]
@@ -62,14 +62,14 @@ class Ground:
         return line_of(path, *path.drawn_between(float(marks.s[0]), float(marks.s[-1]) + marks.spacing))
 
 
-def scale_for(ground: Ground, name: PaperName) -> Scale:
+def scale_for(ground: GroundMap, name: PaperName) -> Scale:
     """The scale at which the whole ground fits on the paper. raises: InvalidValue"""
     rings = np.concatenate([rings[0] for rings in ground.clear])
     low, high = rings.min(axis=0), rings.max(axis=0)
     return scale_of(name, *with_square(ground.venue, low, high))
 
 
-def draw_ground(sheet: Sheet, ground: Ground, scale: Scale, *, numbers: bool) -> Rectangle:
+def draw_ground(sheet: Sheet, ground: GroundMap, scale: Scale, *, numbers: bool) -> Rectangle:
     """Draw the map on a sheet; returns its frame. numbers: of the marks, and the names of obstacles"""
     room = scale.paper.room
     frame = sheet.frame(room)
@@ -114,7 +114,7 @@ def _draw_coordinates(sheet: Sheet, scale: Scale, room: Box) -> None:
                 sheet.take(np.array([room[0], place - 1.5, room[0] + 9.0, place + 1.5]))
 
 
-def _draw_venue(sheet: Sheet, ground: Ground, scale: Scale, frame: Rectangle) -> None:
+def _draw_venue(sheet: Sheet, ground: GroundMap, scale: Scale, frame: Rectangle) -> None:
     if ground.venue is None:
         return
     square = ground.venue.square
@@ -161,7 +161,7 @@ def _draw_arrows(sheet: Sheet, line: Floats) -> None:
         )  # fmt: skip
 
 
-def _draw_marks(sheet: Sheet, ground: Ground, scale: Scale, line: Floats) -> None:
+def _draw_marks(sheet: Sheet, ground: GroundMap, scale: Scale, line: Floats) -> None:
     """Draw marks with their numbers beside the path, or on it where another part of the path is beside it."""
     room = scale.paper.room
     marks, path = ground.timing.marks, ground.dance.path
@@ -187,7 +187,7 @@ def _draw_marks(sheet: Sheet, ground: Ground, scale: Scale, line: Floats) -> Non
 
 
 def draw_benches(
-    sheet: Sheet, ground: Ground, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle
+    sheet: Sheet, ground: GroundMap, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle
 ) -> None:
     """Draw every bench in its true size, with its name where there is room for it.
 
@@ -223,7 +223,7 @@ def draw_benches(
             sheet.label(names[k].partition(" ")[0], size, places, room)
 
 
-def draw_legend(sheet: Sheet, ground: Ground, left: float, right: float, bottom: float, *, benches: bool) -> None:
+def draw_legend(sheet: Sheet, ground: GroundMap, left: float, right: float, bottom: float, *, benches: bool) -> None:
     """Draw the meaning of colours and lines, in a cell of the title block."""
     say, wide = sheet.say, right - left - 14.0
     spacing = ground.timing.marks.spacing

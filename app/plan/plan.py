@@ -16,10 +16,10 @@ from matplotlib.backends.backend_pdf import PdfPages
 import core
 from app.files.drawing import DRAWING
 from app.files.words import Say
-from app.plan.ground import Ground, draw_benches, draw_ground, draw_legend, scale_for
+from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_legend, scale_for
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
 from app.plan.tables import Table, draw_tables
-from app.plan.timing import Clock, points_of
+from app.plan.timing import TimeFormat, points_of
 
 # Fonts as outlines with a table of their characters: every machine draws them alike, and the text can be searched.
 FONTS: dict[Any, Any] = {"pdf.fonttype": 3, "hatch.linewidth": 0.4}
@@ -32,10 +32,10 @@ class Plan:
     family: fonts; names: of the benches; clock: format of times; title: of the block on every sheet
     """
 
-    ground: Ground
+    ground: GroundMap
     family: tuple[str, ...]
     names: Sequence[str]
-    clock: Clock
+    clock: TimeFormat
     title: Title
     paper: PaperName
 
@@ -160,7 +160,7 @@ def _speeds(plan: Plan, say: Say) -> Iterator[list[str]]:
     if not dance.passages:
         return
     first = timing.marks.first
-    for one in dance.clock.stretches(timing.moments[0], timing.moments[-1]):
+    for one in dance.clock.periods(timing.moments[0], timing.moments[-1]):
         moves = say(f"from here at {one.speed:g} m/s", f"此后速度 {one.speed:g} m/s")
         words = moves if one.speed else say("a pause begins", "开始停顿")
         yield [words, f"{one.first - first:.1f} m", plan.clock.words(one.begin)]

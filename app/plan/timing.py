@@ -14,7 +14,7 @@ from core.values import Floats
 
 
 @dataclass(frozen=True, slots=True)
-class Clock:
+class TimeFormat:
     """Format of times: minutes and seconds of the dance, or the time of day if it is known at time 0."""
 
     start_clock: str | None = None
@@ -22,7 +22,7 @@ class Clock:
     def words(self, time: float | None) -> str:
         """A time [s]; a dash for None.
 
-        >>> Clock().words(72.46), Clock().words(-4.19), Clock().words(None)
+        >>> TimeFormat().words(72.46), TimeFormat().words(-4.19), TimeFormat().words(None)
         ('1:12.5', '-0:04.2', '–')
         """
         if time is None:

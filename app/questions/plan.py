@@ -55,13 +55,13 @@ class PlanRequest(Marked):
 def plan(asked: PlanRequest, terms: Terms) -> bytes:
     """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
     from app.files.fonts import families
-    from app.plan.ground import Ground
+    from app.plan.ground import GroundMap
     from app.plan.plan import Plan, plan_pdf
     from app.plan.sheet import Title
-    from app.plan.timing import Clock, timing_of
+    from app.plan.timing import TimeFormat, timing_of
 
     dance, budget, say = asked.to_dance(terms.settings.checked_benches_max), terms.budget, Say(asked.language)
-    place, clock = asked.to_place(dance.dragon), Clock(asked.start_clock)
+    place, clock = asked.to_place(dance.dragon), TimeFormat(asked.start_clock)
     start, stop = dance.span(asked.start, asked.stop)
     marks = marks_of(dance, start, stop, asked.spacing)
     timing = timing_of(dance, marks, start, stop, budget)
@@ -77,7 +77,7 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
         report.verdict is Judgement.PASSES,
         geographic,
     )
-    ground = Ground(dance, place.venue, swept, clear, width, timing, geographic)
+    ground = GroundMap(dance, place.venue, swept, clear, width, timing, geographic)
     numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
     names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
     told = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])

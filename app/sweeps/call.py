@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from app.extras import require
-from app.sweeps.engines import Engine
+from app.sweeps.engines import SweepEngine
 from app.sweeps.processes import Processes
 from app.sweeps.questions import Question
 from app.sweeps.run import Progress, run
@@ -48,7 +48,7 @@ def sweep(
     return Sweep(place, spec)
 
 
-def engine_of(dask: str | None, workers: int | None = None, **waits: float) -> Callable[[], Engine]:
+def engine_of(dask: str | None, workers: int | None = None, **waits: float) -> Callable[[], SweepEngine]:
     """Function that starts the engine: processes of this machine, or a Dask cluster with `patience` and `first` wait.
 
     raises: MissingPackage

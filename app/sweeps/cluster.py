@@ -17,7 +17,7 @@ from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed.comm.core import connect
 
 from app.sweeps.engines import Done, NoAnswer, NoScheduler, arrived, attempt
-from app.sweeps.shards import Piece
+from app.sweeps.shards import ShardPiece
 
 # Name of a new cluster on this machine, in place of an address.
 LOCAL = "local"
@@ -63,8 +63,8 @@ class Cluster:
         self._address = self._own.scheduler_address if self._own else address
         self._patience = patience
         self._finished: queue.SimpleQueue[Future[tuple[bytes | None, str]]] = queue.SimpleQueue()
-        self._out: dict[Future[tuple[bytes | None, str]], Piece] = {}
-        self._lost: list[Piece] = []
+        self._out: dict[Future[tuple[bytes | None, str]], ShardPiece] = {}
+        self._lost: list[ShardPiece] = []
         self._looked, self._workers, self._failures = 0.0, 1, 0
         self._client = self._connected(first)
 
@@ -73,7 +73,7 @@ class Cluster:
         """Number of threads of all workers at the last count."""
         return self._workers
 
-    def submit(self, piece: Piece) -> None:
+    def submit(self, piece: ShardPiece) -> None:
         """Submit a piece to the cluster, now or after the connection is restored."""
         # Not "pure", because then a cancelled future would be found again by its key.
         try:
@@ -122,7 +122,7 @@ class Cluster:
             return [arrived(piece, attempted)]
         return []
 
-    def _failed(self, piece: Piece, error: Exception) -> None:
+    def _failed(self, piece: ShardPiece, error: Exception) -> None:
         """Submit a piece again: a failing cluster raises many kinds of errors. raises: NoAnswer after many in a row"""
         self._failures += 1
         if self._failures >= FAILURES and self._client.status == "running":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from app.sweeps.shards import Piece
+from app.sweeps.shards import ShardPiece
 from core import BenchDragonError
 
 # Pieces that are submitted but not answered, for each worker.
@@ -16,7 +16,7 @@ WINDOW = 4
 class Done:
     """A piece and its rows as an Arrow stream; None: its process died."""
 
-    piece: Piece
+    piece: ShardPiece
     rows: bytes | None
 
 
@@ -32,7 +32,7 @@ class NoScheduler(BenchDragonError):
     code = "no-scheduler"
 
 
-def attempt(piece: Piece) -> tuple[bytes | None, str]:
+def attempt(piece: ShardPiece) -> tuple[bytes | None, str]:
     """Rows of a piece, or the reason why there are none: errors with extra fields cannot be sent between processes."""
     try:
         return piece.answered(), ""
@@ -40,7 +40,7 @@ def attempt(piece: Piece) -> tuple[bytes | None, str]:
         return None, f"{type(error).__name__}: {error}"
 
 
-def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
+def arrived(piece: ShardPiece, attempted: tuple[bytes | None, str]) -> Done:
     """The result of attempt(). raises: NoAnswer"""
     rows, why = attempted
     if rows is None:
@@ -48,7 +48,7 @@ def arrived(piece: Piece, attempted: tuple[bytes | None, str]) -> Done:
     return Done(piece, rows)
 
 
-class Engine(Protocol):
+class SweepEngine(Protocol):
     """The place where pieces are answered.
 
     alone: True if a process has one piece at a time: if it dies, the piece is the cause, or a kill from outside
@@ -60,7 +60,7 @@ class Engine(Protocol):
     def workers(self) -> int:
         """Number of pieces that can be answered at the same time now; at least 1."""
 
-    def submit(self, piece: Piece) -> None:
+    def submit(self, piece: ShardPiece) -> None:
         """Take a piece."""
 
     def wait(self, seconds: float) -> list[Done]:

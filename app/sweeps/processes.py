@@ -14,7 +14,7 @@ from typing import Any, cast
 
 from app.settings import usable_cores
 from app.sweeps.engines import Done, arrived
-from app.sweeps.shards import Piece
+from app.sweeps.shards import ShardPiece
 from app.sweeps.worker import end, receive, send
 from core import BenchDragonError
 
@@ -36,7 +36,7 @@ class _Worker:
     """One process, and the thread that listens to it."""
 
     def __init__(self, events: queue.SimpleQueue[tuple[_Worker, Any]]) -> None:
-        self.piece: Piece | None = None
+        self.piece: ShardPiece | None = None
         self.ready = False
         self._events = events
         # In a new session, so that Ctrl-C stops the sweep and does not interrupt the workers one by one.
@@ -49,7 +49,7 @@ class _Worker:
         )
         threading.Thread(target=self._listen, daemon=True).start()
 
-    def give(self, piece: Piece) -> None:
+    def give(self, piece: ShardPiece) -> None:
         """Send a piece to the process; the thread reports the answer, or that the process died."""
         self.piece = piece
         with contextlib.suppress(OSError):
@@ -72,7 +72,7 @@ class Processes:
 
     def __init__(self, workers: int | None = None) -> None:
         self._events: queue.SimpleQueue[tuple[_Worker, Any]] = queue.SimpleQueue()
-        self._waiting: deque[Piece] = deque()
+        self._waiting: deque[ShardPiece] = deque()
         self._idle: list[_Worker] = []
         self._all = {_Worker(self._events) for _ in range(workers or usable_cores())}
         self._failed_starts = 0
@@ -87,7 +87,7 @@ class Processes:
         """Process ids."""
         return [worker.process.pid for worker in self._all]
 
-    def submit(self, piece: Piece) -> None:
+    def submit(self, piece: ShardPiece) -> None:
         """Take a piece, now or when a process is idle."""
         self._waiting.append(piece)
         self._hand_out()

@@ -14,10 +14,10 @@ from datetime import timedelta
 from pathlib import Path
 
 from app.sweeps import shards
-from app.sweeps.engines import WINDOW, Engine
+from app.sweeps.engines import WINDOW, SweepEngine
 from app.sweeps.processes import Processes
 from app.sweeps.questions import Question
-from app.sweeps.shards import Piece
+from app.sweeps.shards import ShardPiece
 from app.sweeps.spec import Spec
 from core import InvalidValue
 
@@ -62,14 +62,14 @@ class _Run:
 
     def __init__(self, folder: Path, spec: Spec, question: Question, missing: Iterator[int], total: int) -> None:
         self.folder, self.spec, self.question, self.missing = folder, spec, question, missing
-        self.ready: deque[Piece] = deque()
-        self.aside: list[Piece] = []
+        self.ready: deque[ShardPiece] = deque()
+        self.aside: list[ShardPiece] = []
         self.under_way: dict[int, _Shard] = {}
         self.deaths: dict[int, int] = {}
         self.begun = time.monotonic()
         self.answered_here, self.designs, self.total = 0, total, spec.designs
 
-    def next_piece(self) -> Piece | None:
+    def next_piece(self) -> ShardPiece | None:
         """The next piece to submit: from shards in progress first, then from new ones."""
         if self.ready:
             return self.ready.popleft()
@@ -77,9 +77,9 @@ class _Run:
         if shard is None:
             return None
         self.under_way[shard] = _Shard()
-        return Piece.whole(self.spec, self.question, shard)
+        return ShardPiece.whole(self.spec, self.question, shard)
 
-    def take(self, piece: Piece, rows: bytes) -> None:
+    def take(self, piece: ShardPiece, rows: bytes) -> None:
         """Keep the rows of a piece; the last piece of a shard writes its file."""
         shard = self.under_way[piece.shard]
         shard.rows[piece.start] = rows
@@ -91,7 +91,7 @@ class _Run:
             shards.write_part(self.folder, self.spec, piece.shard, pieces)
             del self.under_way[piece.shard]
 
-    def died(self, piece: Piece, alone: bool) -> None:
+    def died(self, piece: ShardPiece, alone: bool) -> None:
         """A process died while it answered a piece: halve the piece until the design that killed it is found."""
         if not alone:
             self.aside.append(piece)
@@ -110,7 +110,7 @@ class _Run:
         rate = self.answered_here / max(time.monotonic() - self.begun, 1e-9)
         return Progress(self.designs, self.total, rate, (self.total - self.designs) / rate if rate else None)
 
-    def through(self, engine: Engine, report: Callable[[Progress], None]) -> None:
+    def through(self, engine: SweepEngine, report: Callable[[Progress], None]) -> None:
         """Answer all missing designs with an engine, then close it."""
         out = 0
         try:
@@ -158,7 +158,7 @@ def run(
     folder: Path,
     *,
     question: Question,
-    engine: Callable[[], Engine] = Processes,
+    engine: Callable[[], SweepEngine] = Processes,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> None:
     """Answer every design that has no row in the folder yet.

@@ -36,7 +36,7 @@ class OtherVersion(BenchDragonError):
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class ShardPiece:
     """Designs from `start` to before `stop` of one shard of a sweep: the unit of work of an engine."""
 
     spec: Spec
@@ -47,15 +47,15 @@ class Piece:
     stop: int
 
     @classmethod
-    def whole(cls, spec: Spec, question: Question, shard: int) -> Piece:
+    def whole(cls, spec: Spec, question: Question, shard: int) -> ShardPiece:
         """A whole shard."""
         return cls(spec, question, core.__version__, shard, *spec.shard(shard))
 
-    def halves(self) -> tuple[Piece, Piece]:
+    def halves(self) -> tuple[ShardPiece, ShardPiece]:
         """The two halves of more than one design."""
         middle = (self.start + self.stop) // 2
         own = (self.spec, self.question, self.version, self.shard)
-        return Piece(*own, self.start, middle), Piece(*own, middle, self.stop)
+        return ShardPiece(*own, self.start, middle), ShardPiece(*own, middle, self.stop)
 
     def answered(self) -> bytes:
         """The rows of all designs, as an Arrow stream; a refused or failed design gives a row with its error.
@@ -75,29 +75,28 @@ class Piece:
                 rows.append((None, None, *(column.value(answer) for column in columns)))
             except Exception as error:
                 rows.append((*refusal(error), *nothing))
-        return _stream(_table(self, asked, rows, columns))
+        return _stream(self._table(asked, rows, columns))
 
     def killed(self) -> bytes:
         """The row of a single design whose process died."""
         columns = kept_columns(self.spec, self.question)
         asked = designs(self.spec, self.start, self.stop)
-        return _stream(_table(self, asked, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
+        return _stream(self._table(asked, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
+
+    def _table(self, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
+        """The table of the piece. rows: code and message of the error, then a value for each column"""
+        kinds = {"error.code": pa.string(), "error.message": pa.string()}
+        kinds |= {column.name: TYPES[column.kind] for column in columns}
+        arrays = {"design": pa.array(range(self.start, self.stop), pa.int64())}
+        arrays |= {name: _parameter(self.spec, name, values) for name, values in asked.items()}
+        for (name, kind), values in zip(kinds.items(), zip(*rows, strict=True), strict=True):
+            arrays[name] = pa.array(values, kind)
+        return pa.table(arrays)
 
 
 def kept_columns(spec: Spec, question: Question) -> list[Column]:
     """The columns of the answer, except those that repeat a parameter of the sweep."""
     return [column for column in answer_columns(question.answer, question.left_out) if column.name not in spec.over]
-
-
-def _table(piece: Piece, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
-    """The table of a piece. rows: code and message of the error, then a value for each column"""
-    kinds = {"error.code": pa.string(), "error.message": pa.string()}
-    kinds |= {column.name: TYPES[column.kind] for column in columns}
-    arrays = {"design": pa.array(range(piece.start, piece.stop), pa.int64())}
-    arrays |= {name: _parameter(piece.spec, name, values) for name, values in asked.items()}
-    for (name, kind), values in zip(kinds.items(), zip(*rows, strict=True), strict=True):
-        arrays[name] = pa.array(values, kind)
-    return pa.table(arrays)
 
 
 def _parameter(spec: Spec, name: str, values: list[Any]) -> pa.Array:

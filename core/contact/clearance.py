@@ -266,30 +266,30 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
     return (0.0, found.touching - (tolerance if state is Ended.TOUCHED else 0.0), found.benches), 0.0
 
 
-class Samples(NamedTuple):
+class ClearanceSamples(NamedTuple):
     """Clearances at some travels [m]."""
 
     travels: list[float]
     gaps: Floats
 
 
-def samples_between(search: Search, begin: float, until: float) -> Samples:
+def samples_between(search: Search, begin: float, until: float) -> ClearanceSamples:
     """The clearance in even steps between two travels."""
     grid = _grid(search, begin, until)
-    return Samples(grid, np.array([_sampled(search, travel) for travel in grid]))
+    return ClearanceSamples(grid, np.array([_sampled(search, travel) for travel in grid]))
 
 
-def samples_where(search: Search, known: Samples, within: float) -> Samples:
+def samples_where(search: Search, known: ClearanceSamples, within: float) -> ClearanceSamples:
     """The samples, computed again by this search where the known gap is at most `within` [m]."""
     again = [_sampled(search, travel) if gap <= within else gap for travel, gap in zip(*known, strict=True)]
-    return Samples(known.travels, np.array(again))
+    return ClearanceSamples(known.travels, np.array(again))
 
 
 def _sampled(search: Search, travel: float) -> float:
     return _affordable(search, travel, min(search.dragon.uniform_from + 1, search.dragon.benches))[0]
 
 
-def sampled_least(search: Search, samples: Samples) -> Dip:
+def sampled_least(search: Search, samples: ClearanceSamples) -> Dip:
     """The least clearance at the ends and in the dips of the samples."""
     grid = samples.travels
     ends = [(gap, travel, pair) for travel in (grid[0], grid[-1]) for gap, pair in (search.clearance(travel),)]

@@ -138,7 +138,7 @@ def rings_clear(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
     return None
 
 
-def way_out(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
+def free_arc(dragon: Dragon, coils: TwoCoils, margin: float) -> float | None:
     """Arc of the coil outwards to the head's place from which nothing can touch any more [m]; None if not known."""
     growth, leaders = coils.growth, dragon.chords[: dragon.uniform_from + 1]
     longest, rings = float(leaders.max()), rings_clear(dragon, coils, margin)
@@ -195,7 +195,7 @@ def clear_places(
     clear = min(first[S_END] - kernels.BLEND, first[S_START] + first[COIL_ARC] - arc) - kernels.PLACE_SPARE
     clear -= rounding(clear)
     coils = two_coils(path)
-    out = None if coils is None else way_out(dragon, coils, margin)
+    out = None if coils is None else free_arc(dragon, coils, margin)
     if out is None:
         return -clear, -FREE
     end = float(path.table[-1, S_START]) + out + kernels.PLACE_SPARE

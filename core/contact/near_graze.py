@@ -97,7 +97,7 @@ class Bench(NamedTuple):
     half_width: Decimal
 
 
-class Axis(NamedTuple):
+class BenchAxis(NamedTuple):
     """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left.
 
     It points to the place of the other bench when the axis was chosen. A gap along it proves an interval clear only if
@@ -149,7 +149,7 @@ class ExactPair:
     def gap(self, travel: Decimal) -> Decimal:
         """Separation of the two less the margin [m]."""
         self.search.budget.look()
-        return separation(*self.benches(travel))[0] - Decimal(self.search.margin)
+        return exact_separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
     def stays_apart(self, start: float, stop: float) -> bool:
         """True if the two are proven to be further apart than the margin from one travel to another [m]."""
@@ -167,8 +167,8 @@ class ExactPair:
                 if max(curvatures) >= kernels.FREE:
                     return False
                 there = self.benches(Decimal(start + h))
-                axis = separation(*there)[1]
-                least = min(gap_along(*here, axis), gap_along(*there, axis)) - margin
+                axis = exact_separation(*there)[1]
+                least = min(exact_gap(*here, axis), exact_gap(*there, axis)) - margin
                 if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * curvatures[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
@@ -200,9 +200,9 @@ class ExactPair:
         return row[CENTRE_X] + radius * cos, row[CENTRE_Y] + radius * sin
 
 
-def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
+def exact_separation(first: Bench, second: Bench) -> tuple[Decimal, BenchAxis]:
     """Signed separation of two rectangles [m], as in core.separation(), and the axis along which they have it."""
-    faces = [(gap_along(first, second, axis), axis) for axis in _FACES]
+    faces = [(exact_gap(first, second, axis), axis) for axis in _FACES]
     gap, axis = max(faces)
     if gap <= 0:
         return gap, axis
@@ -211,7 +211,7 @@ def separation(first: Bench, second: Bench) -> tuple[Decimal, Axis]:
     return nearest if nearest[0] - gap > GAP_ROUNDING else (gap, axis)
 
 
-def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:
+def exact_gap(first: Bench, second: Bench, axis: BenchAxis) -> Decimal:
     """Gap of two rectangles along an axis from its owner to the other one [m]; at most their separation."""
     own, other = (first, second) if axis.owner == 0 else (second, first)
     (x, y), (ux, uy) = _local(own, other.centre), other.along
@@ -224,10 +224,10 @@ def gap_along(first: Bench, second: Bench, axis: Axis) -> Decimal:
 
 _ONE, _NONE = Decimal(1), Decimal(0)
 _NORMALS = ((_ONE, _NONE), (_NONE, _ONE), (-_ONE, _NONE), (_NONE, -_ONE))
-_FACES = [Axis(owner, *parts) for owner in (0, 1) for parts in _NORMALS]
+_FACES = [BenchAxis(owner, *parts) for owner in (0, 1) for parts in _NORMALS]
 
 
-def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, Axis]:
+def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, BenchAxis]:
     """Least distance from a corner of the other bench to this one [m], and its direction."""
     found = []
     for a in (-1, 1):
@@ -238,7 +238,7 @@ def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, Axis
             dx = (abs(x) - own.half_length).max(_NONE).copy_sign(x)
             dy = (abs(y) - own.half_width).max(_NONE).copy_sign(y)
             gap = (dx * dx + dy * dy).sqrt()
-            found.append((gap, Axis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
+            found.append((gap, BenchAxis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
     return min(found)
 
 

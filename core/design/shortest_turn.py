@@ -21,7 +21,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.answer import FirstContact, Outcome
-from core.contact.coils import STRETCH, TwoCoils, beyond, way_out
+from core.contact.coils import STRETCH, TwoCoils, beyond, free_arc
 from core.contact.first_contact import contact_within
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
@@ -210,7 +210,7 @@ def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dr
     core/contact/coils.py."""
     coils, chords = coils_of(danced), dragon.chords
     whole = danced.length + STRETCH * float(chords.sum())
-    out = way_out(dragon, coils, margin)
+    out = free_arc(dragon, coils, margin)
     if out is None or danced.length + out >= whole:
         return whole, dragon
     head = coils.growth * float(kernels.spiral_theta((out - coils.arc(0.0)) / coils.growth))

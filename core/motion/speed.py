@@ -11,7 +11,7 @@ from core.contact.search import Search
 from core.dance import Dance
 from core.errors import InvalidValue, asked_of, checked_number, said_bound
 from core.kernels import Budget, Judged
-from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Stretch
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
 from core.sampling import bisected
 from core.shown import Shown
 
@@ -114,24 +114,24 @@ def highest_speed(
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
-    peaks = [_peak_of(search, stretch) for stretch in clock.stretches(begin, until)]
+    peaks = [_peak_of(search, period) for period in clock.periods(begin, until)]
     highest = max(peaks, key=lambda peak: peak.speed)
     proven = [peak.speed_bracket[1] for peak in peaks]
     upper = None if None in proven else max(speed for speed in proven if speed is not None)
     return replace(highest, speed_bracket=(highest.speed, upper))
 
 
-def _peak_of(search: Search, stretch: Stretch) -> HighestSpeed:
+def _peak_of(search: Search, period: Period) -> HighestSpeed:
     """The highest speed in a part of the dance with one head speed; 0 in a pause."""
-    speed = stretch.speed
+    speed = period.speed
     if speed == 0.0:
-        return HighestSpeed(0.0, (0.0, 0.0), stretch.begin, (0,), stretch.passage)
-    peak = peak_over(search, stretch.first, stretch.last)
+        return HighestSpeed(0.0, (0.0, 0.0), period.begin, (0,), period.passage)
+    peak = peak_over(search, period.first, period.last)
     rate, upper, travel = float(peak.rate), float(peak.upper), float(peak.travel)
     rates = np.abs(search.rates(travel))
     tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
     proven = upper * speed if upper < kernels.FREE else None
-    return HighestSpeed(rate * speed, (rate * speed, proven), stretch.time(travel), tied, stretch.passage)
+    return HighestSpeed(rate * speed, (rate * speed, proven), period.time(travel), tied, period.passage)
 
 
 def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
@@ -200,8 +200,8 @@ def first_excess(
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     search.timing, given_up = dance.clock.rounding(until), None
-    for stretch in dance.clock.stretches(begin, until):
-        found = _excess_in(search, stretch, limit) if stretch.speed > 0.0 else None
+    for period in dance.clock.periods(begin, until):
+        found = _excess_in(search, period, limit) if period.speed > 0.0 else None
         if found is None:
             continue
         if found.time is None:
@@ -213,14 +213,14 @@ def first_excess(
     return None if given_up is None else replace(given_up, time_bracket=(given_up.time_bracket[0], until))
 
 
-def _excess_in(search: Search, stretch: Stretch, limit: float) -> FirstExcess | None:
+def _excess_in(search: Search, period: Period, limit: float) -> FirstExcess | None:
     """The first excess in a part of the dance with one head speed."""
-    ratio = limit / stretch.speed
-    outcome, excess = _excess(search, stretch.first, stretch.last, stretch.speed, ratio)
+    ratio = limit / period.speed
+    outcome, excess = _excess(search, period.first, period.last, period.speed, ratio)
     if outcome is Judged.EXCEEDED:
-        time = stretch.time(excess.found)
-        return FirstExcess(time, (stretch.time(excess.proven), time), excess.handle)
-    return None if outcome is Judged.KEPT else _late_excess(search, ratio, stretch, stretch.time(excess.proven))
+        time = period.time(excess.found)
+        return FirstExcess(time, (period.time(excess.proven), time), excess.handle)
+    return None if outcome is Judged.KEPT else _late_excess(search, ratio, period, period.time(excess.proven))
 
 
 def _excess(
@@ -237,16 +237,16 @@ def _excess(
     return outcome, excess
 
 
-def _late_excess(search: Search, ratio: float, stretch: Stretch, proven: float) -> FirstExcess:
+def _late_excess(search: Search, ratio: float, period: Period, proven: float) -> FirstExcess:
     """An excess after the time at which a proof was given up [s], tried at instants that approach the end."""
 
     def faster(time: float) -> int | None:
         """A handle that is certainly faster than the limit at an instant."""
-        travel = stretch.travel(time)
-        outcome, excess = _excess(search, travel, travel, stretch.speed, ratio)
+        travel = period.travel(time)
+        outcome, excess = _excess(search, travel, travel, period.speed, ratio)
         return excess.handle if outcome is Judged.EXCEEDED else None
 
-    until = stretch.end
+    until = period.end
     times = [until - (until - proven) * 0.5**k for k in range(HALVINGS)] + [until]
     high = next((time for time in times if faster(time) is not None), None)
     if high is None:

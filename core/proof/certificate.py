@@ -14,7 +14,7 @@ from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
-from core.proof.dances import Clear, Contact, last_stop
+from core.proof.dances import ClearClaim, ContactClaim, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
 from core.proof.paths import recorded_path
 from core.proof.strays import ToleranceClaim, recorded_pose
@@ -27,7 +27,7 @@ FORMAT = "bench-dragon proof 1"
 PRECISION = 96
 
 Certificate = dict[str, Any]
-AnyClaim = CollisionTimeClaim | MinimumPitchClaim | Clear | Contact | ToleranceClaim
+AnyClaim = CollisionTimeClaim | MinimumPitchClaim | ClearClaim | ContactClaim | ToleranceClaim
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ def prove_clear(
     if stop is None:
         stop, until = last_stop(dance.dragon, record, dance.head_speed)
     begin = dance.default_start if start is None else start
-    return _proven(Clear(dance.dragon, record, dance.head_speed, begin, stop, until, margin), every_pair, progress)
+    return _proven(ClearClaim(dance.dragon, record, dance.head_speed, begin, stop, until, margin), every_pair, progress)
 
 
 def prove_contact(
@@ -111,7 +111,7 @@ def prove_contact(
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
     record, begin = recorded_path(_steady(dance).path), dance.default_start if start is None else start
-    return _proven(Contact(dance.dragon, record, dance.head_speed, begin, time, margin), every_pair, progress)
+    return _proven(ContactClaim(dance.dragon, record, dance.head_speed, begin, time, margin), every_pair, progress)
 
 
 def prove_tolerance(

@@ -12,7 +12,7 @@ from flint import acb, arb
 from core.dragon import Dragon
 from core.errors import said
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, Side
-from core.proof.pairs import Benches, Limit, Size, Unproven, above, below
+from core.proof.pairs import Benches, Size, TouchingLine, Unproven, above, below
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
 GUESS_RADIUS = 1e-8
@@ -224,7 +224,7 @@ class Pose(Benches):
             self.along.append((self.points[-2] - self.points[-1]) / self.chain.sizes[k].chord)
 
 
-class Stretch:
+class SpiralStretch:
     """A bench and those behind it while its front handle goes through [low, high] rad: at both ends and between.
 
     thetas, rates: of the handles, and their derivatives by the front handle's theta, enclosed over the stretch
@@ -297,10 +297,10 @@ class Stretch:
     def apart(self, partner: int, face: str, direction: float) -> bool:
         """Whether one of the two is more than the margin beyond this line of the other, over the whole stretch (4.).
 
-        partner: counted from bench; face, direction: see Limit
+        partner: counted from bench; face, direction: see TouchingLine
         """
         first, second = (self.chain.sizes[self.bench + k] for k in (0, partner))
-        return self._beyond(partner, Limit(face, direction, first, second))
+        return self._beyond(partner, TouchingLine(face, direction, first, second))
 
     def grounds(self, partner: int) -> tuple[Ground, Ground]:
         """Of the first bench and of partner."""
@@ -316,7 +316,7 @@ class Stretch:
         both = self.grounds(partner)
         return all(self._beyond(partner, Side(number, pair, *both)) for number, pair in zip(sides, hulls, strict=True))
 
-    def _beyond(self, partner: int, line: Limit) -> bool:
+    def _beyond(self, partner: int, line: TouchingLine) -> bool:
         """Whether one of the two is more than the margin beyond a line of the other, over the whole stretch (4.)."""
         a, b = (partner, 0) if line.by_partner else (0, partner)
         centre_a, along_a, centre_move_a, along_move_a = self.placed[a]

@@ -18,7 +18,7 @@ from core.paths.spiral import Spiral
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import check_fold
 from core.proof.pairs import Unproven, above, below
-from core.proof.sweeps import AnyChain, Overlap, Progress, found, swept
+from core.proof.sweeps import AnyChain, OverlapFound, Progress, found, swept
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisected
 
@@ -143,7 +143,7 @@ class MinimumPitchClaim(SpiralClaim):
             return fold
         try:
             swept(less, *self._way(less), less.repeats_from, found(less), progress, follows=False)
-        except Overlap as overlap:
+        except OverlapFound as overlap:
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
@@ -258,5 +258,5 @@ def refusing(field: str) -> Iterator[None]:
     """Turn Unproven into ProofRefused."""
     try:
         yield
-    except (Overlap, Unproven) as why:
+    except (OverlapFound, Unproven) as why:
         raise ProofRefused.in_words(field, f"not proven: {why}") from None

@@ -35,7 +35,7 @@ class DanceClaim(Claim):
 
 
 @dataclass(frozen=True)
-class Clear(DanceClaim):
+class ClearClaim(DanceClaim):
     """Nothing touches in [start, stop] [s], or comes within the margin [m].
 
     until: "stop", or the end that the run has reached END_BRACKET later: a fold, the centre of the spiral, the end of
@@ -87,7 +87,7 @@ class Clear(DanceClaim):
 
 
 @dataclass(frozen=True)
-class Contact(DanceClaim):
+class ContactClaim(DanceClaim):
     """Nothing touches in [start, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
     margin: as of CollisionTimeClaim
@@ -132,11 +132,11 @@ def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tup
     return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
 
 
-def _settle_span(claim: Clear | Contact, last: float) -> None:
+def _settle_span(claim: ClearClaim | ContactClaim, last: float) -> None:
     dance = Dance(claim.dragon, core_path(claim.path), claim.head_speed)
     settle(claim, head_speed=dance.head_speed, margin=checked_margin(claim.margin))
     start, stop = dance.span(claim.start, last)
-    settle(claim, start=start, **{"stop" if isinstance(claim, Clear) else "time": stop})
+    settle(claim, start=start, **{"stop" if isinstance(claim, ClearClaim) else "time": stop})
 
 
 def _way(chain: AnyChain, first: arb, last: arb) -> tuple[float, float]:

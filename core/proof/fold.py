@@ -6,7 +6,7 @@ import math
 
 from flint import arb
 
-from core.proof.chain import Chain, Stretch, slopes
+from core.proof.chain import Chain, SpiralStretch, slopes
 from core.proof.pairs import Unproven, above, below
 
 # Largest number of pieces of an angle delta before a fold counts as not proven; 20 to 60 are usual.
@@ -38,7 +38,7 @@ def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     pose.grow_to(bench)
     highest = before
     if bench:
-        stretch = Stretch(chain, 0, below(after), above(before), chain.count)
+        stretch = SpiralStretch(chain, 0, below(after), above(before), chain.count)
         while len(stretch.placed) < bench:
             stretch.grow()
         highest = stretch.thetas[bench]

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from flint import acb, arb
 
-from core.proof.pairs import Limit, above, below
+from core.proof.pairs import TouchingLine, above, below
 from core.values import Floats
 
 # Sides of each polygon, evenly spaced [1]: as many as in the search, so that grounds apart there are apart here too.
@@ -90,7 +90,7 @@ def _spare(chord: arb, stray: arb, furthest: arb) -> arb:
     return second * (arb.pi() / (2 * SAMPLES)) ** 2 / 8
 
 
-class Side(Limit):
+class Side(TouchingLine):
     """A side of a polygon of one of two grounds a, b; a polygon of the other is beyond if its corners are.
 
     number: 0 to SIDES - 1 for the first ground's sides, from SIDES on for the second's; hulls: a polygon of each
@@ -105,7 +105,7 @@ class Side(Limit):
         self._outwards, self._corners = other.outwards, other.corners[beyond]
 
     def corners(self, axis: acb) -> Sequence[acb]:
-        """As in Limit, but only those of 16. axis: of the other bench, seen along the line's normal"""
+        """As in TouchingLine, but only those of 16. axis: of the other bench, seen along the line's normal"""
         towards = -axis.conjugate()
         guess = round(math.atan2(float(towards.imag), float(towards.real)) * SIDES / math.tau)
         off = towards * self._outwards[guess % SIDES].conjugate()

@@ -12,7 +12,7 @@ from typing import Any
 
 from core.errors import ProofRefused, said, spoken
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
-from core.proof.dances import ENDINGS, Clear, Contact
+from core.proof.dances import ENDINGS, ClearClaim, ContactClaim
 from core.proof.ground import ONE_BY_ONE, SIDES
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION
 from core.proof.paths import PIECES, POINTS, TURN
@@ -25,7 +25,7 @@ PRECISION_LEAST, PRECISION_MOST = 53, 4096
 NUMBER_MOST = 1e15
 # Messages shorten longer values to this [characters].
 SHOWN_MOST = 40
-CLAIMS = {kind.kind: kind for kind in (CollisionTimeClaim, MinimumPitchClaim, Clear, Contact, ToleranceClaim)}
+CLAIMS = {kind.kind: kind for kind in (CollisionTimeClaim, MinimumPitchClaim, ClearClaim, ContactClaim, ToleranceClaim)}
 
 Rule = Callable[[str, Any], None]
 
@@ -38,7 +38,7 @@ def refuse_malformed(certificate: Any) -> None:
     claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
     kind: Any = claim.get("kind") if isinstance(claim, dict) else None
     strays = kind == ToleranceClaim.kind
-    with_overlap = "shown" in claim if strays else kind != Clear.kind
+    with_overlap = "shown" in claim if strays else kind != ClearClaim.kind
     _object("", certificate, MEMBERS | ({"overlap": _any_object} if with_overlap else {}))
     _one_of(*CLAIMS)("claim.kind", kind)
     optional = {name: _positive for name in ("shown" if strays else "margin",) if name in claim}
@@ -238,7 +238,7 @@ _DANCE: dict[str, Rule] = {"path": _by_kind(PATHS), "head_speed": _number, "star
 CLAIM_MEMBERS: dict[str, dict[str, Rule]] = {
     CollisionTimeClaim.kind: _SPIRAL | dict.fromkeys(("head_speed", "time"), _number),
     MinimumPitchClaim.kind: _SPIRAL | {"turning_radius": _number},
-    Clear.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
-    Contact.kind: _DANCE | {"time": _number},
+    ClearClaim.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
+    ContactClaim.kind: _DANCE | {"time": _number},
     ToleranceClaim.kind: _SPIRAL | dict.fromkeys(("head_speed", "start", "stop", "stray"), _number),
 }

@@ -42,7 +42,7 @@ class Size:
         self.corners = (acb(x, y), acb(x, -y), acb(-x, -y), acb(-x, y))
 
 
-class Limit:
+class TouchingLine:
     """A line fixed in one of two benches a, b, that touches it; the other bench is beyond if all its corners are.
 
     face: of ALL_FACES or DIRECTION; direction: the angle of the line's normal in the first bench [rad]

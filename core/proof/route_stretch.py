@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flint import acb, arb
 
-from core.proof.pairs import Limit, Unproven, above, below
+from core.proof.pairs import TouchingLine, Unproven, above, below
 from core.proof.route import Coil, RouteChain
 
 # Number of times that q of 9. is enclosed again from its own derivative: each time the excess is multiplied by the
@@ -138,10 +138,10 @@ class RouteStretch:
     def apart(self, partner: int, face: str, direction: float) -> bool:
         """Whether one of the two is more than the margin beyond this line of the other, all over the stretch (4., 9.).
 
-        partner: counted from bench; face, direction: see Limit
+        partner: counted from bench; face, direction: see TouchingLine
         """
         sizes = self.ends[0].sizes
-        limit = Limit(face, direction, sizes[0], sizes[partner])
+        limit = TouchingLine(face, direction, sizes[0], sizes[partner])
         along, velocity = self.relative(partner)
         place = self.between(partner, along, velocity)
         (velocity_a, rate_a), (velocity_b, rate_b) = self.placed[0], self.placed[partner]

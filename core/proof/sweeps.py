@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeGuard
 
 from core.errors import ProofRefused, said, spoken
-from core.proof.chain import Chain, Stretch
+from core.proof.chain import Chain, SpiralStretch
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven
 from core.proof.route import RouteChain
@@ -21,7 +21,7 @@ WIDTH_LEAST = 1e-13
 
 Progress = Callable[[float], None]
 AnyChain = Chain | RouteChain
-AnyStretch = Stretch | RouteStretch
+AnyStretch = SpiralStretch | RouteStretch
 # Proof that a pair is apart: a face, or with a stray one side of their grounds or nine (16.).
 Face = str | list[int]
 # (highest place, lowest place, one face for each bench from the next but one on, until all others are far, and the
@@ -31,7 +31,7 @@ Tile = tuple[float, float, str | list[Face], list[float]]
 Source = Callable[[int, float, float, Sequence[float]], Iterator["tuple[AnyStretch, Tile]"]]
 
 
-class Overlap(Exception):
+class OverlapFound(Exception):
     """Benches a < b strictly overlap, or are nearer than the margin, when the front handle of a is at this place."""
 
     def __init__(self, chain: AnyChain, a: int, b: int, place: float) -> None:
@@ -44,11 +44,11 @@ def stretch_of(chain: AnyChain, bench: int, low: float, high: float, last: int) 
     """A bench and those behind it over all places of its front handle from low to high [rad], [m]."""
     if isinstance(chain, RouteChain):
         return RouteStretch(chain, bench, low, high, last)
-    return Stretch(chain, bench, low, high, last)
+    return SpiralStretch(chain, bench, low, high, last)
 
 
 def _faces(stretch: AnyStretch) -> Tile:
-    """Verified faces that keep all benches of the stretch apart; raises Overlap if a pair is too near at an end."""
+    """Verified faces that keep all benches of the stretch apart; raises OverlapFound if two are too near at an end."""
     faces: Any = [] if _strays(stretch) else ""
     directions = []
     while not stretch.complete:
@@ -72,7 +72,7 @@ def _face(stretch: AnyStretch, partner: int) -> tuple[Face, float]:
     margin = stretch.chain.margin
     for place, pose in zip((stretch.low, stretch.high), stretch.ends, strict=True):
         if pose.within(partner, margin):
-            raise Overlap(stretch.chain, *_met(stretch, partner), place)
+            raise OverlapFound(stretch.chain, *_met(stretch, partner), place)
     low, high = (pose.gaps(partner) for pose in stretch.ends)
     tries = [(max(ALL_FACES, key=lambda k: min(float(low[int(k)]), float(high[int(k)]))), 0.0)]
     if margin > 0:
@@ -89,12 +89,12 @@ def _met(stretch: AnyStretch, partner: int) -> tuple[int, int]:
     return first, first + partner
 
 
-def _strays(stretch: AnyStretch) -> TypeGuard[Stretch]:
+def _strays(stretch: AnyStretch) -> TypeGuard[SpiralStretch]:
     """Whether the stretch is one of grounds, because the claim is about strays."""
-    return isinstance(stretch, Stretch) and bool(stretch.chain.grounds)
+    return isinstance(stretch, SpiralStretch) and bool(stretch.chain.grounds)
 
 
-def _sides(stretch: Stretch, partner: int) -> list[int]:
+def _sides(stretch: SpiralStretch, partner: int) -> list[int]:
     """The side, or the nine sides, that keep the grounds of this pair apart over the whole stretch."""
     grounds = stretch.grounds(partner)
     seen = [(complex(to), complex(axis)) for to, axis in (pose.seen(0, partner) for pose in stretch.ends)]

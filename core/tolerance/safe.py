@@ -75,7 +75,7 @@ class Field:
         return (1 if self.edges is not None else 2) * float(gains(self.dance.dragon).max())
 
     @cached_property
-    def in_place(self) -> clearance.Samples:
+    def in_place(self) -> clearance.ClearanceSamples:
         """Clearances of the benches in their nominal places."""
         return clearance.samples_between(self.search(0.0), *self.span)
 
@@ -86,7 +86,7 @@ class Field:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class SafeStray:
     """A stray that is safe in one field, and the dip that limits it.
 
     touches: whether there is a contact without any stray; independent, simple: see Tolerance
@@ -100,7 +100,7 @@ class Found:
     simple: float = math.inf
 
 
-def held_stray(field: Field, most: float) -> Found:
+def held_stray(field: Field, most: float) -> SafeStray:
     """_safe_stray(), or a larger stray if the bench between two others is known to hold them apart with it."""
     safe = _safe_stray(field, most)
     simple, independent = _simple(field, safe), safe.stray
@@ -108,16 +108,16 @@ def held_stray(field: Field, most: float) -> Found:
     if safe.touches or field.edges is not None or safe.dip is None or safe.dip[2][1] != safe.dip[2][0] + 2:
         return found
     held = held_apart(field.dance, field.span[1], most, field.budget)
-    others = Found(held, None, 0)
+    others = SafeStray(held, None, 0)
     if field.dance.dragon.benches > 3 and held > safe.stray:
         others = _safe_stray(replace(field, between=2), held)
     if others.stray <= safe.stray:
         return found
     dip = safe.dip if others.dip is None and held < most else others.dip
-    return Found(others.stray, dip, safe.steps + others.steps, False, independent, simple)
+    return SafeStray(others.stray, dip, safe.steps + others.steps, False, independent, simple)
 
 
-def _simple(field: Field, safe: Found) -> float:
+def _simple(field: Field, safe: SafeStray) -> float:
     """The simple bound [m], or the safe stray if that is less."""
     stray = field.sampled(0.0)[0] / field.gain
     for _ in range(GRAZE_STEPS):
@@ -130,14 +130,14 @@ def _simple(field: Field, safe: Found) -> float:
     return min(stray, safe.stray)
 
 
-def _safe_stray(field: Field, most: float) -> Found:
+def _safe_stray(field: Field, most: float) -> SafeStray:
     """The largest stray up to `most` that is safe in a field, slightly less than its samples and marches show."""
     begin, until = field.span
     nominal = field.sampled(0.0)
     if nominal[0] <= 0.0:
         state, touch, _ = field.search(0.0).approach(begin, until, field.dance.clock.slowest)
         at_first = (0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
-        return Found(0.0, at_first, touch.steps, touches=True)
+        return SafeStray(0.0, at_first, touch.steps, touches=True)
     # Two parallel benches that both stray towards each other meet if the stray is half their clearance.
     first = min(most, nominal[0] * (1.0 if field.edges is not None else 0.5))
     dip = field.sampled(first)
@@ -147,7 +147,7 @@ def _safe_stray(field: Field, most: float) -> Found:
         for _ in range(ROUNDS):
             tried = stray * (1.0 - below) if limiting is not None else stray
             if tried < STRAY_MIN:
-                return Found(0.0, limiting, steps)
+                return SafeStray(0.0, limiting, steps)
             search = field.search(tried)
             state, met = search.march(until, NO_BRACKET, start=proven_to)
             search.budget.afford()
@@ -156,7 +156,7 @@ def _safe_stray(field: Field, most: float) -> Found:
                 if field.fold is not None and not clear_to_fold(search, min(met.proven, until), field.fold):
                     break
                 if state is Ended.REACHED or field.fold is not None:
-                    return Found(tried, limiting, steps)
+                    return SafeStray(tried, limiting, steps)
                 break
             if met.touching is None:
                 break
@@ -165,7 +165,7 @@ def _safe_stray(field: Field, most: float) -> Found:
             around = (max(begin, met.touching - step), met.touching, min(until, met.touching + step))
             found, limiting = _grazing(field, tried, refined_dip(search, *around))
             stray = min(found, tried)
-    return Found(0.0, limiting or nominal, steps)  # no stray was proven to be safe
+    return SafeStray(0.0, limiting or nominal, steps)  # no stray was proven to be safe
 
 
 def _grazing(

@@ -24,7 +24,7 @@ from core.paths.frame import Frame
 from core.shapes.rectangles import bench_poses, frames, frames_separation
 from core.shown import Shown, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
-from core.tolerance.safe import Field, Found, held_stray, safe_words
+from core.tolerance.safe import Field, SafeStray, held_stray, safe_words
 from core.venue import Venue
 
 
@@ -113,7 +113,7 @@ def tolerance(
     budget = budget or Budget()
     begin, until = dance.span(dance.begin if start is None else start, stop)
     most = 0.5 * float(dance.dragon.chords.min())
-    found, limit = Found(most, None, 0), None
+    found, limit = SafeStray(most, None, 0), None
     steps, independent, simple = 0, most, most
     for field in _fields(dance, venue, (begin, until), budget):
         safe = held_stray(field, found.stray)
@@ -148,7 +148,7 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
     return fields
 
 
-def _exhibit(field: Field, found: Found, time: float, frame: Frame) -> Exhibit | None:
+def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhibit | None:
     """A pose of the whole dragon in which the pair of a dip overlaps; None if not found. frame: of the search"""
     assert found.dip is not None
     dragon, (a, b) = field.dance.dragon, found.dip[2]
@@ -170,7 +170,7 @@ def _exhibit(field: Field, found: Found, time: float, frame: Frame) -> Exhibit |
     return None if shown is None else replace(shown, handles=frame.points(shown.handles))
 
 
-def _method(dance: Dance, found: Found, independent: float, span: tuple[float, float], venue: Venue | None) -> str:
+def _method(dance: Dance, found: SafeStray, independent: float, span: tuple[float, float], venue: Venue | None) -> str:
     square = " or an edge of the venue" if venue is not None else ""
     what = f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s"
     if found.stray <= 0.0:

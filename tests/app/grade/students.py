@@ -13,7 +13,7 @@ import xlsxwriter
 from openpyxl import Workbook
 from scipy.optimize import brentq
 
-from app.files.workbooks import Sheet
+from app.files.workbooks import Worksheet
 from app.files.workbooks import workbook as written
 from core import Dance, Dragon, Spiral, Turn, trajectory
 
@@ -241,7 +241,7 @@ def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
     columns = [f"{t:g} s" for t in times]
     return written(
         [
-            Sheet(title, columns, labels(kind), rows)
+            Worksheet(title, columns, labels(kind), rows)
             for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True)
         ],
         decimals,

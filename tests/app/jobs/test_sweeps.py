@@ -12,7 +12,7 @@ import pytest
 
 from app.files.tables import CSV_TYPE, PARQUET_TYPE
 from app.sweeps.run import begin
-from app.sweeps.shards import Piece, write_part
+from app.sweeps.shards import ShardPiece, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from tests.app.jobs.service import LINGER, SHORT, Service, wait_for
@@ -60,7 +60,7 @@ def undisturbed(folder: Path, told: dict[str, Any]) -> Sweep:
     spec = Spec.of(told)
     begin(folder, spec)
     for shard in range(spec.shards):
-        write_part(folder, spec, shard, [Piece.whole(spec, spec.asks, shard).answered()])
+        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answered()])
     return Sweep(folder, spec)
 
 

@@ -15,7 +15,7 @@ import pytest
 
 from app.files.tables import Language
 from app.files.words import Say
-from app.maps.layout import Found
+from app.maps.layout import DanceParts
 from app.maps.places import places_of
 from app.questions.maps import MapFormat
 from core import InvalidValue
@@ -39,11 +39,11 @@ PATHS: list[dict[str, Any]] = [
 ]
 
 
-def read(data: bytes, units: Any = None) -> Found:
+def read(data: bytes, units: Any = None) -> DanceParts:
     return places_of(data, units, SAY)
 
 
-def rings(found: Found) -> list[Any]:
+def rings(found: DanceParts) -> list[Any]:
     assert found.venue is not None
     return [np.array(ring) for area in found.venue.areas for ring in area.rings]
 

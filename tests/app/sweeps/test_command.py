@@ -16,7 +16,7 @@ import psutil
 import pytest
 
 from app.sweeps.run import begin
-from app.sweeps.shards import Piece, parts, write_part
+from app.sweeps.shards import ShardPiece, parts, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
@@ -51,7 +51,7 @@ def answered(tmp_path_factory: pytest.TempPathFactory) -> Path:
     spec, folder = Spec.of(tomllib.loads(SPEC)), tmp_path_factory.mktemp("answered")
     begin(folder, spec)
     for shard in range(spec.shards):
-        write_part(folder, spec, shard, [Piece.whole(spec, spec.asks, shard).answered()])
+        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answered()])
     return folder
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import core
 from app.sweeps.designs import designs
-from app.sweeps.shards import Piece, write_part
+from app.sweeps.shards import ShardPiece, write_part
 from app.sweeps.spec import Spec
 
 # All included: the request checked, the dance made, the answer, its row, the file; to a loop over the library, which
@@ -29,7 +29,7 @@ def test_a_design_costs_little_more_than_its_search(tmp_path: Path) -> None:
         for pitch, width in zip(*values.values(), strict=True):
             core.first_contact(core.Dance(core.Dragon(width=width), core.Spiral(pitch)))
         searched = time.thread_time()
-        write_part(tmp_path, spec, 0, [Piece.whole(spec, spec.asks, 0).answered()])
+        write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, spec.asks, 0).answered()])
         bare.append(searched - begun)
         all_included.append(time.thread_time() - searched)
         # The least of each: what other processes take of the caches only adds to a time.

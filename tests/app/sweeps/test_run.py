@@ -49,7 +49,7 @@ def undisturbed(folder: Path, spec: Spec, question: Question) -> bytes:
     """The table of a sweep answered in this process."""
     folder.mkdir()
     for shard in range(spec.shards):
-        shards.write_part(folder, spec, shard, [shards.Piece.whole(spec, question, shard).answered()])
+        shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, question, shard).answered()])
     return compacted(folder, spec)
 
 

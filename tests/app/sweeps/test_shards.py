@@ -17,7 +17,7 @@ import core
 from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.questions.registry import CALLS
 from app.sweeps.questions import NO_ROWS, QUESTIONS, Question, question_of
-from app.sweeps.shards import OtherVersion, Piece, checked_part, part_name, parts, write_part
+from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name, parts, write_part
 from app.sweeps.spec import Spec
 from app.wire.question import Terms
 from core import InvalidValue
@@ -28,7 +28,7 @@ def spec_of(question: Question, over: dict[str, Any], **more: Any) -> Spec:
     return Spec.of({"question": question.name, "over": over, **more}, question)
 
 
-def rows(piece: Piece) -> list[dict[str, Any]]:
+def rows(piece: ShardPiece) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = pa.ipc.open_stream(piece.answered()).read_all().to_pylist()
     return found
 
@@ -36,7 +36,7 @@ def rows(piece: Piece) -> list[dict[str, Any]]:
 def test_each_row_is_the_answer_to_its_request() -> None:
     question = question_of("collision_time")
     spec = spec_of(question, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}, request={"benches": 50})
-    for row in rows(Piece.whole(spec, question, 0)) + rows(Piece.whole(spec, question, 1)):
+    for row in rows(ShardPiece.whole(spec, question, 0)) + rows(ShardPiece.whole(spec, question, 1)):
         asked = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
         dance = asked.to_dance(50)
         answer = CollisionTime.of(core.first_contact(dance), dance, asked, Terms())
@@ -49,7 +49,7 @@ def test_each_row_is_the_answer_to_its_request() -> None:
 def test_a_body_is_swept_by_dotted_names() -> None:
     question = question_of("check")
     spec = spec_of(question, {"path.pitch": [0.5, 0.55], "dragon.width": [0.3]}, request={"dragon": {"benches": 20}})
-    row = rows(Piece.whole(spec, question, 1))[0]
+    row = rows(ShardPiece.whole(spec, question, 1))[0]
     assert (row["path.pitch"], row["verdict"]) == (0.55, "fails")
     assert row["first_contact.time"] == pytest.approx(412.473838, abs=1e-6)
     assert json.loads(row["failures"])[0]["kind"] == "contact"
@@ -67,7 +67,7 @@ def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], 
     answers = []
     for asked in (flat, body):
         spec = Spec.of({"question": name, "over": {place: [value] for place, value in asked.items()}})
-        [row] = rows(Piece.whole(spec, spec.asks, 0))
+        [row] = rows(ShardPiece.whole(spec, spec.asks, 0))
         answers.append({place: value for place, value in row.items() if place not in {*asked, "pitch"}})
     assert answers[0] == answers[1]
     assert isinstance(answers[0][spec.asks.shown], float)
@@ -75,7 +75,7 @@ def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], 
 
 def test_what_core_refuses_is_said_in_the_words_of_the_spec() -> None:
     spec = Spec.of({"question": "least_clearance", "over": {"benches": [2]}})
-    [row] = rows(Piece.whole(spec, spec.asks, 0))
+    [row] = rows(ShardPiece.whole(spec, spec.asks, 0))
     assert row["error.message"] == "benches must be at least 3 for two to share no handle, got 2"
 
 
@@ -103,7 +103,7 @@ def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
     request, parameter, good = ASKED.get(name, BODY if body else FLAT)
     question = question_of(name, [parameter, *request])
     spec = Spec.of({"question": name, "over": {parameter: [good, -1.0]}, "request": request, "shard_size": 2})
-    answered, refused = rows(Piece.whole(spec, question, 0))
+    answered, refused = rows(ShardPiece.whole(spec, question, 0))
     assert answered["error.code"] is None, answered
     assert isinstance(answered[question.shown], float)
     assert refused["error.code"] == "invalid-value"
@@ -117,7 +117,7 @@ def test_every_call_of_the_service_is_swept_or_said_not_to_be() -> None:
 
 def row_of(name: str, request: dict[str, Any], **over: Any) -> Any:
     """The row of a single design."""
-    [row] = rows(Piece.whole(spec := Spec.of({"question": name, "over": over, "request": request}), spec.asks, 0))
+    [row] = rows(ShardPiece.whole(spec := Spec.of({"question": name, "over": over, "request": request}), spec.asks, 0))
     return row
 
 
@@ -141,7 +141,7 @@ def test_the_row_of_a_table_is_what_the_table_says() -> None:
 
 def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> None:
     spec = spec_of(LAND, {"x": [1.0, 13.0, 14.0, 100.5, 2.0], "y": [3.0]}, shard_size=5)
-    found = rows(Piece.whole(spec, LAND, 0))
+    found = rows(ShardPiece.whole(spec, LAND, 0))
     assert [row["height"] for row in found] == [3.0, None, None, None, 6.0]
     assert [row["error.code"] for row in found] == [None, "invalid-value", "internal-error", "invalid-value", None]
     assert [row["error.message"] for row in found[1:4]] == [
@@ -153,14 +153,14 @@ def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> N
 
 def test_parameters_of_any_kind_are_columns() -> None:
     spec = spec_of(LAND, {"x": [1, 2], "word": ["a", "b"], "deadly": [[], [5.0]]}, shard_size=8)
-    table = pa.ipc.open_stream(Piece.whole(spec, LAND, 0).answered()).read_all()
+    table = pa.ipc.open_stream(ShardPiece.whole(spec, LAND, 0).answered()).read_all()
     assert [str(table.schema.field(name).type) for name in ("x", "word", "deadly")] == ["int64", "string", "string"]
     assert table["deadly"].to_pylist()[:2] == ["[]", "[5.0]"]
 
 
 def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> None:
     spec = spec_of(LAND, {"x": {"start": 0, "stop": 30, "count": 31}, "y": [2.0, -1.0]}, shard_size=62)
-    whole = Piece.whole(spec, LAND, 0)
+    whole = ShardPiece.whole(spec, LAND, 0)
     left, right = whole.halves()
     cuts = {"whole": [whole], "halves": [left, right], "uneven": [*left.halves(), right]}
     for name, cut in cuts.items():
@@ -172,7 +172,7 @@ def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> 
 def test_a_part_of_errors_alone_has_the_columns_of_the_others(tmp_path: Path) -> None:
     spec = spec_of(LAND, {"x": [1.0, 13.0], "y": [2.0]}, shard_size=1)
     for shard in range(2):
-        write_part(tmp_path, spec, shard, [Piece.whole(spec, LAND, shard).answered()])
+        write_part(tmp_path, spec, shard, [ShardPiece.whole(spec, LAND, shard).answered()])
     first, second = (pq.read_schema(tmp_path / part_name(shard)) for shard in range(2))
     assert first.equals(second)
     assert parts(tmp_path) == {0, 1}
@@ -180,7 +180,7 @@ def test_a_part_of_errors_alone_has_the_columns_of_the_others(tmp_path: Path) ->
 
 def test_a_killed_design_has_the_columns_of_the_others() -> None:
     spec = spec_of(LAND, {"x": [1.0], "y": [2.0]})
-    piece = Piece.whole(spec, LAND, 0)
+    piece = ShardPiece.whole(spec, LAND, 0)
     answered, killed = (pa.ipc.open_stream(data).read_all() for data in (piece.answered(), piece.killed()))
     assert answered.schema.equals(killed.schema)
     assert killed["error.code"].to_pylist() == ["killed"]
@@ -188,7 +188,7 @@ def test_a_killed_design_has_the_columns_of_the_others() -> None:
 
 def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> None:
     spec, other = spec_of(LAND, {"x": [1.0]}), spec_of(LAND, {"x": [2.0]})
-    write_part(tmp_path, other, 0, [Piece.whole(other, LAND, 0).answered()])
+    write_part(tmp_path, other, 0, [ShardPiece.whole(other, LAND, 0).answered()])
     with pytest.raises(InvalidValue, match="belongs to another sweep"):
         checked_part(tmp_path, spec, 0)
     (tmp_path / part_name(0)).write_bytes(b"PAR1 no more")
@@ -200,12 +200,12 @@ def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     spec = spec_of(LAND, {"x": [1.0]})
     (tmp_path / part_name(0)).mkdir()
     with pytest.raises(IsADirectoryError):
-        write_part(tmp_path, spec, 0, [Piece.whole(spec, LAND, 0).answered()])
+        write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, LAND, 0).answered()])
     assert os.listdir(tmp_path) == [part_name(0)]
 
 
 def test_a_worker_of_another_version_says_so() -> None:
     spec = spec_of(LAND, {"x": [1.0]})
-    piece = Piece(spec, LAND, "0.0.1", 0, 0, 1)
+    piece = ShardPiece(spec, LAND, "0.0.1", 0, 0, 1)
     with pytest.raises(OtherVersion, match=r"must be 0\.0\.1 on every worker"):
         pickle.loads(pickle.dumps(piece)).answered()

@@ -11,8 +11,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_contact, minimum_pitch, separation
-from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, gap_along, narrowed
-from core.contact.near_graze import separation as precise_separation
+from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, exact_gap, narrowed
+from core.contact.near_graze import exact_separation as precise_separation
 from core.contact.search import Search
 from core.kernels import Ended
 from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
@@ -73,7 +73,7 @@ def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tupl
     distance, axis = precise_separation(first, second)
     found = separation(a[:3], a[3:], b[:3], b[3:]).separation
     assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
-    assert float(gap_along(first, second, axis)) == pytest.approx(float(distance), rel=0, abs=DOUBLE)
+    assert float(exact_gap(first, second, axis)) == pytest.approx(float(distance), rel=0, abs=DOUBLE)
 
 
 @pytest.mark.parametrize("owner", [0, 1])
@@ -92,8 +92,8 @@ def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_it
     with localcontext() as context:
         context.prec = DIGITS
         distance, axis = precise_separation(*left)
-        assert abs(gap_along(*left, axis) - distance) < PRECISE
-        assert gap_along(*right, axis) < 0
+        assert abs(exact_gap(*left, axis) - distance) < PRECISE
+        assert exact_gap(*right, axis) < 0
         assert abs(precise_separation(*right)[0] - distance) < PRECISE
 
 

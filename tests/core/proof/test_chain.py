@@ -10,7 +10,7 @@ import shapely
 from flint import arb, ctx
 
 from core import Dragon, Spiral
-from core.proof.chain import Chain, Pose, Stretch, delta, newton
+from core.proof.chain import Chain, Pose, SpiralStretch, delta, newton
 from core.proof.pairs import Unproven
 
 # A delta from doubles, where F is steep, is this near to the true one [rad].
@@ -29,7 +29,7 @@ def test_a_stretch_encloses_every_pose_in_it_and_every_velocity(name: str) -> No
     dragon, path, bench, low, high = PLACES[name]
     chain = Chain(dragon, arb(path.pitch), path.start_turns)
     with ctx.workprec(128):
-        stretch = Stretch(chain, bench, low, high, dragon.benches)
+        stretch = SpiralStretch(chain, bench, low, high, dragon.benches)
         poses = [Pose(chain, bench, arb(theta)) for theta in np.linspace(low, high, 9)]
         for pose in poses:
             pose.grow_to(4)
