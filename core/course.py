@@ -22,7 +22,7 @@ BEND_POINTS = 24
 
 @dataclass(frozen=True, slots=True, repr=False)
 class TightBend(Shown):
-    """A part of a path that is too tight for the longest bench.
+    """A part of a path that curves too tightly for the longest bench; for angles of benches see SharpestBend.
 
     start, end: s of its ends [m]; points: along it, (P, 2) [m]
     radius: smallest radius there, for a cubic a lower bound [m]; least_radius: radius that the bench needs [m]

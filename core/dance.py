@@ -135,7 +135,7 @@ class Dance(Shown):
     passages: parts with other speeds, one after another from time 0 on
     end: end of the run: the fold or the centre of a spiral, the end of a route
     raises: InvalidValue for values of other types, for a dragon that cannot stand at the start of a spiral
-        (path.start_turns), and for a bend of a route too tight for a chord (path)
+        (path.start_turns), and for a bend of a route too tight for a chord (path); `earliest` refuses a short route
 
     >>> dance = Dance(Dragon(), Spiral())
     >>> dance.end.reason.value, round(dance.end.time, 3)

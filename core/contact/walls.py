@@ -135,7 +135,7 @@ def venue_clearance(
     clock, frame = dance.clock, dance.path.frame
     path = replace(dance, path=venue_route(dance.path, clock.travel(until))).path  # refuses a bend that is too tight
     strayed = checked_stray(stray, dance.dragon)
-    share = NEAR_WORK_BUDGET / len(venue.areas)
+    share = NEAR_WORK_BUDGET / len(venue.areas)  # an area has a Search of its own: its edges, and its share of work
     areas = []
     for area in venue.areas:
         search = Search(dance.dragon, path, margin, own_edges(area, frame), work=share, budget=budget, stray=strayed)

@@ -70,7 +70,7 @@ class MinimumPitch(Shown):
         are proven, at most scan_step [m] apart, and a narrower range of infeasible ones is not excluded there
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is `pitch` without a scan, the
         second is None for every larger pitch
-    scan_step: None without a scan
+    scan_step: of this scan for feasible pitches, None without one; a PitchScan samples the radius of first contact
     evaluations: number of ways marched from the start to the circle, plus the number of bands of pitches, see
         `core/design/pitch_bands.py`
     """

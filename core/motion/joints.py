@@ -30,7 +30,7 @@ BATCH = 1_000
 
 @dataclass(frozen=True, slots=True, repr=False)
 class SharpestBend(Shown):
-    """The largest angle between the headings of two consecutive benches [rad], its time [s], and the benches."""
+    """The largest angle between two consecutive benches [rad], its time [s], the benches. TightBend is about a path."""
 
     angle: float
     time: float
