@@ -13,6 +13,7 @@ from .dragon import Dragon, Stray
 from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
 from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
+from .judgement import Judgement, Report, check, quick_check
 from .kernels import Budget
 from .motion.joints import SharpestBend, sharpest_bend
 from .motion.speed import (
@@ -41,7 +42,6 @@ from .tolerance.tolerance import Limit, StrayProof, Tolerance, tolerance
 from .tolerance.uncertain import uncertain_tolerance
 from .tolerance.wobble import Wobble
 from .venue import Area, Venue
-from .verdict import Judgement, Report, check, quick_check
 
 __all__ = [
     "Arc",

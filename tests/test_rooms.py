@@ -22,7 +22,7 @@ TOGETHER = {
     "files/test_film.py": "files/film_spec questions/films",
     "grade/test_command.py": "command/grade grade/contacts grade/shortcuts",
     "grade/test_diagnosis.py": "grade/chains grade/geometry grade/rings grade/rubric",
-    "grade/test_layout.py": "grade/labels grade/report grade/verdict",
+    "grade/test_layout.py": "grade/labels grade/report grade/judged",
     "grade/test_reading.py": "grade/expected grade/grid grade/workbook",
     "grade/test_service.py": "files/workbooks service/graders service/uploads",
     "grade/test_words.py": "grade/errors",

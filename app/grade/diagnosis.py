@@ -16,11 +16,11 @@ import numpy as np
 
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
 from app.grade.geometry import Model, geometries, time_at
+from app.grade.judged import RIGHT, ROUNDED, JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, TableKind
 from app.grade.rings import places, wrong_ring
 from app.grade.shortcuts import Finding, explained
-from app.grade.verdict import RIGHT, ROUNDED, Judgement
 from app.grade.words import note
 from core import Budget, Dance
 from core.values import Floats
@@ -54,7 +54,7 @@ class _Fit:
         return self.wrong >= WRONG_SHARE and self.all >= ALL_SHARE
 
 
-def diagnosed(judgements: list[Judgement], budget: Budget) -> list[Finding]:
+def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
     """Findings on the sheets of one workbook."""
     written = max((one.written for one in judgements), default=0)
     # A sheet of whole numbers, such as equal speeds, has the decimals of the other one.
@@ -67,7 +67,7 @@ def diagnosed(judgements: list[Judgement], budget: Budget) -> list[Finding]:
     return _over_time(by_kind.get(TableKind.POSITION), by_kind.get(TableKind.SPEED), budget)
 
 
-def _fit(one: Judgement, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
+def _fit(one: JudgedSheet, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
     """given: (T, HANDLES, 3), motion of a model at the times of the sheet, or at the ones in `at`"""
     components = list(COMPONENTS[one.table.kind])
     known = one.handles < given.shape[1]
@@ -82,7 +82,7 @@ def _fit(one: Judgement, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
     return _Fit(share, float(fits[present].mean()), float(np.median(off[present])), count, tolerance)
 
 
-def _best(one: Judgement, times: Floats, models: Iterable[Model], budget: Budget) -> tuple[Model, _Fit] | None:
+def _best(one: JudgedSheet, times: Floats, models: Iterable[Model], budget: Budget) -> tuple[Model, _Fit] | None:
     """The model that explains a sheet best; None if none does."""
     found: list[tuple[Model, _Fit]] = []
     some = np.unique(np.linspace(0, times.size - 1, LOOKS).astype(np.int64))
@@ -95,7 +95,7 @@ def _best(one: Judgement, times: Floats, models: Iterable[Model], budget: Budget
     return max(found, key=lambda pair: (round(pair[1].all, 3), -pair[1].off), default=None)
 
 
-def _finding(model: Model, fit: _Fit, one: Judgement) -> Finding:
+def _finding(model: Model, fit: _Fit, one: JudgedSheet) -> Finding:
     worst = one.worst()
     assert worst is not None
     values = {
@@ -109,7 +109,7 @@ def _finding(model: Model, fit: _Fit, one: Judgement) -> Finding:
     return Finding(model.error, note(f"error_{model.error}", **model.values), note("evidence", **values))
 
 
-def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budget) -> list[Finding]:
+def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: Budget) -> list[Finding]:
     either = position or speed
     assert either is not None
     dance = dance_of(either.workbook)
@@ -132,7 +132,7 @@ def _over_time(position: Judgement | None, speed: Judgement | None, budget: Budg
     return findings
 
 
-def _head(one: Judgement) -> Floats | None:
+def _head(one: JudgedSheet) -> Floats | None:
     """Points of the head in the student's sheet (T, 2), NaN where they are missing."""
     line = np.flatnonzero(one.handles == 0)
     return one.values[:, line[0], :2] if line.size else None
@@ -161,7 +161,7 @@ def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Flo
     return last
 
 
-def _of_contact(one: Judgement, budget: Budget) -> list[Finding]:
+def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     """Findings on result2, whose instant follows from the place of the head."""
     dance, head = dance_of(Workbook.RESULT2), _head(one)
     right = of_dance(dance)

@@ -12,11 +12,11 @@ from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import Unreadable
+from app.grade.judged import JudgedSheet, Rating, judged, workbook_of, worst_of
 from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind, cell_name, tables_of
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
 from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn, right_answer
-from app.grade.verdict import Judgement, Rating, judged, workbook_of, worst_of
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
@@ -196,7 +196,7 @@ def _found(findings: Sequence[Finding], language: Language) -> list[DiagnosisAns
     ]
 
 
-def _sheet(one: Judgement, language: Language) -> SheetAnswer:
+def _sheet(one: JudgedSheet, language: Language) -> SheetAnswer:
     worst, first, notes = one.worst(), one.first(), [*one.notes]
     if one.verdict is Rating.ROUNDED and one.written != one.decimals:
         notes.append(note("not_rounded", written=one.written, decimals=one.decimals))
@@ -215,11 +215,11 @@ def _sheet(one: Judgement, language: Language) -> SheetAnswer:
     )
 
 
-def _title(one: Judgement, language: Language) -> str:
+def _title(one: JudgedSheet, language: Language) -> str:
     return one.table.title or say(SHEETS[one.table.kind], language)
 
 
-def _cell(one: Judgement, at: tuple[int, ...], language: Language) -> CellAnswer:
+def _cell(one: JudgedSheet, at: tuple[int, ...], language: Language) -> CellAnswer:
     t, h, c = at
     row, column = int(one.table.row[at]), int(one.table.column[at])
     return CellAnswer(

@@ -14,10 +14,10 @@ import numpy as np
 
 from app.grade.expected import dance_of, right_turn
 from app.grade.geometry import arcs_of
+from app.grade.judged import RIGHT, JudgedSheet
 from app.grade.labels import X, Y
 from app.grade.layout import HANDLES
 from app.grade.shortcuts import Finding
-from app.grade.verdict import RIGHT, Judgement
 from app.grade.words import note
 from core.paths.path import Path
 from core.values import Floats
@@ -30,7 +30,7 @@ ON_PATH = 1e-4
 CHORDS_MOST = 2.0
 
 
-def wrong_ring(one: Judgement) -> Finding | None:
+def wrong_ring(one: JudgedSheet) -> Finding | None:
     """The first handle on another ring, and the number of them."""
     dance = dance_of(one.workbook)
     order = np.argsort(one.handles)

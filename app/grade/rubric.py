@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.grade.expected import Workbook
+from app.grade.judged import JudgedSheet, Rating
 from app.grade.layout import HANDLES, TableKind
 from app.grade.shortcuts import Finding
-from app.grade.verdict import Judgement, Rating
 from app.grade.words import Note, note
 
 # Largest difference between the mean speed over a second and the speed at its middle, because handles turn [m/s].
@@ -36,12 +36,12 @@ class Criterion:
     said: Note
 
 
-def rubric_of(judgements: Sequence[Judgement], findings: Sequence[Finding]) -> list[Criterion]:
+def rubric_of(judgements: Sequence[JudgedSheet], findings: Sequence[Finding]) -> list[Criterion]:
     """The five points, for one workbook."""
     return list(_criteria({one.table.kind: one for one in judgements}, {one.error for one in findings}))
 
 
-def _criteria(by_kind: dict[TableKind, Judgement], errors: set[str]) -> Iterator[Criterion]:
+def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterator[Criterion]:
     position, speed, contact = (by_kind.get(kind) for kind in (TableKind.POSITION, TableKind.SPEED, TableKind.CONTACT))
     placed = position or contact
     branch = None if placed is None else "wrong_ring" not in errors if placed.verdict in GOOD or errors else None
@@ -60,7 +60,7 @@ def _criteria(by_kind: dict[TableKind, Judgement], errors: set[str]) -> Iterator
     yield _criterion("tangents", _shown(turning, errors & NOT_SMOOTH))
 
 
-def _shown(one: Judgement | None, against: set[str]) -> bool | None:
+def _shown(one: JudgedSheet | None, against: set[str]) -> bool | None:
     """True if a point is met. An error against it counts more than numbers that are nearly right."""
     if one is None or against:
         return False if against else None
@@ -72,7 +72,7 @@ def _criterion(name: str, met: bool | None) -> Criterion:
     return Criterion(name, met, note(f"rubric_{name}_{words}"))
 
 
-def _share_consistent(position: Judgement, speed: Judgement) -> float | None:
+def _share_consistent(position: JudgedSheet, speed: JudgedSheet) -> float | None:
     """Share of the speeds that agree with the motion of their handle between two instants."""
     times, p, v = np.intersect1d(position.times, speed.times, return_indices=True)
     if times.size < 2:

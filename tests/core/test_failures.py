@@ -22,7 +22,7 @@ from core import (
     trajectory,
 )
 from core.motion.speed import SPEED_ROUNDING
-from tests.core.test_verdict import REFERENCE_ERROR, SHORT, SQUARE, TURN, box, venue
+from tests.core.test_judgement import REFERENCE_ERROR, SHORT, SQUARE, TURN, box, venue
 
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
 

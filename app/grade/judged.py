@@ -49,7 +49,7 @@ def worst_of(verdicts: Iterator[Rating]) -> Rating:
 
 
 @dataclass(frozen=True)
-class Judgement:
+class JudgedSheet:
     """The judgement of a sheet.
 
     values, wanted: the student's and the right numbers (T, H, C) [m, m/s]; handles (H,), times (T,) [s]
@@ -119,7 +119,7 @@ def workbook_of(tables: list[Table], name: str) -> Workbook:
     return Workbook.RESULT1
 
 
-def judged(table: Table, workbook: Workbook) -> Judgement:
+def judged(table: Table, workbook: Workbook) -> JudgedSheet:
     """The judgement of one table."""
     notes = [*table.notes[:3]]
     if len(table.notes) > len(notes):
@@ -156,7 +156,7 @@ def judged(table: Table, workbook: Workbook) -> Judgement:
     if missing and present:
         absent, late = set(range(HANDLES)) - {*handles.tolist()}, {*times_of(workbook).tolist()} - {*times.tolist()}
         notes.append(note("missing", count=missing, handles=len(absent), times=len(late)))
-    return Judgement(
+    return JudgedSheet(
         table,
         workbook,
         verdict,
