@@ -122,14 +122,18 @@ async def store_problem(request: Request, error: Exception) -> Response:
     return problem(503, "service-unavailable", detail, headers=COME_AGAIN)
 
 
+REMOVED, NO_NEWS = "The job was finished and is removed", "The job is finished, and the client has its last event"
 router = APIRouter(prefix="/jobs", tags=["Jobs"])
 # The calls that make jobs: their bodies may be large.
 asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
 
 
-def told(name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None) -> dict[str, Any]:
-    """OpenAPI description of a call: operation id, problems, and the media type if it is not JSON."""
-    answer = {200: {"description": "The answer", "content": content}} if content else {}
+def told(
+    name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None, empty: str = ""
+) -> dict[str, Any]:
+    """OpenAPI description of a call: operation id, problems, media type if not JSON, reason of an empty answer."""
+    answer: dict[int, Any] = {200: {"description": "The answer", "content": content}} if content else {}
+    answer |= {204: {"description": empty}} if empty else {}
     return {
         "operation_id": name,
         "summary": name.replace("_", " ").capitalize(),
@@ -233,7 +237,9 @@ def job(request: Request, found: Found) -> Response:
     return Response(status(found, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
 
 
-@router.delete("/{job_id}", dependencies=[no_query], **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus))
+@router.delete(
+    "/{job_id}", dependencies=[no_query], **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus, empty=REMOVED)
+)
 def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
     """Dismisses an unfinished job, or removes a finished one with all its data (204)."""
     if keeper.store.dismiss(found.id):
@@ -266,7 +272,7 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
 @router.get(
     "/{job_id}/events",
     dependencies=[no_query],
-    **told("job_events", 404, 422, 500, 503, content={EVENTS_TYPE: {"schema": {"type": "string"}}}),
+    **told("job_events", 404, 422, 500, 503, content={EVENTS_TYPE: {"schema": {"type": "string"}}}, empty=NO_NEWS),
 )
 async def events(
     keeper: KeptKeeper,

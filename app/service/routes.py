@@ -35,7 +35,7 @@ PROBLEMS = {
     406: "Accept asks for a media type that this call does not offer",
     413: "The body is too long",
     414: "The query is too long",
-    415: "The body is not of type application/json",
+    415: "The body is not of a media type that this call takes",
     422: "A value is outside its limits, a name is unknown, or an instant lies after the end of the run",
     429: "This client has as many heavy computations running as it may",
     500: "The service failed",
