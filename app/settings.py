@@ -38,7 +38,7 @@ def usable_cores() -> int:
 
 
 def unknown_variables() -> list[str]:
-    """A message for each BENCH_DRAGON_* environment variable that is no setting, such as a misspelt one.
+    """A message for each BENCH_DRAGON_* environment variable that is not a setting, such as a misspelt one.
 
     Such a variable is no error: Kubernetes gives a program variables that begin with the name of its service.
     """
@@ -47,7 +47,7 @@ def unknown_variables() -> list[str]:
     for name in sorted(set(os.environ) - set(known)):
         if name.startswith(PREFIX):
             meant = "".join(f"; did you mean {one}?" for one in get_close_matches(name, known, 1, 0.8))
-            said.append(f"The environment variable {name} is no setting and has no effect{meant}")
+            said.append(f"The environment variable {name} is not a setting and has no effect{meant}")
     return said
 
 

@@ -133,7 +133,7 @@ class Dragon(Shown):
         '0 (Zhou)'
         """
         if isinstance(names, str) or not isinstance(names, Sequence):
-            raise InvalidValue("dragon.names", f"must be a list of texts, got {names!r:.60}")
+            raise InvalidValue("dragon.names", f"must be a list of strings, got {names!r:.60}")
         if names and len(names) != self.benches:
             rule = f"must have {self.benches} entries, one for each bench, got {len(names)}"
             raise InvalidValue("dragon.names", rule)

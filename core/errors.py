@@ -291,7 +291,7 @@ def checked_name(field: str, name: object, what: str = "") -> None:
     raises: InvalidValue
     """
     if not isinstance(name, str):
-        rule = f"must be a text, got {name!r:.60}"
+        rule = f"must be a string, got {name!r:.60}"
     elif len(name) > NAME_MAX:
         rule = f"must have at most {NAME_MAX} characters, got {len(name)}"
     elif any(category(one) in NOT_PLAIN for one in name):

@@ -88,7 +88,7 @@ def _ended(k: int, passage: Passage, time: float, travel: float) -> tuple[float,
 
 def checked_passages(given: object) -> tuple[Passage, ...]:
     """Passages whose numbers are checked one by one. raises: InvalidValue"""
-    rule = "must be a list of Passage"
+    rule = "must be a list of Passage objects"
     if not isinstance(given, (list, tuple)):
         raise InvalidValue("passages", f"{rule}, got {given!r:.60}")
     if len(given) > PASSAGES_MAX:

@@ -482,7 +482,7 @@ def check_form(value, form, place):
         for name in [*form, *value]:
             inside = f"{place}.{json.dumps(name)[1:-1][:40]}".removeprefix(".")
             if name not in value or name not in form:
-                raise Refused(f"{MALFORMED}: {inside} is {'no member of it' if name in value else 'missing'}")
+                raise Refused(f"{MALFORMED}: {inside} is {'unknown' if name in value else 'missing'}")
             check_form(value[name], form[name], inside)
     elif type(value) is list and (type(form) is list or (type(form) is tuple and len(form) == len(value))):
         for k, entry in enumerate(value):

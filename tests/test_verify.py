@@ -259,7 +259,7 @@ MORE_FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "faces for benches that are none": (lambda c: stretches(c)[5].__setitem__(2, "3333"), r"sweeps\[0\]\.stretches"),
     "an unknown kind": (put_at("claim", "kind", put="speed"), "claim.kind is another"),
     "a kind that is a list": (put_at("claim", "kind", put=[]), "claim.kind is another"),
-    "an unknown member with a line break": (put_at("a\nb\ud800", put=1), r"a\\nb\\ud800 is no member"),
+    "an unknown member with a line break": (put_at("a\nb\ud800", put=1), r"a\\nb\\ud800 is unknown"),
     "a chord of nothing": (put_at("dragon", 1, put=[4, 2.2, 0.3, 1.1]), "room for a chord"),
     "no bench": (put_at("dragon", 0, 0, put=0), "room for a chord"),
 }  # fmt: skip

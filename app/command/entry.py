@@ -1,4 +1,4 @@
-"""The entry of the command bench-dragon: Ctrl-C ends it without a traceback, also while it is still imported."""
+"""The entry of the command bench-dragon: Ctrl-C ends it without a traceback, even during its imports."""
 
 from __future__ import annotations
 

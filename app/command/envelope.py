@@ -24,7 +24,7 @@ def envelope(
     ] = None,
     json: Json = False,
 ) -> None:
-    """The ground that benches sweep: polygons proven to hold every pose, and at most 1 mm larger."""
+    """The ground that benches sweep: polygons proven to hold every pose and to reach at most 1 mm further."""
     write = WRITERS[checked_output("output", output, tuple(WRITERS))] if output else None
     if output and output.suffix.lower() == ".dxf":
         require("dxf", "output", "DXF")

@@ -41,7 +41,7 @@ ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PI
 
 
 def _is_dance(place: Path) -> bool:
-    """Whether a place is that of a dance, not a folder that exists or is to be created."""
+    """True if the path names the file of a dance rather than a folder."""
     return not place.is_dir() and (place.exists() or place.suffix.lower() in DANCE_ENDINGS or str(place) == "-")
 
 
@@ -104,7 +104,7 @@ def film(
 ) -> None:
     """A film of the dance; with a FILE, of any dragon on any path and in any venue."""
     gif = checked_output("output", output, (".mp4", ".gif")) == ENDINGS[GIF_TYPE]
-    require("figures" if gif else "film", "output", "A .gif" if gif else "A .mp4 (a .gif does not need it)")
+    require("figures" if gif else "film", "output", "A GIF" if gif else "An MP4 film, unlike a GIF,")
     form = GIF_TYPE if gif else films.FORM
     with show.waiting(f"film {output}") as progress:
         terms = Terms(progress=progress)

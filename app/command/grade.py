@@ -49,7 +49,7 @@ def grade(
     summary: Annotated[Path | None, typer.Option(help="Write a .csv file with one line for each file.")] = None,
     json: Json = False,
 ) -> None:
-    """Right and wrong parts of a student's results, and the known error that explains each wrong one. Exit code: 0."""
+    """Right and wrong parts of a student's results, with the known error behind each wrong one. The exit code is 0."""
     if summary:
         checked_output("summary", summary, (".csv",))
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}

@@ -17,7 +17,7 @@ from app.files.disk import checked_output, write_whole
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
 
-jobs = typer.Typer(help="The jobs of a data folder, or of a service.", no_args_is_help=True, add_completion=False)
+jobs = typer.Typer(help="Jobs of a data folder or of a service.", no_args_is_help=True, add_completion=False)
 
 Name = Annotated[str, typer.Argument(metavar="JOB", help="The job's name, the last part of its address.")]
 Data = Annotated[Path | None, typer.Option(help="Data folder of the service; default: BENCH_DRAGON_DATA.")]

@@ -77,7 +77,7 @@ class _Commands(TyperGroup):
     """The commands; every mistake in their use is one line."""
 
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
-        # Without any argument the parser prints the help and raises an error, which is no mistake of the user.
+        # Without any argument the parser prints the help and raises an error, although the user made no mistake.
         with _one_line() if args else nullcontext():
             return super().make_context(info_name, args, *further, **extra)
 

@@ -68,7 +68,7 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
 def of_file(file: Path, body: type[Model], context: typer.Context, instead: str = "") -> Model:
     """The request for the dance in a file, as for `check`, with the options of the question.
 
-    Values for `check` that this question does not take, such as a venue, are ignored; of strays a note says so.
+    Values for `check` that this question does not take, such as a venue, are ignored; a note names ignored strays.
     instead: which strays count in place of those in the file, for a question about strays
     raises: InvalidValue, OSError
     """
@@ -77,7 +77,7 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     unused(context, DanceQuery.model_fields, "cannot be combined with FILE, which describes the dance")
     held, own = read_dance(file), body.model_fields.keys()
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
-        print(f"{file}: not counted: {', '.join(strays)}: {instead}.", file=sys.stderr)
+        print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
     told = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
     told |= {name: context.params[name] for name in given(context, *own)}
     if isinstance(told.get("times"), str):

@@ -198,7 +198,8 @@ def tolerance(asked: StrayClaim, output: Output = Path("tolerance.proof.json")) 
 
     Without --stray a second proof is added: a pose of the whole dragon in which two benches overlap, with strays that
     are a little larger. The proof lets benches next but one to each other stray independently. The command tolerance
-    also uses that the bench between holds them apart, so its answer is larger on straight paths and wide spirals.
+    also uses the bench between them, which holds them apart, so its answer is larger on straight paths and wide
+    spirals.
     """
     checked_output("output", output, (".json",))
     dance = asked.to_dance(Settings().benches_max)

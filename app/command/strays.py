@@ -36,7 +36,7 @@ def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
     show.print_found(answer, json, _curve_parts(answer.columns))
 
 
-@asks(ContactProbabilityQuery, ContactProbabilityRequest, "people wobble as --lateral and --forward say")
+@asks(ContactProbabilityQuery, ContactProbabilityRequest, "--lateral and --forward describe how people wobble")
 def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
     """Probability of a contact when people wobble, from dances drawn at random.
 

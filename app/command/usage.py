@@ -44,7 +44,7 @@ def path(text: str | Path) -> Path:
 
 def unknown(word: str, known: list[str]) -> str:
     near = difflib.get_close_matches(word, known, n=1, cutoff=ALIKE_SLIP)
-    return f"{word} is unknown here: " + (f"did you mean {near[0]}?" if near else "--help lists what is known")
+    return f"{word} is unknown here: " + (f"did you mean {near[0]}?" if near else "see --help")
 
 
 def _unfit(parameter: Any, quoted: str) -> str:

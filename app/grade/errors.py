@@ -70,7 +70,7 @@ ERRORS = {
         "以 {step} s 为步长寻找最高速度，错过了峰值。"),
     "error_other_entry": ("The turn begins inside the circle, {entry} m from the centre, not on its edge at 4.5 m.",
         "调头起点在圆内，距中心 {entry} m，而不是在 4.5 m 的边界上。"),
-    "other_turn": ("This is the shortest turn with the ratio {ratio} : 1, entered inside the circle; the turn from its edge has {length} m.",
+    "other_turn": ("This is the shortest turn with the ratio {ratio} : 1, entered inside the circle; the turn from its edge is {length} m long.",
         "这是半径比为 {ratio} : 1、在圆内更深处进入的最短调头曲线；从圆的边界进入时，问题 4 的曲线长 {length} m。"),
     "evidence": ("{sheet}: recomputed with this error, {share} % of the {count} wrong cells agree within {tolerance} {unit}; their largest distance from the right values is {worst} {unit}.",
         "{sheet}：按此错误重新计算，{count} 个错误单元格中 {share} % 在 {tolerance} {unit} 内吻合；与正确值最多相差 {worst} {unit}。"),

@@ -77,7 +77,7 @@ WORDS = ERRORS | PAPER | {
     "unit": ("The numbers are in {unit}, and were converted.", "数值单位为 {unit}：已按此读取。"),
     "by_order": ("The labels of the handles are shifted: the handles were read in the order of the rows.",
         "把手标签有错位：已按排列顺序对应把手。"),
-    "extra_handles": ("{count} handle too many: the dragon has 224, from the head to the rear of the tail.",
+    "extra_handles": ("Extra handles: {count}. The dragon has 224, from the head to the rear of the tail.",
         "多出 {count} 个把手：从龙头到龙尾（后）共 224 个。"),
     "extra_times": ("{count} columns were not graded: their times are not part of the contest.",
         "{count} 列的时刻不在赛题要求之内：未评分。"),

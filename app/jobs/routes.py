@@ -91,13 +91,13 @@ def take(request: Request, task: Task) -> Response:
     try:
         job = keeper.store.create(task.call, task.to_bytes(), client_of(request), limits)
     except FullForClient as error:
-        detail = f"{limits.jobs_client_max} of your jobs are not finished, the limit: wait for one or dismiss one."
+        detail = f"{limits.jobs_client_max} of your jobs are unfinished, which is the limit: await or dismiss one."
         raise Refused(429, detail, headers=COME_AGAIN) from error
     except FullOfBytes as error:
-        detail = "The jobs that are kept take all the room, the limit: remove those that you do not need."
+        detail = "The kept jobs take all the room that they may have: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
-        detail = f"{limits.jobs_max} jobs are kept, the limit: remove those that you do not need, or come later."
+        detail = f"{limits.jobs_max} jobs are kept, which is the limit: remove some, or come later."
         raise Refused(503, detail, headers=COME_AGAIN) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
@@ -114,7 +114,7 @@ def later(request: Request, task: Task) -> Response:
 async def store_problem(request: Request, error: Exception) -> Response:
     """The answer if SQLite cannot write or read: the disk is full or fails."""
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
-        words = "to remove a job takes some room too, make some" if request.method == "DELETE" else MAKE_ROOM
+        words = "removing a job needs some room too: free some" if request.method == "DELETE" else MAKE_ROOM
         detail = f"The disk of the data folder is full: {words}."
         return problem(507, "insufficient-storage", detail)
     logger.error("The store of the jobs failed: %s", error)
@@ -284,7 +284,7 @@ async def events(
     if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
         return Response(status_code=204)  # It tells a browser not to connect again.
     if not keeper.free.acquire(blocking=False):
-        detail = f"{keeper.settings.jobs_listeners_max} clients follow jobs, the limit: ask for the status instead."
+        detail = f"{keeper.settings.jobs_listeners_max} clients follow jobs, which is the limit: ask for the status."
         raise Refused(503, detail, headers=COME_AGAIN)
     return News(keeper, found.id, after)
 

@@ -5,8 +5,8 @@
     FOLDER/sweeps/ID     the shards of an unfinished sweep
     FOLDER/reserve       room to remove jobs on a full disk
 
-Every change of a job is one transaction and one event, so a listener sees each change once. Only the runner changes an
-accepted job to running and further; anyone may dismiss it.
+Every change of a job is one transaction and one event, so a listener sees each change once. Only the runner moves a job
+from accepted to running and later states; anyone may dismiss it.
 """
 
 from __future__ import annotations
@@ -163,7 +163,7 @@ class Store:
                 raise FullOfBytes
             run.execute(
                 "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
-                " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'It waits for its turn.')",
+                " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'Waiting for its turn.')",
                 (job, question, call, client, now, now),
             )
             self._tell(run, job)
@@ -213,7 +213,7 @@ class Store:
 
     def dismiss(self, job: str) -> bool:
         """Dismiss an unfinished job: True if it was unfinished. The runner ends its process."""
-        dismissed, words = {"time_left": None, "size": 0}, "It was dismissed before it was done."
+        dismissed, words = {"time_left": None, "size": 0}, "Dismissed before it was finished."
         with self._reserve.given():
             return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
 
@@ -292,7 +292,7 @@ class Store:
             flush_folder(self.results)
         size = result.stat().st_size if result.exists() else 0
         done = {"progress": 100, "rate": None, "time_left": 0.0, "media_type": media_type, "size": size}
-        moved = self._finish(job, JobState.SUCCESSFUL, "It is done.", done)
+        moved = self._finish(job, JobState.SUCCESSFUL, "Finished.", done)
         found = self.get(job)
         if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
             result.unlink(missing_ok=True)

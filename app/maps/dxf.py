@@ -79,7 +79,7 @@ def _refuse_wide(features: list[MapFeature]) -> None:
     points = [point for one in features for ring in one.rings for point in ring]
     across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
     if across > ACROSS_MAX:
-        words = f"file must tell its unit: without one it is in metres, and it draws {across:.6g} across"
+        words = f"file must state its unit: without one it is read in metres, and the drawing is {across:.6g} across"
         raise InvalidValue.in_words("file", f"{words}: set $INSUNITS, 4 for millimetres, or scale it to metres")
 
 

@@ -15,10 +15,10 @@ const PARTS = [
   [/: from (\S+) s to (\S+) s, while every hole is within (.+?) m of its place and every chord keeps its length, no bench touches another that it shares no handle with( or an edge of the venue)?\./, (_, from, to, stray, venue) =>
     `：${from} s 至 ${to} s，只要每个孔离其位置不超过 ${stray} m 且每节孔距不变，${PLACE}都不会相碰${venue ? "，也不会碰到场地边缘" : ""}。`],
   [/: from (\S+) s to (\S+) s no stray is known to be safe: /, "：$1 s 至 $2 s，没有已知安全的离位："],
-  [/a bench touches another or an edge of the venue as it is\./, "各在原位时，板凳已相碰或碰到场地边缘。"],
-  [/a bench touches another as it is\./, "各在原位时，板凳已相碰。"],
-  [/nothing was proven of any stray\./, "对任何离位都未能证明。"],
-  [/The two benches that limit it have one between them, which is not counted on here: they are taken to stray independently, so the stray is lower than it could be\./, "起限制作用的两节板凳中间只隔一节，此处未计入那一节的作用，视两者独立离位，因此所得离位偏小。"],
+  [/a bench touches another or an edge of the venue with everybody in place\./, "各在原位时，板凳已相碰或碰到场地边缘。"],
+  [/a bench touches another with everybody in place\./, "各在原位时，板凳已相碰。"],
+  [/none was proven\./, "对任何离位都未能证明。"],
+  [/The two benches that limit it have one between them, which is not used here: they are assumed to stray independently, so the stray is lower than it could be\./, "起限制作用的两节板凳中间只隔一节，此处未计入那一节的作用，视两者独立离位，因此所得离位偏小。"],
   [/while every hole is within (.+?) m of its place, and every chord keeps its length, /, "只要每个孔离其位置不超过 $1 m 且每节孔距不变，"],
   [/from (\S+) s to (\S+) s no two benches that share no handle touch/, `$1 s 至 $2 s，${PLACE}都不相碰`],
   [/from (\S+) s to (\S+) s no two benches that share no handle are nearer to each other than (.+?) m(?=[,;])/, `$1 s 至 $2 s，${PLACE}间距都不小于 $3 m`],
@@ -35,7 +35,7 @@ const PARTS = [
   [/Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further out by ring bounds in closed form; computed in doubles, with allowances for their rounding\./, "逐步证明：每一步以固定在板凳上的轴向间距的二阶导数界为据，外圈以闭式的环间距界为据；以双精度计算，并计入舍入误差。"],
   [/Proven in steps for the hulls of all places that benches can have then, as first contacts are for benches; computed in doubles, with allowances for their rounding\./, "对板凳此时可能占据的全部位置的凸包逐步证明，方法与首次碰撞相同；以双精度计算，并计入舍入误差。"],
   [/Two benches with one between them are held apart by it: distances of handles prove that\./, "中间只隔一节的两节板凳由中间那节撑开：由把手间的距离证明。"],
-  [/Fewer than three benches have no two that share no handle\./, "少于三节时，没有两节不共用把手的板凳。"],
+  [/Of fewer than three benches, any two share a handle, so there is no pair to judge\./, "少于三节时，没有两节不共用把手的板凳。"],
   [/Computed in doubles, with allowances for their rounding\./, "以双精度计算，并计入舍入误差。"],
   [/Measured at that instant, in doubles\./, "在该时刻以双精度测得。"],
 ];

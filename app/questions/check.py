@@ -18,7 +18,7 @@ from core import Dance, Outcome, Venue
 class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
     """Verdict on a dance: dragon, path, venue and limits."""
 
-    speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; null: no limit", None)
+    speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; default: no limit", None)
     details: bool = Field(
         True,
         description="false: the verdict and the failures alone, in a tenth of the time; least clearance, highest speed "
@@ -77,7 +77,7 @@ class VenueClearance(Answer):
     """Distances between the benches and the venue."""
 
     misplaced: Misplaced | None = Field(description="The first bench that starts outside the square or in an obstacle")
-    stray: Misplaced | None = Field(description="The same as misplaced, under its first name")
+    stray: Misplaced | None = Field(description="The same as misplaced, under its former name")
     areas: list[AreaClearance] = Field(description="The square, then the obstacles")
 
 

@@ -31,12 +31,12 @@ class Wobbling(Wire):
         "s", "Time after which 1 / e of a person's displacement is left; at two steps a second 5 s are ten steps", 5.0
     )
     step: Correlation | None = measure(
-        "s", "Time between two instants, at most a fifth of the correlation time; null: that fifth", None
+        "s", "Time between two instants, at most a fifth of the correlation time; default: that fifth", None
     )
     correlation_benches: Correlation = Field(
         2.0, description="Number of benches between two people whose displacements have a correlation of 1 / e"
     )
-    hole: Diameter = measure("m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0)
+    hole: Diameter = measure("m", "Diameter of the holes in the benches; with the pin it gives the play", 0.0)
     pin: Diameter = measure("m", "Diameter of the pins in these holes, each of which lies anywhere in its holes", 0.0)
     pitch_error: Spread = measure("m", "Standard deviation of the pitch of the painted spiral", 0.0)
     samples: int = Field(500, ge=1, description="Number of dances drawn at random")

@@ -23,7 +23,7 @@ class CourseRequest(DragonFields, strict=True):
 class TightBend(Answer):
     """A stretch of the path that the longest bench cannot follow."""
 
-    start: float = measure("m", "Begin of the stretch, along the path")
+    start: float = measure("m", "Start of the stretch, along the path")
     end: float = measure("m", "End of the stretch, along the path")
     points: list[Point] = measure("m", "Points along it, x and y")
     radius: float = measure("m", "Least radius there; of a curve through waypoints, at least this")
@@ -39,7 +39,7 @@ class Course(Answer):
     y: list[float] = measure("m", "P entries")
     length: float = measure("m", "Length of the path")
     knots: list[float] = measure(
-        "m", "Arc length along the path of each waypoint, of a rounded corner the middle; empty for other paths"
+        "m", "Arc length of each waypoint (for a rounded corner, of its middle); empty for other paths"
     )
     bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
 

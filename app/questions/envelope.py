@@ -25,7 +25,7 @@ SECONDS = 2.5
 class WholeSpan(SpanFields):
     """A stretch of a dance, which a contact does not end."""
 
-    stop: Instant | None = measure("s", "End time; null: the end of the run, also if benches touch before", None)
+    stop: Instant | None = measure("s", "End time; default: the end of the run, also if benches touch before", None)
 
 
 class EnvelopeQuery(WholeSpan, DanceQuery):
@@ -37,7 +37,7 @@ class EnvelopeRequest(WholeSpan, DanceFields, strict=True):
 
     spectators: list[Point] | None = measure(
         "m",
-        "Points of a line along which spectators stand, x and y; null: their distance is not asked for",
+        "Points of a line along which spectators stand, x and y; default: none",
         None,
         min_length=1,
         max_length=LINE_MOST,
@@ -88,7 +88,7 @@ def swept(asked: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope
 
 
 def envelope(asked: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | bytes:
-    """The ground that benches sweep, as polygons proven to hold every pose and to be at most 1 mm larger."""
+    """The ground that benches sweep, as polygons proven to hold every pose and to reach at most 1 mm further."""
     found = swept(asked, terms)
     return FORMS[form](found) if form in FORMS else Envelope.of(found, asked)
 

@@ -24,14 +24,14 @@ FORMS = tuple(FORMATS)
 class TrajectoryFigureQuery(DanceQuery):
     """Every handle at one instant, drawn."""
 
-    time: Instant = measure("s", "Instant to draw", 300.0)
+    time: Instant = measure("s", "Instant of the poses", 300.0)
 
 
 class TrajectoryFigureRequest(PlacedDance):
     """Every handle at one instant, drawn on any path."""
 
     time: Instant | None = measure(
-        "s", "Instant to draw; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None
+        "s", "Instant to draw; default: 0, or the first time at which the whole dragon is on the path", None
     )
 
 
@@ -50,9 +50,9 @@ class ContactFigureRequest(PlacedDance):
 
     margin: Margin = 0.0
     start: Instant | None = measure(
-        "s", "Start time; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None
+        "s", "Start time; default: 0, or the first time at which the whole dragon is on the path", None
     )
-    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
+    stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
 
 class StaircaseQuery(ScanFields, UniformDragon):

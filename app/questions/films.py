@@ -22,15 +22,15 @@ class FilmFields(Wire):
     """Content and form of a film."""
 
     start: Instant | None = measure(
-        "s", "First instant; null: 0, or, if the dance has no time 0, when the whole dragon is on the path", None
+        "s", "First instant; default: 0, or the first time at which the whole dragon is on the path", None
     )
     stop: Instant | None = measure(
-        "s", "Last instant; null: first contact, otherwise the end of the run, at most 1,000 s after the start", None
+        "s", "Last instant; default: first contact, otherwise the end of the run, at most 1,000 s after the start", None
     )
     seconds: float = measure("s", "Length of the film", 20.0, ge=0.1, le=120)
-    rate: int | None = measure("1/s", "Frames a second; null: 30, of a GIF 12", None, ge=1, le=60)
+    rate: int | None = measure("1/s", "Frames per second; default: 30, or 12 for a GIF", None, ge=1, le=60)
     height: int | None = measure(
-        "pixels", "Height of the picture, 16 : 9; null: 1080, of a GIF 360", None, ge=90, le=2160, multiple_of=2
+        "pixels", "Height of the picture, 16 : 9; default: 1080, or 360 for a GIF", None, ge=90, le=2160, multiple_of=2
     )
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture")
     title: str = Field("", max_length=80, description="Words at the upper right")

@@ -28,9 +28,9 @@ class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
     """Highest head speed that keeps a limit, on any path."""
 
     path: AnyPath = Field(default_factory=lambda: TurnPath(kind="turn"), description="The path; a turn by default")
-    start: Instant | None = measure("s", "Start time, at head_speed; null: when the whole dragon is on the path", None)
+    start: Instant | None = measure("s", "Start, at head_speed; default: when the whole dragon is on the path", None)
     stop: Instant | None = measure(
-        "s", "End time, at head_speed, before any bench folds; null: the end of the path", None
+        "s", "End time, at head_speed, before any bench folds; default: the end of the path", None
     )
 
 

@@ -41,8 +41,8 @@ class MinimumPitchRequest(PitchFields, DragonFields, strict=True):
 
 
 class MinimumPitch(Answer):
-    """The smallest pitch such that every larger one lets the head reach the turning circle with no two benches nearer
-    than the margin, or touching if it is 0."""
+    """The smallest pitch such that every larger one lets the head reach the turning circle without two benches nearer
+    than the margin (touching, if it is 0)."""
 
     pitch: float = measure("m")
     pitch_bracket: Point = measure(

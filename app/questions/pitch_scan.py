@@ -19,7 +19,7 @@ SECONDS_PER_SAMPLE = 1.5e-3
 class ScanFields(Circle):
     """Pitches around the minimum pitch."""
 
-    samples: int = Field(101, ge=2, le=401, description="Number of pitches that are answered, evenly spaced")
+    samples: int = Field(101, ge=2, le=401, description="Number of evenly spaced pitches in the answer")
 
 
 class Located(ScanFields):

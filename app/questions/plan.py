@@ -45,7 +45,7 @@ class PlanRequest(Marked):
 
     paper: Literal["A4", "A3"] = Field("A4", description="Size of the paper")
     clear: float | None = measure(
-        "m", "Width of the zone to keep clear around the swept ground; null: the margin, or 0.5 m without one", None,
+        "m", "Width of the zone to keep clear around the swept ground; default: the margin, or 0.5 m without one", None,
         ge=0, le=100,
     )  # fmt: skip
     title: str = Field("", max_length=80, description="Title of the plan")

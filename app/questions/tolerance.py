@@ -25,8 +25,8 @@ class CircleQuery(DanceQuery):
 class SizeErrors(Wire):
     """Errors of sizes, on the way to a turning circle."""
 
-    length_error: SizeError = measure("m", "Every bench is at most so much longer or shorter, from hole to hole", 0.0)
-    pitch_error: SizeError = measure("m", "The pitch of the painted spiral is at most so much larger or smaller", 0.0)
+    length_error: SizeError = measure("m", "Largest error of the distance between the two holes of a bench", 0.0)
+    pitch_error: SizeError = measure("m", "Largest error of the pitch of the painted spiral", 0.0)
 
 
 class ToleranceQuery(SizeErrors, CircleQuery):
@@ -79,7 +79,7 @@ class Tolerance(Answer):
     )
     limited_by: Limit = Field(
         description="Effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; "
-        "chord: nothing, up to half of the shortest chord"
+        "chord: no contact up to half of the shortest chord"
     )
     time: float | None = measure("s", "Time at which these are nearest to touching; null if nothing limits the stray")
     benches: tuple[int, int | None] | None = Field(
@@ -109,7 +109,7 @@ def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[fl
     if asked.turning_diameter is None:
         return start, stop
     if dance.path.spiral is None or stop is not None:
-        rule = "must be null except for a dance on a spiral without stop"
+        rule = "must be left out, unless the path is a spiral and stop is left out"
         raise InvalidValue.of("turning_diameter", rule, asked.turning_diameter, "m")
     circle = time_on_circle(dance, asked.turning_diameter / 2)
     if start is not None and start >= circle:
@@ -127,7 +127,7 @@ def _with_errors(
     spiral = dance.path.spiral
     if asked.turning_diameter is None or placed or spiral is None:
         field = next(name for name, error in errors.items() if error)
-        rule = "must be 0 but for a dance without a venue on a spiral that ends on a circle (turning_diameter)"
+        rule = "must be 0, unless the dance has no venue and ends on a circle of a spiral (turning_diameter)"
         raise InvalidValue.of(field, rule, errors[field], "m")
     radius = asked.turning_diameter / 2
     return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=radius, budget=budget)

@@ -25,8 +25,8 @@ ABOVE_MINIMUM = 1e-6
 class CurveFields(WayToCircle):
     """Pitches of spirals that lead to a circle."""
 
-    from_pitch: Pitch | None = measure("m", "Lowest pitch; null: a millionth above the minimum pitch", None)
-    to_pitch: Pitch | None = measure("m", "Highest pitch; null: twice the lowest one", None)
+    from_pitch: Pitch | None = measure("m", "Lowest pitch; default: a millionth above the minimum pitch", None)
+    to_pitch: Pitch | None = measure("m", "Highest pitch; default: twice the lowest one", None)
     samples: int = Field(20, ge=2, le=401, description="Number of pitches, evenly spaced")
 
     def pitches(self, dragon: Dragon, terms: Terms) -> Floats:
@@ -57,7 +57,7 @@ class ToleranceCurve(Answer):
     stray: list[float] = measure("m", "Proven safe: while no hole is further from its place, nothing touches")
     touching: list[float | None] = measure("m", "Shown to touch; null where no such pose was found")
     limited_by: list[Limit] = Field(
-        description="Effect of a larger stray. benches: two benches touch; chord: nothing, up to half of the "
+        description="Effect of a larger stray. benches: two benches touch; chord: no contact up to half of the "
         "shortest chord"
     )
 

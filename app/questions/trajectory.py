@@ -16,7 +16,7 @@ from app.wire.question import JSON, Answer, Question, Terms, measure
 class TrajectoryRequest(TimedDance):
     """Positions and speeds of every handle at every instant."""
 
-    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; null: full precision")
+    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; default: full precision")
 
 
 class TrajectoryTable(Answer):

@@ -48,7 +48,7 @@ Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 
 
 class Layer:
-    """A layer around every call; what is no call, as the start of the service, passes it."""
+    """A layer around every call; other events, such as the start of the service, pass through."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -234,10 +234,10 @@ class Lane:
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
             if len(self._begun) >= self.most:
-                words = f"{self.most} {self.name} computations are running, the limit"
+                words = f"{self.most} {self.name} computations are running, which is the limit"
                 raise self._full(503, words, self._begun.values())
             if client and len(own) >= self.of_client:
-                words = f"{self.of_client} of your {self.name} computations are running, the limit for one client"
+                words = f"{self.of_client} of your {self.name} computations are running, which is one client's limit"
                 raise self._full(429, words, own)
             self._begun[key] = (time.monotonic(), cost, client)
         self._running.inc()

@@ -41,7 +41,7 @@ RESPOND_ASYNC = "respond-async"
 # Longest estimated time of a computation that the event loop runs itself [s]: a thread costs a third of a millisecond,
 # a sixth of the answer (2026-11-22). A computation that takes longer is stopped, and repeated in a thread.
 GLANCE = 0.005
-# Time after such a stop during which the loop runs no computation [s]: each one of 40 at once would delay all others.
+# Time after such a stop during which the loop runs no computation [s]: of 40 at once, each would delay all others.
 REST = 0.1
 # Number of looks without a computation after which the thread that stops them waits for the next one to begin [1].
 LOOKS_IDLE = 200

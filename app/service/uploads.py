@@ -61,7 +61,7 @@ class PlacesQuery(Wire):
 
     name: str | None = Field(None, max_length=200, description="Name of the file; its form is told by its bytes")
     units: Coordinates | None = Field(
-        None, description="Unit of its coordinates: metres or degrees; null: as the file says, or as they look"
+        None, description="Unit of its coordinates: metres or degrees; default: as the file says, or as they look"
     )
     language: Language = Field(Language.ENGLISH, description="Language of the notes: en or zh")
 

@@ -143,7 +143,7 @@ def least_clearance(asked: DanceQuery | DanceFields, terms: Terms) -> LeastClear
     """The least separation of two benches that share no handle, over the whole dance."""
     found = core.least_clearance(asked.to_dance(terms.settings.checked_benches_max), budget=terms.budget)
     if found is None:
-        raise InvalidValue.of("dragon.benches", "must be at least 3 for two to share no handle", asked.benches, "")
+        raise InvalidValue.of("dragon.benches", "must be at least 3, so that two share no handle", asked.benches, "")
     return LeastClearance.model_validate(found)
 
 
@@ -183,7 +183,7 @@ def question_of(name: str, parameters: Collection[str] = ()) -> Question:
     raises: InvalidValue
     """
     if why := NO_ROWS.get(name.removesuffix("_of")):
-        raise InvalidValue("question", f"{name} has no row for a table, as {why}")
+        raise InvalidValue("question", f"{name} cannot be swept, because {why}")
     if name not in QUESTIONS:
         raise InvalidValue("question", f"must be one of {', '.join(QUESTIONS)}, got {name!r:.60}")
     names = [parameter.partition(".")[0] for parameter in parameters]

@@ -176,7 +176,7 @@ class Spec(_Told):
 
     def _check(self, question: Question) -> None:
         if bool(self.sampled) is not bool(self.samples):
-            words = "is for ranges without a count, and there are none: leave out samples, or a count"
+            words = "needs a range without a count, and there is none: leave samples out, or remove a count"
             if self.sampled:
                 words = f"must say how to sample {', '.join(self.sampled)}: give samples, or give the range a count"
             raise InvalidValue("samples", words)

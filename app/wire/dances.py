@@ -178,9 +178,9 @@ class SpanFields(Wire):
     """A stretch of a dance."""
 
     start: Instant | None = measure(
-        "s", "Start time; null: the start of the dance, or when the whole dragon is on the path", None
+        "s", "Start time; default: the start of the dance, or when the whole dragon is on the path", None
     )
-    stop: Instant | None = measure("s", "End time; null: the end of the run", None)
+    stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
 
 class TimedDance(DanceFields):
@@ -250,7 +250,7 @@ class PlacedDance(DanceFields):
 
         if self.venue is None:
             if self.coordinates is not None:
-                words = f"got {self.coordinates} without a venue: give the venue, or leave coordinates out"
-                raise InvalidValue("coordinates", f"must stand beside the venue that they are of, {words}")
+                words = f"got {self.coordinates} without one: give the venue, or leave coordinates out"
+                raise InvalidValue("coordinates", f"must stand beside a venue, whose unit it gives, {words}")
             return Place()
         return place_of(self.venue, self.coordinates, dragon)

@@ -129,7 +129,7 @@ def _rings(field: str, value: object, scale: Scale, radius: float | None) -> tup
     if radius is None:
         return read
     if scale != METRES:
-        raise InvalidValue(field, f"must be in metres, as its radius is, or be a Polygon: got {scale[0]}")
+        raise InvalidValue(field, f"must be in metres, because its radius is, or be a Polygon: got {scale[0]}")
     if len(read[0]) < 2:
         raise InvalidValue(field, f"must be at least 2 points, got {len(read[0])}")
     return read

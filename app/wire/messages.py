@@ -153,7 +153,7 @@ def _quoted(words: str) -> str:
 def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:
     """The rest of the sentence after a name that is unknown at its place."""
     if homes := _homes(name, asked, place[1:-1]):
-        return f" is unknown here: it belongs into {' or '.join(homes)}"
+        return f" is unknown here: it belongs in {' or '.join(homes)}"
     alike = ALIKE if name in units else ALIKE_SLIP
     near = difflib.get_close_matches(name, names_at(asked, place[1:-1]), n=1, cutoff=alike)
     return " is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")

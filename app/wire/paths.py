@@ -35,7 +35,7 @@ Start = Annotated[float, measure("m", "Distance of the head from the beginning o
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[
     float | None,
-    measure("m", "Distance from the centre at which the turn begins; null: on the circle", ge=1e-3, le=100),
+    measure("m", "Distance from the centre at which the turn begins; default: on the circle", ge=1e-3, le=100),
 ]
 
 
@@ -155,8 +155,8 @@ class WaypointsPiece(Wire, strict=True):
     points: list[Point] = measure(
         "m", "Points on the curve, x and y", min_length=2, max_length=POINTS_MAX, fail_fast=True
     )
-    start_heading: Angle | None = measure("rad", "Direction at the start; null: zero curvature at the start", None)
-    end_heading: Angle | None = measure("rad", "Direction at the end; null: zero curvature at the end", None)
+    start_heading: Angle | None = measure("rad", "Direction at the start; default: zero curvature at the start", None)
+    end_heading: Angle | None = measure("rad", "Direction at the end; default: zero curvature at the end", None)
 
     def to_piece(self) -> core.Piece:
         return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)

@@ -144,12 +144,10 @@ class Strays(Wire):
     """Largest distance of every hole from its place, by people and by the play of its pin."""
 
     stray: float = measure(
-        "m", "Largest distance of a person from their place; the margin grows by what benches may then move", 0.0,
+        "m", "Largest distance of a person from their place; benches keep the margin wherever this lets them be", 0.0,
         ge=0, le=STRAY_MAX,
     )  # fmt: skip
-    hole: float = measure(
-        "m", "Diameter of the holes in the benches, if the play of the pins is to count", 0.0, ge=0, le=1
-    )
+    hole: float = measure("m", "Diameter of the holes in the benches; with the pin it gives the play", 0.0, ge=0, le=1)
     pin: float = measure(
         "m", "Diameter of the pins in these holes; half of the difference adds to the stray", 0.0, ge=0, le=1
     )

@@ -29,7 +29,7 @@ from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
 
-# Distance ahead at which a search that gave up first tests for a certain overlap [m of head travel].
+# First distance ahead at which a search that gave up looks for a certain overlap [m of head travel].
 BEYOND = 1e-3
 
 OUTCOMES = {
@@ -53,7 +53,7 @@ PROOF = (
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
     "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
 )
-NO_PAIR = "Fewer than three benches have no two that share no handle."
+NO_PAIR = "Of fewer than three benches, any two share a handle, so there is no pair to judge."
 TRIED = "Computed in doubles, with allowances for their rounding."
 MEASURED = "Measured at that instant, in doubles."
 ENDS = {

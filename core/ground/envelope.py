@@ -101,7 +101,8 @@ class Envelope(Shown):
     _units = {"area": "m2", "excess": "m", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
-        return f"{self.area:.6g} m2 from {self.start:.6g} to {self.stop:.6g} s, at most {self.excess:.3g} m too far"
+        beyond = f"at most {self.excess:.3g} m beyond the benches"
+        return f"{self.area:.6g} m2 from {self.start:.6g} to {self.stop:.6g} s, {beyond}"
 
     def _rows(self) -> list[tuple[str, str]]:
         points = sum(len(ring) for rings in self.polygons for ring in rings)

@@ -149,7 +149,8 @@ from __future__ import annotations
 try:
     import flint  # noqa: F401
 except ImportError as error:
-    raise ImportError("a proof needs python-flint: pip install 'bench-dragon[proof]'") from error
+    words = "A proof needs the package python-flint, which is not installed"
+    raise ImportError(f"{words}: pip install 'bench-dragon[proof]'") from error
 
 from core.proof.certificate import (
     Certificate,

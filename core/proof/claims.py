@@ -238,7 +238,7 @@ def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
 def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:
     """Two benches a < b if they share no handle. raises: Unproven"""
     if not 0 <= a < b - 1 < chain.count - 1:
-        raise Unproven(f"benches {a} and {b} are not two benches of this dragon, in order, that share no handle")
+        raise Unproven(f"benches must be two of this dragon that share no handle, in order, got {a} and {b}")
     return a, b
 
 

@@ -78,7 +78,7 @@ def _object(name: str, value: Any, members: dict[str, Rule]) -> None:
     for member in value:
         if member not in members:
             unknown = f"{inside}{str(member)[:SHOWN_MOST]}"
-            raise ProofRefused.in_words(unknown, f"the certificate is malformed: {spoken(unknown)} is no member of it")
+            raise ProofRefused.in_words(unknown, f"the certificate is malformed: {spoken(unknown)} is unknown")
     for member, rule in members.items():
         rule(f"{inside}{member}", value[member])
 
@@ -102,7 +102,7 @@ def _any_object(name: str, value: Any) -> None:
 
 def _text(name: str, value: Any) -> None:
     if not isinstance(value, str):
-        raise _malformed(name, "must be a text", value)
+        raise _malformed(name, "must be a string", value)
 
 
 def _true(name: str, value: Any) -> None:

@@ -76,7 +76,7 @@ class Verdict(Shown):
     after: bool
 
 
-@asked_of("poses", object, "which of them overlap was not found")
+@asked_of("poses", object, "the overlapping pairs were not found")
 def overlaps(
     poses: ArrayLike,
     lengths: ArrayLike,
@@ -108,7 +108,7 @@ def overlaps(
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
 
 
-@asked_of("poses", object, "which of them overlap was not found by all engines")
+@asked_of("poses", object, "the overlapping pairs were not found by all engines")
 def cross_check(
     poses: ArrayLike,
     lengths: ArrayLike,

@@ -98,7 +98,7 @@ class ContactProbability(Shown):
             told += f" The probability of the model {most}: a union bound over all pairs and instants, {order}."
         if self.tolerance:
             safe = f"While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches"
-            within = f"in {self.samples - (self.strayed or 0)} samples none is at these instants"
+            within = f"in {self.samples - (self.strayed or 0)} samples no hole is further away at any of these instants"
             told += f" {safe} at any time, which is proven; {within}."
         return told
 

@@ -94,7 +94,7 @@ def tolerance_curve(
         except TooMuchWork:
             if k == 0 or budget is None:
                 raise
-            rule = f"must be fewer: how far people may stray was found for only {k} {{then}}"
+            rule = f"must be fewer: the tolerance was found for only {k} of them {{then}}"
             raise too_much(budget, "pitches", rule, column.size, "") from None
         progress((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))

@@ -1,4 +1,4 @@
-"""Tolerance: the largest stray that no motion within it can break, proven, and a slightly larger one shown to break it.
+"""Tolerance: the largest stray proven to be safe, and a slightly larger one that is shown to allow a contact.
 
 core/tolerance/safe.py finds the stray that is safe among the benches, and the one between them and each area of a
 venue. The tolerance is the least of these, and a pose shows that the two that limit it overlap with a slightly larger
@@ -174,13 +174,13 @@ def _method(dance: Dance, found: SafeStray, independent: float, span: tuple[floa
     square = " or an edge of the venue" if venue is not None else ""
     what = f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s"
     if found.stray <= 0.0:
-        why = f"a bench touches another{square} as it is" if found.touches else "nothing was proven of any stray"
+        why = f"a bench touches another{square} with everybody in place" if found.touches else "none was proven"
         return f"{what} no stray is known to be safe: {why}."
     between = ""
     if independent < found.stray:
         between = " Two benches with one between them are held apart by it: distances of handles prove that."
     elif found.dip is not None and found.dip[2][1] == found.dip[2][0] + 2:
-        between = " The two benches that limit it have one between them, which is not counted on here: they are taken"
+        between = " The two benches that limit it have one between them, which is not used here: they are assumed"
         between += " to stray independently, so the stray is lower than it could be."
     return (
         f"{what}, while every hole is within {safe_words(found.stray)} m of its place and every chord keeps its "

@@ -128,7 +128,10 @@ def test_every_question_is_answered_without_an_extra(plain: Plain, line: str) ->
             "sweep run no-such-spec.toml --output folder",
             "sweep needs the package pyarrow, which is not installed: pip install 'bench-dragon[sweep]'",
         ),
-        ("prove collision-time", "a proof needs python-flint: pip install 'bench-dragon[proof]'"),
+        (
+            "prove collision-time",
+            "A proof needs the package python-flint, which is not installed: pip install 'bench-dragon[proof]'",
+        ),
     ],
 )
 def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(

@@ -313,4 +313,4 @@ def test_a_full_disk_leaves_metrics_of_one_process_and_a_word(tmp_path: Path) ->
         assert "bench_dragon_requests" in httpx.get(f"{service.url}/metrics").text
         assert "/metrics shows one process alone" in service.log.read_text()
         assert "died" not in service.log.read_text()
-        assert "BENCH_DRAGON_JOB_MAX is no setting and has no effect; did you mean" in service.log.read_text()
+        assert "BENCH_DRAGON_JOB_MAX is not a setting and has no effect; did you mean" in service.log.read_text()

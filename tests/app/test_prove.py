@@ -229,7 +229,10 @@ def test_without_flint_the_error_names_the_extra(certificate: Path, tmp_path: Pa
     (tmp_path / "flint.py").write_text("raise ImportError\n")
     done = run("--check", str(certificate), PYTHONPATH=str(tmp_path))
     assert done.returncode == 2
-    assert done.stderr == "Error: a proof needs python-flint: pip install 'bench-dragon[proof]'\n"
+    assert (
+        done.stderr
+        == "Error: A proof needs the package python-flint, which is not installed: pip install 'bench-dragon[proof]'\n"
+    )
 
 
 def test_a_bar_shows_and_ctrl_c_ends_the_proof_cleanly(tmp_path: Path) -> None:

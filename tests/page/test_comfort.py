@@ -37,10 +37,10 @@ REFUSALS = [
         "body_length must be larger, or benches fewer, got 2.2 m: their minimum pitch was not found within 10 s, the "
         "time that one answer may take here; the shortest of 223 chords is 1.65 m long"
     ),
-    "benches must be at least 3 for two to share no handle, got 2",
+    "benches must be at least 3, so that two share no handle, got 2",
     "instants x handles must be at most 1000000 here, got 1505301: take a larger step or fewer benches",
     "stop must be at most 61.706468681 s, when the path ends, got 100 s",
-    "8 heavy computations are running, the limit: try again in 3 s.",
+    "8 heavy computations are running, which is the limit: try again in 3 s.",
     "The service failed on this request; its log has the reason.",
 ]
 
@@ -193,7 +193,7 @@ def test_the_pitch_chart_has_a_first_look_before_its_jumps_are_known(open_page: 
     page.route(lambda url: "/pitch-scan" in url and "locate" not in url, lambda route: None)
     page.locator("#scan .plot").scroll_into_view_if_needed()
     page.locator("#scan.coarse .uplot").wait_for()
-    shows(page, "#scan .reading", "first look; the jumps are being located")
+    shows(page, "#scan .reading", "first view; the jumps are still being located")
     page.unroute_all()
     page.locator("#width").fill("0.29")
     page.locator("#scan:not(.coarse) .uplot").wait_for()

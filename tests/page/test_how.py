@@ -92,7 +92,7 @@ def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(open_page: An
     expect(page.locator("#step .verdict")).to_contain_text(f"The service takes {steps} shorter steps")
     length.press("Home")
     expect(page.locator("#step .verdict")).to_contain_text("The service proves it in one step")
-    expect(page.locator("#graze .lead")).to_contain_text("Each one finds all benches apart")
+    expect(page.locator("#graze .lead")).to_contain_text("Every look finds all benches apart")
     page.locator("#graze .try").first.click()
     expect(page.locator("#graze .lead")).to_contain_text("In 1 of them benches overlap")
     free = polite.get(f"{server}/tolerance", params={"pitch": 0.55}).json()

@@ -17,7 +17,7 @@ export const WORDS = {
   trying: ["The service does not answer; the figure is older than your numbers. Trying again now.", "服务没有响应，图形早于当前数值。正在重试。"],
 
   chord_title: ["One chord after another", "一个孔距接一个孔距"],
-  chord_lead: ["Every handle walks on the same spiral, and each bench keeps two handles at a fixed distance: its chord. A circle of {chord} around the first handle meets the spiral behind it; there the second handle stands. From the second handle the next chord leads to the third, and so on to the tail.",
+  chord_lead: ["Every handle walks on the same spiral, and each bench keeps two handles at a fixed distance: its chord. A circle of {chord} around the first handle meets the spiral behind it; the second handle stands at that point. From the second handle the next chord leads to the third, and so on to the tail.",
     "所有把手都走在同一条螺线上，每节板凳让两个把手保持固定的距离，即孔距。以第一个把手为圆心、{chord} 为半径作圆，圆与它身后的螺线相交，第二个把手就在那里。从第二个把手再量一个孔距，便是第三个，如此直到龙尾。"],
   chord_verdict: ["The second handle is at ({x}, {y}). While the head moves at 1 m/s, this handle moves at {speed}.",
     "第二个把手在 ({x}, {y})。龙头以 1 m/s 前进时，它的速度是 {speed}。"],
@@ -61,7 +61,7 @@ export const WORDS = {
   graze_title: ["Why sampling misses a graze", "取样为什么会漏掉擦碰"],
   graze_lead: ["It seems easier to look every {step} whether benches overlap. At a pitch of {pitch} that makes {count} looks in this figure. {looked}",
     "每隔 {step} 看一眼板凳是否重叠，似乎更省事。螺距为 {pitch} 时，图中共看 {count} 次。{looked}"],
-  graze_missed: ["Each one finds all benches apart.", "每一次看到的板凳都是分开的。"],
+  graze_missed: ["Every look finds all benches apart.", "每一次看到的板凳都是分开的。"],
   graze_seen: ["In {seen} of them benches overlap.", "其中有 {seen} 次看到板凳重叠。"],
   graze_verdict: ["What really happens is the curve: {truth}", "真实的过程是这条曲线：{truth}"],
   graze_touch: ["two benches touch at {time} s, and then overlap by up to {depth} mm.", "{time} s 时两节板凳相碰，随后重叠最多达 {depth} mm。"],

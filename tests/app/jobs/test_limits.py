@@ -80,7 +80,7 @@ def test_a_client_has_only_so_many_unfinished_jobs_and_the_service_only_so_many_
     addresses.append(strict.post(ENDLESS))
     refused = strict.client.post("/jobs", json=SHORT)
     assert refused.status_code == 429
-    assert "2 of your jobs are not finished" in refused.json()["detail"]
+    assert "2 of your jobs are unfinished" in refused.json()["detail"]
     assert int(refused.headers["retry-after"]) > 0
     assert strict.status(addresses[2])["status"] == "accepted"  # one runs at once, the other waits
     assert strict.client.delete(addresses[2]).json()["status"] == "dismissed"
@@ -139,7 +139,7 @@ def test_results_expire_and_then_all_that_is_known_of_the_job(brief: Service) ->
     assert brief.client.get(f"{address}/result").status_code == 200
     full = brief.client.post("/jobs", json=SHORT)
     assert full.status_code == 507
-    assert "all the room, the limit" in full.json()["detail"]
+    assert "all the room that they may have" in full.json()["detail"]
     wait_for(lambda: brief.client.get(f"{address}/result").status_code == 410, 20 * AGE)
     assert "expired" in brief.client.get(f"{address}/result").json()["detail"]
     assert list((brief.folder / "results").iterdir()) == []

@@ -219,7 +219,7 @@ def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(ver
         if fits:
             assert rings(read(sink.getvalue().encode()))[0].max(axis=0).tolist() == [across, 40.0]
             continue
-        with pytest.raises(InvalidValue, match=r"file must tell its unit: .* draws 60000 across"):
+        with pytest.raises(InvalidValue, match=r"file must state its unit: .* is 60000 across"):
             read(sink.getvalue().encode())
 
 

@@ -72,17 +72,17 @@ def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
     ("changes", "message"),
     [
         ({"question": "collision"}, "question must be one of collision_time, minimum_pitch"),
-        ({"question": "pitch_scan_of"}, "question pitch_scan_of has no row for a table, as it is a sweep itself"),
+        ({"question": "pitch_scan_of"}, "question pitch_scan_of cannot be swept, because it is a sweep itself"),
         (
             {"question": "contact_figure"},
-            "question contact_figure has no row for a table, as its answer is a picture",
+            "question contact_figure cannot be swept, because its answer is a picture",
         ),
-        ({"question": "collision_time_of"}, '"pitch" is unknown here: it belongs into path'),
+        ({"question": "collision_time_of"}, '"pitch" is unknown here: it belongs in path'),
         ({"over": {"pich": [0.5]}}, '"pich" is unknown here: did you mean pitch?'),
         ({"request": {"width": -1}}, "width must be at least 0.001 m, got -1 m"),
         ({"request": {"widht": 1}}, '"widht" is unknown here: did you mean width?'),
         ({"over": {"pitch": {"start": 0.4, "stop": 0.6}}}, "samples must say how to sample pitch"),
-        ({"samples": {"count": 10}}, "samples is for ranges without a count, and there are none"),
+        ({"samples": {"count": 10}}, "samples needs a range without a count, and there is none"),
         (
             {"over": {"pitch": {"start": 0.4, "stop": 0.6, "count": DESIGNS_MAX}, "benches": [1, 2]}},
             "at most 100000000",

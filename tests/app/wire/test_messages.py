@@ -51,7 +51,7 @@ def test_a_query_is_told_of_names_of_its_own_call(client: httpx.Client, call: st
         ("trajectory", {"time": {}}, "/time", "did you mean times?"),
         ("trajectory", {"times": {"stpo": 4}}, "/times/stpo", "did you mean stop?"),
         ("check", {"times": {}}, "/times", "leave it out"),
-        ("turn", {"pitch": 1.7}, "/pitch", "it belongs into path"),
+        ("turn", {"pitch": 1.7}, "/pitch", "it belongs in path"),
         ("overlaps", {"benches": [{"x": 0, "y": 0, "heading": 0, "length": 1, "width": 1, "hedding": 1}]},
          "/benches/0/hedding", "did you mean heading?"),
     ],

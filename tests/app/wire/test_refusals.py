@@ -79,7 +79,7 @@ FLAT_GET = [
     Asked("clearance", {"start": 435, "stop": 440}, "start", "must be at most 432.917924228 s"),
     Asked("clearance", {"start": 5, "stop": 1}, "stop", "must not be before start (5 s), got 1 s"),
     Asked("clearance", {"step": 1e-4}, "step", "instants x handles must be at most 1000000 here"),
-    Asked("clearance", {"benches": 2}, "benches", "must be at least 3 for two to share no handle, got 2"),
+    Asked("clearance", {"benches": 2}, "benches", "must be at least 3, so that two share no handle, got 2"),
     Asked("pitch-scan", HARDLY_APART, "overhang", "must be smaller, got 0.549999999 m: at a pitch of 10000 m"),
     Asked("pitch-scan", {"turning_diameter": 0.036, "benches": 1, "head_length": 0.005, "overhang": 0},
           "turning_diameter", "must allow pitches of 0.00125 m and more, got 0.036 m"),

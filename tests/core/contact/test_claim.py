@@ -18,7 +18,7 @@ from core import (
 )
 
 PROVEN = " Proven in steps,"
-NO_PAIR = "Fewer than three benches have no two that share no handle."
+NO_PAIR = "Of fewer than three benches, any two share a handle, so there is no pair to judge."
 TOUCHING = (
     "30 benches (head 3.41 m, body 2.2 m, width 0.3 m, overhang 0.275 m) on a spiral of 0.6 m pitch from 8 turns, the "
     "head at 1 m/s: from 0 s to {clear} s no two benches that share no handle touch, and at {within} s benches 0 and "

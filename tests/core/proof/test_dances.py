@@ -332,7 +332,7 @@ TURN_FORGERIES: dict[str, Forgery] = {
     ),
     "a run to its end": (at("claim", "until", put="end"), "not shown to end"),
     "wider benches": (at("dragon", 1, 2, put=0.6), "not apart by face"),
-    "an overlap": (at("overlap", put={"benches": [0, 8]}), "overlap is no member of it"),
+    "an overlap": (at("overlap", put={"benches": [0, 8]}), "overlap is unknown"),
     "the head taken for a body bench": (at("repeats_from", put=0), "not alike"),
 }
 ROUTE_FORGERIES: dict[str, Forgery] = {
@@ -346,7 +346,7 @@ ROUTE_FORGERIES: dict[str, Forgery] = {
     "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "share no handle"),
     "a margin": (at("claim", "margin", put=0.05), "not apart by face"),
     "a faster head": (at("claim", "head_speed", put=1.0001), "short of|not shown"),
-    "a clear run": (lambda c: c["claim"].__setitem__("kind", "clear"), "overlap is no member of it"),
+    "a clear run": (lambda c: c["claim"].__setitem__("kind", "clear"), "overlap is unknown"),
     "a piece of another kind": (
         at("claim", "path", "pieces", 0, "kind", put="waypoints"),
         "must be line, arc or coil",

@@ -215,7 +215,7 @@ FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "one place alone": (at("overlap", "head_theta", put=[10.0]), "must be a list of 2"),
     "a bench that is true": (at("overlap", "folds", put=True), "must be a whole number"),
     "a bench of less than nothing": (at("overlap", "folds", put=-1), "must be a whole number"),
-    "a pair, too": (at("overlap", "benches", put=[0, 5]), "overlap.benches is no member"),
+    "a pair, too": (at("overlap", "benches", put=[0, 5]), "overlap.benches is unknown"),
     "a pair instead": (at("overlap", put={"benches": [0, 5], "head_theta": 11.0}), "not shown to overlap"),
     "the start instead": (at("overlap", put={"start_within_circle": True}), "not shown to lie within the circle"),
     "a smaller pitch": (claim("pitch", -1e-9), "not proven"),

@@ -36,14 +36,14 @@ def small() -> Certificate:
 
 
 MALFORMED = {
-    "an unknown member": (at("note", put="x"), "note", "note is no member of it"),
-    "an unknown member of the claim": (at("claim", "x", put=0), "claim.x", "claim.x is no member of it"),
+    "an unknown member": (at("note", put="x"), "note", "note is unknown"),
+    "an unknown member of the claim": (at("claim", "x", put=0), "claim.x", "claim.x is unknown"),
     "a margin of nothing": (
         at("claim", "margin", put=0),
         "claim.margin",
-        "claim.margin must be positive (no margin, no such member), got 0",
+        "claim.margin must be positive (leave it out for no margin), got 0",
     ),
-    "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps[1].x is no member of it"),
+    "an unknown member of a sweep": (at("sweeps", 1, "x", put=0), "sweeps.1.x", "sweeps[1].x is unknown"),
     "a missing member": (lambda c: c.pop("sweeps"), "sweeps", "sweeps is missing"),
     "a claim without time": (lambda c: c["claim"].pop("time"), "claim.time", "claim.time is missing"),
     "a claim of another kind": (

@@ -122,8 +122,8 @@ OWN: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "another pair": (at("overlap", "benches", put=[1, 3]), "not shown to overlap in the pose"),
     "neighbours as the pair": (at("overlap", "benches", put=[0, 1]), "share no handle"),
     "no pose": (lambda c: c.pop("overlap"), "overlap is missing"),
-    "a pose that is not claimed": (lambda c: c["claim"].pop("shown"), "overlap is no member"),
-    "a margin": (at("claim", "margin", put=0.01), "claim.margin is no member"),
+    "a pose that is not claimed": (lambda c: c["claim"].pop("shown"), "overlap is unknown"),
+    "a margin": (at("claim", "margin", put=0.01), "claim.margin is unknown"),
     "no stray": (at("claim", "stray", put=0), r"claim.stray must be positive, got 0 m"),
     "a stray of more than half a chord": (at("claim", "stray", put=0.9), r"stray must be at most half the chord"),
     "a side that no polygon has": (

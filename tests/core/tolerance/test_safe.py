@@ -65,7 +65,7 @@ def test_where_benches_touch_as_they_are_nothing_is_called_safe() -> None:
     dance, stop = to_circle(0.42)
     found = tolerance(dance, stop=stop)
     assert (found.stray, found.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
-    assert "no stray is known to be safe: a bench touches another as it is." in found.certificate.method
+    assert "no stray is known to be safe: a bench touches another with everybody in place." in found.certificate.method
     assert repr(found).startswith("<Tolerance: no stray is known to be safe")
 
 
