@@ -130,7 +130,7 @@ from functools import lru_cache
 BITS, UNIT, COSINE_ERROR, TIME_BRACKET, PITCH_STEP = 128, 1 << 128, 1 << 12, Fraction(1, 10**10), Fraction(1, 10**6)
 # Limits on the work: of the bytes and benches of a certificate, and of the bends (1.) that it needs.
 BYTES_MOST, BENCHES_MOST, BENDS_LEFT = 1 << 24, 10_000_000, iter(range(5_000_000))
-NEVER, MALFORMED = "no two benches but neighbours touch", "the certificate is malformed"
+NEVER, MALFORMED = "no two benches except neighbours touch", "the certificate is malformed"
 KNOWN = "this verifier judges only collision times and minimum pitches, at margin 0 and without a fold"
 
 

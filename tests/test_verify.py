@@ -174,7 +174,7 @@ def test_it_is_at_most_300_lines_of_code_that_import_the_standard_library_alone(
 
 CERTIFICATES: dict[str, tuple[Callable[[], Certificate], str]] = {
     "five benches": (lambda: collision("n_5"), "benches 0 and 4 overlap"),
-    "near the fold, with a slow head": (near_the_fold, "its head at 0.7 m/s: no two benches but neighbours touch"),
+    "near the fold, with a slow head": (near_the_fold, "its head at 0.7 m/s: no two benches except neighbours touch"),
     "each pair in its own right": (every_pair, "A dragon of 12 benches (1 of 1.5 m by 0.3 m, overhang 0.15 m; 11 of "),
     "bench by bench": (lambda: bench_by_bench(17), "overlap at"),
     "bench by bench, another": (lambda: bench_by_bench(42), "overlap at"),

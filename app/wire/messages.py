@@ -119,6 +119,8 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> str:
             return f" must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
             return f" must be a whole number, {got}"
+        case "string_type":
+            return f" must be a string, {got}"
         case "string_pattern_mismatch" if unit:
             return f" must be a number{of_unit} in digits, such as 0.4503, {got}"
         case "missing" | "union_tag_not_found":

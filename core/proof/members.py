@@ -120,7 +120,7 @@ def _number(name: str, value: Any, what: str = "a number", least: float = -NUMBE
 def _positive(name: str, value: Any) -> None:
     _number(name, value)
     if not value > 0:
-        raise _malformed(name, f"must be positive (no {name.split('.')[-1]}, no such member)", value)
+        raise _malformed(name, f"must be positive (leave it out for no {name.split('.')[-1]})", value)
 
 
 def _whole(name: str, value: Any) -> None:

@@ -41,7 +41,7 @@ def spiral_words(pitch: float, start_turns: float) -> str:
 def apart_words(margin: float) -> str:
     """The words for benches that stay apart."""
     touch = f"come nearer to one another than {said(margin)} m" if margin else "touch"
-    return f"no two benches but neighbours {touch}"
+    return f"no two benches except neighbours {touch}"
 
 
 def contact_words(benches: list[int], margin: float, start: float, time: float, bracket: str, *, clear: bool) -> str:

@@ -131,7 +131,7 @@ def test_coordinates_without_a_venue_are_refused(client: httpx.Client, call: str
     assert answer.status_code == 422
     (item,) = answer.json()["errors"]
     assert item["pointer"] == "/coordinates"
-    assert f"got {coordinates} without a venue: give the venue, or leave coordinates out" in item["detail"]
+    assert f"got {coordinates} without one: give the venue, or leave coordinates out" in item["detail"]
 
 
 @pytest.mark.parametrize("place", ["feature", "geometry"])

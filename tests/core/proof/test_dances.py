@@ -228,7 +228,7 @@ def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference
     """By `make deep` with all of its benches."""
     dance = Dance(Dragon(benches=examples(20, 223)), Turn(1.7))
     certificate = through_json(prove_clear(dance, 100.0, start=-100.0))
-    assert "no two benches but neighbours touch from -100 s to 100 s" in check(certificate).statement
+    assert "no two benches except neighbours touch from -100 s to 100 s" in check(certificate).statement
     time = first_contact(dance, start=-100.0, margin=0.33).time
     assert time == pytest.approx(13.741349327226573, abs=1e-9)  # docs/proofs.md
     check(through_json(prove_contact(dance, time, start=-100.0, margin=0.33)))

@@ -76,7 +76,7 @@ def test_a_pitch_limited_by_a_fold_is_proven_and_checked(folding: Certificate) -
     assert_folds(folding)
     statement = check(folding).statement
     for words in (
-        f"with pitch {pitch!r} m every bench follows and no two benches but neighbours touch until the head is",
+        f"with pitch {pitch!r} m every bench follows and no two benches except neighbours touch until the head is",
         "and with 1e-6 m less bench 0 cannot follow so far (it folds). This says nothing of larger pitches.",
     ):
         assert words in statement

@@ -29,10 +29,10 @@ def test_a_dragon_is_told_run_by_run_until_there_are_too_many() -> None:
 @pytest.mark.parametrize(
     ("margin", "apart", "near"),
     [
-        (0.0, "no two benches but neighbours touch", "benches 0 and 8 overlap"),
+        (0.0, "no two benches except neighbours touch", "benches 0 and 8 overlap"),
         (
             0.1 + 0.2,
-            "no two benches but neighbours come nearer to one another than 0.30000000000000004 m",
+            "no two benches except neighbours come nearer to one another than 0.30000000000000004 m",
             "benches 0 and 8 are nearer than 0.30000000000000004 m",
         ),
     ],
