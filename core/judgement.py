@@ -66,7 +66,7 @@ class Report(Shown):
     sharpest_bend: SharpestBend | None
 
     def _line(self) -> str:
-        span = f"{self.verdict.value} from {worded(self.start)} to {worded(self.stop, 's')}"
+        span = f"{self.verdict.value}, judged from {worded(self.start)} to {worded(self.stop, 's')}"
         more = f" And {len(self.failures) - 1} more." if len(self.failures) > 1 else ""
         return f"{span}: {self.failures[0].message}{more}" if self.failures else span
 

@@ -81,10 +81,13 @@ def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
     '2.5, 0.3333 m'
     >>> worded(np.arange(12.0).reshape(3, 4), "s")
     'array of 3 x 4, 0 to 11 s'
+    >>> worded(np.array(2.5), "m"), worded(np.empty(0), "m")
+    ('2.5 m', 'none')
     """
     if isinstance(value, np.ndarray):
-        shape = " x ".join(map(str, value.shape))
-        return f"array of {shape or 'one'}" + (f", {extent(value, unit, digits)}" if value.size else "")
+        if value.size <= 1:
+            return extent(value, unit, digits) if value.size else "none"
+        return f"array of {' x '.join(map(str, value.shape))}, {extent(value, unit, digits)}"
     if isinstance(value, (tuple, list)):
         return f"{_entries(value, digits) or 'none'} {unit if value else ''}".rstrip()
     return f"{_entry(value, digits)} {unit}".rstrip()

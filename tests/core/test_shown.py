@@ -215,7 +215,7 @@ def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
         (core.Budget(), "<Budget: the default work of each question>"),
         (core.Budget(math.inf, brief=True), "<Budget: no limit, brief>"),
         (spent(), "<Budget: 7 of 10 steps of work left, stopped>"),
-        (core.check(DANCE, stop=10.0), "<Report: passes from 0 to 10 s>"),
+        (core.check(DANCE, stop=10.0), "<Report: passes, judged from 0 to 10 s>"),
         (CURVE, "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>"),
         (core.separation([0, 0, 0], [2, 1], [3, 0, 0], [2, 1]), "<Separation: 1 m>"),
     ],
