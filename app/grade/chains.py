@@ -122,7 +122,11 @@ def on_bent(dragon: Dragon, path: Bent) -> Motion:
 
 
 def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
-    """Places behind s with points one chord from `point`: bracketed, then by the Illinois method, all together."""
+    """Places behind s with points one chord from `point`: bracketed, then by the Illinois method, all together.
+
+    scipy.optimize.elementwise.find_root takes six times as long: 1.3 s for 223 benches at 201 instants instead of 0.2 s
+    (measured 2026-11-24).
+    """
 
     def excess(at: Floats) -> Floats:
         return np.asarray(np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord)
