@@ -5,7 +5,7 @@ integer locals with which they calculate, and of names from other modules. The c
 locals, and it refuses Python objects inside loops. `setup.py` compiles all modules or none.
 
 Bisections share halved() of fold.py. clear_radius(), Peak.refine(), crossing() and seek_rear() halve in loops of their
-own, because what they test takes more than two numbers and goes on between the halvings: clear_radius() through
+own, because their tests take more than two numbers and keep a state between the halvings: clear_radius() through
 bisected() of core/sampling.py takes 3.8 us instead of 0.7 us (measured 2026-11-23).
 
 Some functions take seven or eight parameters, because arrays go to them one by one. Modules up to hulls stand before
@@ -14,19 +14,19 @@ Scene and Interval, which hold these arrays; and records are structs in C, which
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 
 constants    columns of the arrays, shared numbers        records        values with names that inner loops hand on
-budget       what ends a loop before it is done           results        what a march hands to its caller
-fold         bisection; where a run ends                  spiral         arc length, next handle, trajectory
-rectangles   signed separation of two                     boxes          which may touch
+budget       limit of the work, and the flag to stop      results        what a march hands to its caller
+fold         bisection; the end of a run                  spiral         arc length, next handle, trajectory
+rectangles   signed separation of two                     boxes          pairs that may touch
 route        points and chain on a table of pieces        chain          of a spiral, and of either kind
-rounding     largest errors of all of these               scene          who dances where, intervals of head travel
-bounds       how fast handles and benches move at most    stretches      how curved the path under a bench is
+rounding     largest errors of all of these               scene          dragon, path, intervals of head travel
+bounds       highest speeds of handles and benches        stretches      curvature of the path under a bench
 hulls        benches as unions of hulls                   gap_curvature  the largest second derivative of a gap
-faces        how near two unions of hulls come            pairs          how near two benches come at most
-nearest      how near any two come                        rings          benches too far out to touch
-repeats      benches that repeat what others met          clearance      at one instant
+faces        least gap of two unions of hulls             pairs          least gap of two benches
+nearest      least gap of any two                         rings          benches too far out to touch
+repeats      benches that repeat what others met          clearance      least gap at one instant
 marching     to first contact                             band_march     all pitches between two at once
-rates        how fast handles are at most                 speed          the highest speed
-excess       when a limit is first exceeded               wobble         who touches when people wobble
+rates        bounds on the speeds of handles              speed          the highest speed
+excess       first time beyond a speed limit              wobble         contacts when people wobble
 """
 
 from core.kernels.band_march import BandMarch

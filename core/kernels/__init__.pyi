@@ -16,7 +16,7 @@ COMPILED: Final[bool]
 LANES_PER_BLOCK: Final[int]
 BOXES_PER_LEAF: Final[int]
 
-# -- what ends a loop --
+# -- budget --
 
 class Budget:
     left: float

@@ -1,4 +1,4 @@
-"""The budget of a question: work that it may still do, and a flag by which another thread ends it."""
+"""The budget of a question: its remaining work, and a flag by which another thread ends it."""
 
 import math
 from inspect import Parameter, Signature

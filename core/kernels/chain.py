@@ -1,4 +1,4 @@
-"""Either kind of path, and the chain of one instant on it: on a spiral, or (core/kernels/route.py) on a route.
+"""A path of either kind, and the chain of handles at one instant on a spiral (on a route: core/kernels/route.py).
 
 `place` falls in the direction of travel: the arc length from the centre of a spiral, minus s on a route.
 """

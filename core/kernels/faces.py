@@ -21,8 +21,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.records import Views
 
 # Two benches that are unions of hulls are apart if every pair of these hulls is, each along an axis of its own. For
-# most pairs the half plane of one bench that faces the other, or those across its ends, shows that another pair is
-# nearer.
+# most pairs of hulls, the half plane that faces the other bench, or those at its ends, already shows that another pair
+# is nearer.
 
 
 # Input:  two benches, or a bench and an edge at rest; an interval, with K along axes fixed in either; and a gap that is
@@ -64,7 +64,7 @@ def hulls_least(scene, interval, i, j, enough, curvature, curvature_back):
 
 
 def swapped_least(scene, interval, i, j, hulls, curvature, enough):
-    """face_least() along axes fixed in i; where that shows nothing, along the best axis of all at the end [m]."""
+    """face_least() along axes fixed in i; where that proves nothing, along the best axis at the interval's end [m]."""
     start = view_of(i, j, interval.before)
     end = view_of(i, j, interval.after)
     k = facing(end, i, j, scene.sizes)

@@ -1,4 +1,4 @@
-"""Handles by safe bisection: the next one, the fold near the centre at which a run ends, and earlier places."""
+"""Handles by safe bisection: the next one, the fold near the centre at which a run ends, a leader's place."""
 
 import cython
 from cython.cimports.libc.math import cos, fabs, sin, sqrt
@@ -134,7 +134,7 @@ def fold_theta(chord2):
 
 
 def arrives_later(leader, theta, chord2):
-    """Whether there is no root, or the follower does not fall any more, or it is not above theta."""
+    """True if there is no root, the follower has stopped falling, or it is at or below theta."""
     delta = first_root(leader, chord2)
     s = sin(0.5 * delta)
     return not (

@@ -123,7 +123,7 @@ def gap_beyond(kinds, view, hulls, k):
 
 
 def uphill(kinds, view, hulls, k, enough):
-    """The half plane of the first hull that going uphill from half plane k leads to, or one whose gap is enough."""
+    """The half plane of the first hull reached uphill from half plane k, or the first one whose gap is enough."""
     best = gap_beyond(kinds, view, hulls, k)
     for side in range(2):
         step = 1 - 2 * side

@@ -18,7 +18,7 @@ class Rectangle(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """A rectangle in the frame of another, from which it is seen."""
+    """A rectangle in the frame of another one."""
 
     along: float  # its centre [m]
     left: float

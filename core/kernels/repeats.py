@@ -1,4 +1,4 @@
-"""Benches that repeat, at the same places, what benches ahead of them met; and the chain of the other benches."""
+"""Benches that repeat, at the same places, the meetings of benches ahead of them; the chain of the other benches."""
 
 import cython
 from cython.cimports.libc.math import fabs

@@ -235,7 +235,7 @@ def ring_clears(growth_low, growth, radius, margin, rings, total=1e150):
 
 def clear_radius(growth, margin, rings):
     """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that
-    a handle which is computed to be there is [m]; FREE if none."""
+    a handle computed there is truly beyond it [m]; FREE if none."""
     low = 0.0
     high = 1.0
     while not ring_clears(growth, growth, high, margin, rings):

@@ -125,8 +125,8 @@ def spiral_error(growth, last, longest, chain):
 # From link to link the distance of the computed points misses the chord by a difference that is measured, however the
 # search for it ended, and by the points' own errors:
 #     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
-# A place that rounding puts beyond a joint stands on the piece before it, extended by as much: the error of its point
-# is the square of that.
+# A place that rounding puts beyond a joint is taken on the piece before the joint, extended that far: the error of its
+# point is the square of that.
 # The head's double is not exactly that of its s: slide_error() below, an error of the travel, not of the shape.
 #   line     s - S_START:                                                         u |s - S_START|
 #   arc      that, the division, the angle:                                       u (3 |s - S_START| + radius |angle|)

@@ -159,7 +159,7 @@ def start_route(pieces, s, chain):
 # Next handle. Let |curvature| <= k with k chord < 2 (other routes are refused). As long as k l <= pi the distance to
 # the point l behind grows with l: its rate is the cosine of an angle <= k l / 2 (chord lemma, bounds.py). It reaches
 # the chord before l = pi chord / 2 <= pi / k. So there is one root in [chord, pi chord / 2], and it is the first along
-# the path: no point further back that comes near is taken for it.
+# the path, so a point further back that comes near is never taken for it.
 #
 # Input:  a chain on a route up to handle `first` (start_route() lays out the head), the pieces, and the chords.
 # State:  the links before this one on the same spiral: `alike`, their number (those of the same chord, plus one); d1 to

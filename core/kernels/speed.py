@@ -18,7 +18,7 @@ NOISE = 1e-13
 PEAK_WIDTH = 1e-11
 # Cost of an interval besides its links, in links [1]: its bounds, and a bisection where no Newton step converges.
 INTERVAL_LINKS = 20
-# Shortest step that is tried only for the bound on the whole way that follows, in chords [1].
+# Shortest step that is tried for the bound on the rest of the way alone, in chords [1].
 LEAVING_STEP = 0.05
 # Factor by which the excess of that bound over the rates must fall before the bound is tried again [1].
 LEAVING_AGAIN = 0.5

@@ -182,7 +182,7 @@ class Block:
                 self.guess[lane] = first_guess(self.theta[lane], chord2)
 
     def solve(self, chord2):
-        """Solve for delta in every lane that stands; the first lane that folds, and all after it, stand no more."""
+        """Solve for delta in every lane that stands; from the first lane that folds on, none stands any more."""
         for lane in range(self.standing):
             half = 0.5 * self.guess[lane]
             s = half_sine(half)

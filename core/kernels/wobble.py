@@ -24,8 +24,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # fulfilled, but along the bench the chord decides: a stray of the handle in front along the bench is passed on.
 #
 # Pairs that can be skipped. Each bench has a safe stray: while the holes of each of two benches stray less than that of
-# their bench, the two do not touch. A bench that strays further is loud, and a pair can touch only if one of the two is
-# loud. A bench that touches another in its nominal place has the safe stray 0, and is always loud.
+# their bench, the two do not touch. A bench that strays further is called loud; a pair can touch only if one of the two
+# is loud. A bench that touches another in its nominal place has the safe stray 0, and is always loud.
 
 # Columns of the play of a bench: of its front hole and of its rear hole from their pins [m].
 FRONT_X, FRONT_Y, REAR_X, REAR_Y = range(4)
