@@ -62,7 +62,7 @@ NOT_KEPT = {"Cache-Control": "no-store"}
 READ_AT_ONCE = 1_000_000
 # Every form that a result may have.
 RESULT_FORMS = sorted({*SWEEP_FORMS, *(form for one in QUESTIONS.values() for form in one.forms)})
-RESULT = routes.BYTES | {form: routes.SCHEMAS.get(form, routes.FILE) for form in RESULT_FORMS}
+RESULT = routes.ANY_FILE | {form: routes.SCHEMAS.get(form, routes.FILE) for form in RESULT_FORMS}
 PROBLEMS = routes.PROBLEMS | {
     403: "This service lists no jobs",
     404: "There is no such job, or no such format",

@@ -33,7 +33,7 @@ from app.service.problems import Refused
 from app.service.version import build
 from app.settings import Settings
 from app.wire.problem import ERRORS_MAX, ErrorItem
-from app.wire.question import UNKNOWN_COST, Call, FileFormat, Terms, Wire
+from app.wire.question import BYTES, UNKNOWN_COST, Call, FileFormat, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget, TooMuchWork
 
@@ -171,12 +171,14 @@ class Reply:
             return await run_in_threadpool(self, call, asked, *form)
 
     def __call__(self, call: Call, asked: Wire, *form: FileFormat) -> Response:
-        """The answer to the request, in the best form that the client accepts; a figure has the form of its address.
+        """The answer to the request, in the best form that the client accepts.
 
+        form: of the address of a figure or a map, for a client that accepts this form or any file
         raises: Refused (503, 429) when the lane of the computation is full, or the client's part of it
         """
-        offers = [one.media_type for one in form] or call.question.forms
-        media_type = form_of(self._listed("accept"), offers, {"name": "Accept"})
+        offers = [form[0].media_type, BYTES] if form else call.question.forms
+        chosen = form_of(self._listed("accept"), offers, {"name": "Accept"})
+        media_type = form[0].media_type if form else chosen
         tag = self._tag(asked, media_type)
         headers = {
             "ETag": f'"{tag}"',

@@ -19,13 +19,13 @@ from app.service.bodies import BodyReply, BodyRoute
 from app.service.examples import EXAMPLES
 from app.service.reply import QueryReply, QueryRoute, Reply
 from app.wire.problem import PROBLEM_TYPE
-from app.wire.question import JSON, Call, FileFormat, Wire
+from app.wire.question import BYTES, JSON, Call, FileFormat, Wire
 
 # The status of a job holds a problem, which brings the schema of problems into the description of the service.
 PROBLEM = {PROBLEM_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
 FILE = {"schema": {"type": "string", "format": "binary"}}
 # Stands first where only some forms of a file are text: a generated client reads them all as the first form it knows.
-BYTES = {"application/octet-stream": FILE}
+ANY_FILE = {BYTES: FILE}
 # Schemas of the forms that are not plain files.
 SCHEMAS = {JSON: {"schema": {}}, CSV_TYPE: {"schema": {"type": "string"}}, GEOJSON_TYPE: {"schema": {"type": "object"}}}
 PROBLEMS = {
@@ -59,7 +59,7 @@ def add_calls(router: APIRouter) -> None:
         statuses = QUERY_STATUSES if method == "GET" else BODY_STATUSES
         content = {form: SCHEMAS.get(form, FILE) for form in question.forms}
         if question.model is None and not SCHEMAS.keys().isdisjoint(content):
-            content = BYTES | content
+            content = ANY_FILE | content
         answer = {"description": "The answer", "content": content, "model": question.model}
         title = question.name.replace("_", " ").capitalize()
         router.add_api_route(

@@ -27,15 +27,14 @@ from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.wire.problem import ErrorItem
-from app.wire.question import JSON, Answer, Coordinates, Wire, measure
+from app.wire.question import BYTES, JSON, Answer, Coordinates, Wire, measure
 from core.errors import too_much
 from core.kernels import Halted
 
-FILE_TYPE = "application/octet-stream"
-GRADED = (FILE_TYPE, XLSX_TYPE, CSV_TYPE)
+GRADED = (BYTES, XLSX_TYPE, CSV_TYPE)
 # Accepted media types of maps; the form of a map follows from its first bytes, whichever of these is given.
 MAPS = (
-    *(FILE_TYPE, *FORMS, JSON, "application/vnd.google-earth.kmz", "application/toml", "application/dxf"),
+    *(BYTES, *FORMS, JSON, "application/vnd.google-earth.kmz", "application/toml", "application/dxf"),
     *("text/plain", "text/xml", "application/xml"),
 )
 # Estimated time of a file, for the Retry-After of a full lane [s].
@@ -107,7 +106,7 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
 def told(name: str, model: type[BaseModel], *, required: bool) -> dict[str, Any]:
     """OpenAPI description of a call. required: whether it needs the file"""
     answer = {"description": "The answer", "model": model, "content": {JSON: {}}}
-    body = {"required": required, "content": {FILE_TYPE: FILE}}
+    body = {"required": required, "content": {BYTES: FILE}}
     return {
         "operation_id": name,
         "response_class": Response,

@@ -23,6 +23,8 @@ from core.dragon import BENCHES_MAX
 from core.errors import said
 
 JSON = "application/json"
+# Any file.
+BYTES = "application/octet-stream"
 # An object with more names than this is refused without a look at its fields.
 NAMES_MAX = 100
 

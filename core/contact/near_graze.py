@@ -42,7 +42,7 @@ from core.kernels.constants import (
     SIGN,
     TX,
     UX,
-)  # fmt: skip
+)
 from core.kernels.results import Marched
 from core.sampling import falls_to_zero
 

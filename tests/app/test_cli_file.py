@@ -226,6 +226,7 @@ def test_a_name_that_no_question_knows_is_refused(tmp_path: Path) -> None:
             '{"dragon": {"lengths": [2], "widths": 0.3, "overhangs": [0.2]}}',
             "dragon.widths must be a list of numbers [m], got 0.3",
         ),
+        ("dance.json", '{"dragon": {"names": ["a", 3]}}', "dragon.names[1] must be a string, got 3"),
         ("dance.json", '{"path": {"pitch": -1}}', "path.pitch must be at least 0.001 m, got -1 m"),
         (
             "dance.json",
