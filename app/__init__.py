@@ -1,1 +1,1 @@
-"""The edges: HTTP service, command line, tables and figures around core."""
+"""HTTP service, command line, tables and figures around core."""

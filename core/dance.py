@@ -113,8 +113,8 @@ class Clock:
 
     def periods(self, begin: float, until: float) -> Iterator[Period]:
         """The periods of one speed between two times [s], in order."""
-        edges = [begin, *(time for time in self.times if self.passages and begin < time < until), until]
-        for start, end in pairwise(edges):
+        times = [begin, *(time for time in self.times if self.passages and begin < time < until), until]
+        for start, end in pairwise(times):
             k = bisect_right(self.times, start)
             node, passage = max(k - 1, 0), k - 1 if 0 < k <= len(self.passages) else None
             first, origin = self.travel(start), (self.times[node], self.travels[node])

@@ -53,9 +53,13 @@ class Shown:
         return f"<table><caption>{escape(type(self).__name__)}</caption>{''.join(rows)}</table>"
 
     def _line(self) -> str:
-        """The short fields, each with its unit."""
-        told = ((name, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told())
-        return ", ".join(f"{name} {text}" for name, text in told if len(text) <= TEXT_MOST)
+        """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
+        told = [(name, value, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told()]
+        return ", ".join(
+            f"{name} {text}"
+            for name, value, text in told
+            if len(text) <= TEXT_MOST and not (name.endswith(" bracket") and len(set(map(worded, value))) == 1)
+        )
 
     def _rows(self) -> list[tuple[str, str]]:
         """Name and value of every row of the table."""

@@ -465,7 +465,7 @@ def test_a_question_named_like_its_room_stays_a_question() -> None:
 
 
 def test_proofs_are_reached_from_core_and_loaded_only_then() -> None:
-    code = "import core, sys; print('flint' in sys.modules, core.proof.check.__module__, 'flint' in sys.modules)"
+    code = "import core, sys; print('flint' in sys.modules, core.proof.verify.__module__, 'flint' in sys.modules)"
     said = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
     assert said.split() == ["False", "core.proof.certificate", "True"]
 

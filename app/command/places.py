@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import orjson
 import typer
@@ -99,7 +99,7 @@ def maps(
 def plan(
     file: Annotated[Path, typer.Argument(help="Dragon, path, venue and limits as for check: .toml or .json.")],
     output: Annotated[Path, typer.Option(help="Write a .pdf file.")] = Path("plan.pdf"),
-    paper: Annotated[str | None, typer.Option(metavar="A4|A3", help="Size of the paper; default: A4.")] = None,
+    paper: Annotated[Literal["A4", "A3"] | None, typer.Option(help="Size of the paper; default: A4.")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     clear: Annotated[

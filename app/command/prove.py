@@ -277,9 +277,9 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
 
 def _checked(certificate: Any) -> Proof:
     with _working("check") as progress:
-        from core.proof import check
+        from core.proof import verify
 
-        return check(certificate, progress=progress)
+        return verify(certificate, progress=progress)
 
 
 def _finish(certificate: dict[str, Any], output: Path) -> None:

@@ -139,8 +139,8 @@ class Bands:
         contact becomes a graze is searched for, and the band ends there instead.
         """
         proven, stopped = top, "lowest"
-        edges = [lowest, FIRST_BAND * top, top] if lowest < FIRST_BAND * top else [lowest, top]
-        bands = [(low, high, math.inf) for low, high in pairwise(edges)]
+        ends = [lowest, FIRST_BAND * top, top] if lowest < FIRST_BAND * top else [lowest, top]
+        bands = [(low, high, math.inf) for low, high in pairwise(ends)]
         while bands:
             low, high, outer = bands.pop()
             state, found = self.prove(low, high, outer)

@@ -155,23 +155,23 @@ except ImportError as error:
 from core.proof.certificate import (
     Certificate,
     Proof,
-    check,
     digest,
     prove_clear,
     prove_collision_time,
     prove_contact,
     prove_minimum_pitch,
     prove_tolerance,
+    verify,
 )
 
 __all__ = [
     "Certificate",
     "Proof",
-    "check",
     "digest",
     "prove_clear",
     "prove_collision_time",
     "prove_contact",
     "prove_minimum_pitch",
     "prove_tolerance",
+    "verify",
 ]

@@ -47,7 +47,7 @@ def prove_collision_time(
     margin: [m]; if positive, nothing comes within it until then, and a pair is strictly nearer after
     every_pair: prove each pair of the chain by itself, without 6.: slower by the number of benches
     progress: called with the fraction done, 0 to 1
-    returns: a dictionary that json can write and check() verifies
+    returns: a dictionary that json can write and verify() verifies again
     raises: ProofRefused if the claim is wrong, or too close to wrong for the balls to decide
     """
     path = _steady(dance).path.spiral
@@ -154,7 +154,7 @@ def _proven(claim: AnyClaim, every_pair: bool, progress: Progress, pose: dict[st
     with ctx.workprec(PRECISION), refusing("claim"):
         chain = claim.chain
         overlap = pose or claim.find_overlap(lambda share: progress(claim.search_share * share))
-        claim.check_overlap(overlap)
+        claim.verify_overlap(overlap)
         repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
 
         def going_on(share: float) -> None:
@@ -180,7 +180,7 @@ def _values(claim: AnyClaim) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value or name not in ("margin", "shown")}
 
 
-def check(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
+def verify(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
     """The statement that a certificate proves, after every inequality in it was verified again, without a search.
 
     certificate: as made here, or read from JSON; the balls have the precision that it states
@@ -209,7 +209,7 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
     chain, repeats_from, sweeps = claim.chain, content["repeats_from"], content["sweeps"]
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
         raise ProofRefused.in_words("repeats_from", f"the benches from {repeats_from} on are not alike")
-    statement = claim.check_overlap(content.get("overlap", {}))
+    statement = claim.verify_overlap(content.get("overlap", {}))
     proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress, claim.follows)
     if len(proven) != len(sweeps):
         raise ProofRefused.in_words("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")

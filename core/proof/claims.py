@@ -16,7 +16,7 @@ from core.dragon import Dragon
 from core.errors import SIZE_MIN, ProofRefused, checked_number, checked_size, said
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain, delta_guess
-from core.proof.fold import check_fold
+from core.proof.fold import verify_fold
 from core.proof.pairs import Unproven, above, below
 from core.proof.sweeps import AnyChain, OverlapFound, Progress, found, swept
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
@@ -35,7 +35,7 @@ class Claim:
     """A claim about a dragon.
 
     way: (highest, lowest) place of the head between which nothing may touch [rad], [m]
-    find_overlap(): the record of an overlap that check_overlap() verifies, returning the whole claim in words
+    find_overlap(): the record of an overlap that verify_overlap() verifies, returning the whole claim in words
     kind: name of the claim in certificates; search_share: fraction of a proof's work in find_overlap(); follows: see
         swept()
     """
@@ -88,9 +88,9 @@ class CollisionTimeClaim(SpiralClaim):
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
         return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
 
-    def check_overlap(self, overlap: dict[str, Any]) -> str:
+    def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        verify_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
         clear = bool(self.time - arb(TIME_BRACKET) > 0)
         words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
         return f"{danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))}: {words}"
@@ -159,11 +159,11 @@ class MinimumPitchClaim(SpiralClaim):
         for within in FOLD_WITHIN:
             places = [min(start, theta * (1.0 + within)), max(circle, theta * (1.0 - within))]
             with suppress(Unproven):
-                check_fold(self._less, bench, *map(arb, places))
+                verify_fold(self._less, bench, *map(arb, places))
                 break
         return {"folds": bench, "head_theta": places}
 
-    def check_overlap(self, overlap: dict[str, Any]) -> str:
+    def verify_overlap(self, overlap: dict[str, Any]) -> str:
         less = self._less
         circle = self.turning_radius / less.growth
         where = f"on the way with {PITCH_STEP} m less"
@@ -171,13 +171,13 @@ class MinimumPitchClaim(SpiralClaim):
             bench, (before, after) = overlap["folds"], overlap["head_theta"]
             if not (bench < less.count and circle <= after < before <= less.start):
                 raise Unproven(f"bench {bench} is not shown to fold {where}")
-            check_fold(less, bench, arb(before), arb(after))
+            verify_fold(less, bench, arb(before), arb(after))
             why = f"bench {bench} cannot follow so far (it folds)"
         elif "benches" in overlap:
             (a, b), theta = overlap["benches"], overlap["head_theta"]
             if not circle <= theta <= less.start:
                 raise Unproven(f"benches {a} and {b} are not shown to overlap {where}")
-            check_near(less, arb(theta), a, b, where)
+            verify_near(less, arb(theta), a, b, where)
             why = f"{near_words([a, b], self.margin)} on the way"
         else:
             if not circle > less.start:
@@ -220,7 +220,7 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
     raise ProofRefused.in_words("claim", f"no two benches {how} {when}")
 
 
-def check_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
+def verify_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
     """Check that benches a < b strictly overlap, or are nearer than the margin, and are not neighbours.
 
     head: its place [rad], [m]; raises: Unproven

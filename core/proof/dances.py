@@ -12,7 +12,7 @@ from flint import arb
 from core.dance import Dance, EndReason
 from core.dragon import Dragon
 from core.errors import InvalidValue, said
-from core.proof.claims import TIME_BRACKET, Claim, check_near, checked_margin, near_pair, settle
+from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, verify_near
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
@@ -65,7 +65,7 @@ class ClearClaim(DanceClaim):
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
         return {}
 
-    def check_overlap(self, overlap: dict[str, Any]) -> str:
+    def verify_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s{self._ending()}"
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {apart_words(self.margin)} {span}."
 
@@ -117,9 +117,9 @@ class ContactClaim(DanceClaim):
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
         return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
 
-    def check_overlap(self, overlap: dict[str, Any]) -> str:
+    def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        check_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        verify_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {words}"

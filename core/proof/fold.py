@@ -25,11 +25,11 @@ def folding(chain: Chain, before: arb, after: arb) -> int:
         bench = len(pose.deltas)
     else:
         raise Unproven("every bench is shown to follow past the end that is claimed")
-    check_fold(chain, bench, before, after)
+    verify_fold(chain, bench, before, after)
     return bench
 
 
-def check_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
+def verify_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     """Check that this bench can no longer follow when the head goes from one theta to another [rad].
 
     raises: Unproven

@@ -63,18 +63,18 @@ class ToleranceClaim(SpiralClaim):
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
         return {}
 
-    def check_overlap(self, overlap: dict[str, Any]) -> str:
+    def verify_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {said(self.start)} s to {said(self.stop)} s"
         kept = f"while every hole is within {said(self.stray)} m of its place and every chord keeps its length"
         dance = danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))
         words = f"{dance}: {kept}, {apart_words(0.0)} {span}"
         if self.shown is None:
             return f"{words}."
-        a, b = self._check_pose(overlap, self.shown)
+        a, b = self._verify_pose(overlap, self.shown)
         shown = f"in a pose with strays below {said(self.shown)} m at {said(overlap['time'])} s"
         return f"{words}, and benches {a} and {b} overlap {shown}."
 
-    def _check_pose(self, overlap: dict[str, Any], most: float) -> list[int]:
+    def _verify_pose(self, overlap: dict[str, Any], most: float) -> list[int]:
         """Check that two benches that are not neighbours strictly overlap in a pose (17.), and return them.
 
         raises: Unproven

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from core.errors import ProofRefused
-from core.proof import Certificate, check, digest
+from core.proof import Certificate, digest, verify
 
 
 def through_json(certificate: Certificate) -> Certificate:
@@ -26,7 +26,7 @@ def places(value: Any, place: tuple[str | int, ...] = ()) -> list[tuple[str | in
 def refusal(certificate: Certificate) -> str:
     """Why a certificate is refused; empty for a proof."""
     try:
-        check(certificate)
+        verify(certificate)
     except ProofRefused as refused:
         return refused.message
     return ""
@@ -70,7 +70,7 @@ def one_for_all(content: dict[str, Any]) -> None:
     tiles[:] = [[tiles[0][0], tiles[-1][1], tiles[-1][2]]]
 
 
-# name: (change, why core.proof.check refuses it)
+# name: (change, why core.proof.verify refuses it)
 FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a stretch dropped": (lambda c: stretches(c).pop(7), "do not join"),
     "a stretch twice": (lambda c: stretches(c).insert(7, stretches(c)[7]), "do not join"),

@@ -14,7 +14,7 @@ from flint import ctx
 
 from core import Dance, Dragon, Spiral, first_contact
 from core.errors import ProofRefused
-from core.proof import Certificate, check, prove_collision_time, prove_minimum_pitch
+from core.proof import Certificate, prove_collision_time, prove_minimum_pitch, verify
 from tests.core.forgeries import FORGERIES, edit, through_json
 from tests.core.forgeries import put_at as at
 from tests.depth import examples
@@ -62,7 +62,7 @@ def test_a_reference_contact_is_proven_and_checked(name: str, benches: int) -> N
     case = case | {"dragon": case["dragon"] | {"benches": benches}}
     certificate = through_json(proof_of(case, head_speed=case["head_speed"]))
     assert certificate["overlap"] == {"benches": case["benches"]}
-    assert f"benches {case['benches'][0]} and {case['benches'][1]} overlap" in check(certificate).statement
+    assert f"benches {case['benches'][0]} and {case['benches'][1]} overlap" in verify(certificate).statement
 
 
 @pytest.mark.uncompiled
@@ -82,7 +82,7 @@ def test_a_reference_pitch_is_proven_and_checked(name: str, benches: int, start_
         assert certificate["overlap"] == {"start_within_circle": True}
     else:
         assert certificate["overlap"]["benches"] == case["benches"]
-    assert repr(pitch) in check(certificate).statement
+    assert repr(pitch) in verify(certificate).statement
 
 
 @pytest.mark.parametrize("seed", [0, 2, 8, 17, 26, 35, 42, 55])
@@ -96,7 +96,7 @@ def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_n
     assert time
     certificate = through_json(prove_collision_time(Dance(dragon, path), time))
     assert certificate["repeats_from"] == benches - 3
-    check(certificate)
+    verify(certificate)
     for wrong in (time - 1e-8, time + 1e-8):
         with pytest.raises(ProofRefused):
             prove_collision_time(Dance(dragon, path), wrong)
@@ -106,14 +106,14 @@ def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_n
 def test_a_forged_certificate_is_refused(small: Certificate, name: str) -> None:
     change, reason = FORGERIES[name]
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(change)(small))
+        verify(edit(change)(small))
 
 
 def test_an_edit_of_what_no_proof_needs_is_refused_by_the_digest(small: Certificate) -> None:
     with pytest.raises(ProofRefused, match="was changed"):
-        check(small | {"versions": {"python-flint": "0", "flint": "0"}})
+        verify(small | {"versions": {"python-flint": "0", "flint": "0"}})
     with pytest.raises(ProofRefused, match="malformed"):
-        check({name: value for name, value in small.items() if name != "digest"})
+        verify({name: value for name, value in small.items() if name != "digest"})
 
 
 @pytest.mark.parametrize("precision", [53, 4096])
@@ -123,13 +123,13 @@ def test_a_certificate_is_checked_with_the_precision_that_it_states(
     used: list[int] = []
     monkeypatch.setattr("core.proof.certificate.swept", lambda *asked: used.append(ctx.prec) or [])
     with pytest.raises(ProofRefused):
-        check(edit(at("precision", put=precision))(small))
+        verify(edit(at("precision", put=precision))(small))
     assert used == [precision]
 
 
 def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:
     before, proving, checking = ctx.prec, [0.0], [0.0]
-    check(proof_of(SMALL, progress=proving.append), progress=checking.append)
+    verify(proof_of(SMALL, progress=proving.append), progress=checking.append)
     with pytest.raises(ProofRefused):
         proof_of(SMALL, later=1.0)
     assert ctx.prec == before

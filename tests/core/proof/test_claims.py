@@ -13,9 +13,9 @@ from flint import arb, ctx
 
 from core import Dance, Dragon, Spiral, bench_poses, trajectory
 from core.errors import InvalidValue, ProofRefused
-from core.proof import Certificate, check, prove_collision_time, prove_minimum_pitch
+from core.proof import Certificate, prove_collision_time, prove_minimum_pitch, verify
 from core.proof.chain import Chain
-from core.proof.claims import check_near, head_theta, near_pair
+from core.proof.claims import head_theta, near_pair, verify_near
 from core.proof.pairs import Unproven
 from core.shapes.rectangles import corners
 from tests.core.forgeries import edit, through_json
@@ -62,7 +62,7 @@ def grazing() -> Certificate:
     """A minimum pitch limited by a graze; proven."""
     pitch = PITCHES["default R=6.36"]["pitch"] + PITCH_ROUNDING
     certificate = through_json(prove_minimum_pitch(Dragon(27), pitch, turning_radius=6.36))
-    check(certificate)
+    verify(certificate)
     return certificate
 
 
@@ -78,7 +78,7 @@ def test_a_forged_overlap_on_the_way_to_the_circle_is_refused(
     grazing: Certificate, overlap: dict[str, Any], reason: str
 ) -> None:
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(lambda content: content.__setitem__("overlap", overlap))(grazing))
+        verify(edit(lambda content: content.__setitem__("overlap", overlap))(grazing))
 
 
 # -- pairs that are near --
@@ -104,7 +104,7 @@ def test_a_near_pair_is_found_where_shapely_finds_one_and_only_it_is_shown(seed:
                 near_pair(chain, head, "then")
         for pair in pairs:
             with nullcontext() if pair in near else pytest.raises(Unproven, match="are not shown to"):
-                check_near(chain, head, *pair, "then")
+                verify_near(chain, head, *pair, "then")
 
 
 @pytest.mark.parametrize("handle", [0, 1, 5])

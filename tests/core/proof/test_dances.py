@@ -16,7 +16,7 @@ from flint import arb
 from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
 from core.contact.clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
-from core.proof import Certificate, check, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch
+from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, verify
 from core.proof.paths import chain_on, recorded_path
 from core.shapes.rectangles import corners
 from tests.core.forgeries import edit, places, refusal, stretches, through_json
@@ -66,7 +66,7 @@ ROUTES = {
 def turning() -> Certificate:
     """A clear dance through the turn, with a margin; proven."""
     certificate = through_json(prove_clear(Dance(SMALL, Turn(1.7)), STOP, start=START, margin=0.5))
-    check(certificate)
+    verify(certificate)
     return certificate
 
 
@@ -77,7 +77,7 @@ def touching() -> Certificate:
     time = first_contact(Dance(dragon, LOOP), start=60.0).time
     assert time is not None
     certificate = through_json(prove_contact(Dance(dragon, LOOP), time, start=60.0))
-    assert "benches 0 and 19 overlap" in check(certificate).statement
+    assert "benches 0 and 19 overlap" in verify(certificate).statement
     return certificate
 
 
@@ -100,7 +100,7 @@ def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(
     certificate = through_json(prove_collision_time(Dance(dragon, path), found.time, margin=margin))
     assert certificate["claim"]["margin"] == margin
     a, b = certificate["overlap"]["benches"]
-    assert f"benches {a} and {b} are nearer than {margin!r} m" in check(certificate).statement
+    assert f"benches {a} and {b} are nearer than {margin!r} m" in verify(certificate).statement
     for wrong in (found.time - OFF, found.time + OFF):
         with pytest.raises(ProofRefused):
             prove_collision_time(Dance(dragon, path), wrong, margin=margin)
@@ -112,7 +112,7 @@ def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
     assert found.time is not None
     assert found.edge is None
     certificate = through_json(prove_contact(Dance(dragon, LOOP), found.time, start=60.0, margin=margin))
-    check(certificate)
+    verify(certificate)
     assert stretches(certificate)[-1][2][0] == "8"
     for wrong in (found.time - OFF, found.time + OFF):
         with pytest.raises(ProofRefused):
@@ -125,7 +125,7 @@ def test_a_minimum_pitch_with_a_margin_is_proven_and_one_off_it_refused() -> Non
     dragon, asked = Dragon(14), {"turning_radius": 3.2, "start_turns": 7.0, "margin": 0.1}
     pitch = minimum_pitch(dragon, **asked).pitch_bracket[1]
     certificate = through_json(prove_minimum_pitch(dragon, pitch, **asked))
-    assert "says nothing of larger pitches" in check(certificate).statement
+    assert "says nothing of larger pitches" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="nearer than the margin"):
         prove_minimum_pitch(dragon, pitch - OFF, **asked)
     with pytest.raises(ProofRefused, match="keeps the margin"):
@@ -140,7 +140,7 @@ def test_a_reference_run_is_clear_to_its_fold_and_it_folds(name: str) -> None:
     claim = certificate["claim"]
     assert (claim["until"], "overlap" in certificate) == ("fold", False)
     assert claim["stop"] < case["end"]["time"] < claim["stop"] + 2 * HALF_BRACKET
-    assert "it folds" in check(certificate).statement
+    assert "it folds" in verify(certificate).statement
     for change, reason in (
         (at("claim", "stop", put=claim["stop"] - 2 * HALF_BRACKET), "every bench is shown to follow"),
         (at("claim", "stop", put=case["end"]["time"] + HALF_BRACKET), "claim.stop must be at most"),
@@ -148,14 +148,14 @@ def test_a_reference_run_is_clear_to_its_fold_and_it_folds(name: str) -> None:
         (at("claim", "until", put="end"), "until must be stop or fold or centre on a spiral, got end"),
     ):
         with pytest.raises(ProofRefused, match=reason):
-            check(edit(change)(certificate))
+            verify(edit(change)(certificate))
 
 
 def test_the_reference_run_to_the_centre_is_clear() -> None:
     case = CONTACTS["combo_d"]
     certificate = prove_clear(Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])))
     assert certificate["claim"]["until"] == "centre"
-    assert "the head reaches the centre before" in check(through_json(certificate)).statement
+    assert "the head reaches the centre before" in verify(through_json(certificate)).statement
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 3])
@@ -169,7 +169,7 @@ def test_a_run_to_the_centre_or_a_fold_beside_it_is_clear(seed: int) -> None:
         if found.end is not None:
             certificate = through_json(prove_clear(Dance(dragon, path)))
             assert certificate["claim"]["until"] == found.end.reason
-            check(certificate)
+            verify(certificate)
 
 
 def test_a_run_that_is_not_clear_or_not_there_is_refused() -> None:
@@ -177,7 +177,7 @@ def test_a_run_that_is_not_clear_or_not_there_is_refused() -> None:
     dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
     with pytest.raises(ProofRefused, match="benches 0 and 4 overlap"):
         prove_clear(Dance(dragon, path), case["time"] + OFF)
-    check(prove_clear(Dance(dragon, path), case["time"] - OFF))
+    verify(prove_clear(Dance(dragon, path), case["time"] - OFF))
     with pytest.raises(OutsideRun, match="stop must be at most"):
         prove_clear(Dance(dragon, path), 1e4)
     with pytest.raises(OutsideRun, match="start must be at least"):
@@ -219,7 +219,7 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
     found = least_clearance(Dance(dragon, path), start=start, stop=stop)
     assert found is not None
     certificate = through_json(prove_clear(Dance(dragon, path), stop, start=start, margin=found.distance - MARGIN_OFF))
-    assert f"nearer to one another than {certificate['claim']['margin']!r} m" in check(certificate).statement
+    assert f"nearer to one another than {certificate['claim']['margin']!r} m" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="nearer than the margin"):
         prove_clear(Dance(dragon, path), stop, start=start, margin=found.distance + MARGIN_OFF)
 
@@ -228,10 +228,10 @@ def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference
     """By `make deep` with all of its benches."""
     dance = Dance(Dragon(benches=examples(20, 223)), Turn(1.7))
     certificate = through_json(prove_clear(dance, 100.0, start=-100.0))
-    assert "no two benches except neighbours touch from -100 s to 100 s" in check(certificate).statement
+    assert "no two benches except neighbours touch from -100 s to 100 s" in verify(certificate).statement
     time = first_contact(dance, start=-100.0, margin=0.33).time
     assert time == pytest.approx(13.741349327226573, abs=1e-9)  # docs/proofs.md
-    check(through_json(prove_contact(dance, time, start=-100.0, margin=0.33)))
+    verify(through_json(prove_contact(dance, time, start=-100.0, margin=0.33)))
     for wrong in (time - OFF, time + OFF):
         with pytest.raises(ProofRefused):
             prove_contact(dance, wrong, start=-100.0, margin=0.33)
@@ -240,9 +240,9 @@ def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference
 def test_a_route_is_clear_to_its_end() -> None:
     certificate = through_json(prove_clear(Dance(SMALL, HAIRPIN), start=30.0))
     assert certificate["claim"]["stop"] == HAIRPIN.end
-    assert "the route ends before" in check(certificate).statement
+    assert "the route ends before" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="not shown to end"):
-        check(edit(at("claim", "stop", put=HAIRPIN.end - 2e-9))(certificate))
+        verify(edit(at("claim", "stop", put=HAIRPIN.end - 2e-9))(certificate))
 
 
 def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
@@ -250,7 +250,7 @@ def test_every_pair_in_its_own_right_proves_the_same_on_the_turn() -> None:
         prove_clear(Dance(SMALL, Turn(1.7)), 15.0, start=0.0, every_pair=every_pair) for every_pair in (False, True)
     )
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 12)
-    assert check(once).statement == check(each).statement
+    assert verify(once).statement == verify(each).statement
 
 
 def test_at_every_instant_each_letter_of_the_turn_s_certificate_keeps_its_pair_apart(turning: Certificate) -> None:
@@ -360,14 +360,14 @@ ROUTE_FORGERIES: dict[str, Forgery] = {
 def test_a_forged_certificate_of_a_clear_turn_is_refused(turning: Certificate, name: str) -> None:
     change, reason = TURN_FORGERIES[name]
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(change)(turning))
+        verify(edit(change)(turning))
 
 
 @pytest.mark.parametrize("name", ROUTE_FORGERIES)
 def test_a_forged_certificate_of_a_contact_on_a_route_is_refused(touching: Certificate, name: str) -> None:
     change, reason = ROUTE_FORGERIES[name]
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(change)(touching))
+        verify(edit(change)(touching))
 
 
 @pytest.mark.parametrize(
@@ -379,10 +379,10 @@ def test_a_wrong_margin_of_a_contact_is_refused(kind: str, word: str) -> None:
     time = first_contact(Dance(dragon, path), margin=0.2).time
     assert time is not None
     certificate = through_json(prove_collision_time(Dance(dragon, path), time, margin=0.2))
-    check(certificate)
+    verify(certificate)
     off = -MARGIN_OFF if kind == "a smaller margin" else MARGIN_OFF
     with pytest.raises(ProofRefused, match=word):
-        check(edit(at("claim", "margin", put=0.2 + off))(certificate))
+        verify(edit(at("claim", "margin", put=0.2 + off))(certificate))
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from core import Dance, Dragon, InvalidValue, Passage, Spiral, tolerance
-from core.proof import check, prove_clear, prove_tolerance
+from core.proof import prove_clear, prove_tolerance, verify
 
 STANDARD = Dance(Dragon(5), Spiral(0.55, 4.0))
 ELSEWHERE = Dance(Dragon(5), Spiral(0.55, 4.0, (31.0, -12.5), 0.6, clockwise=False))
@@ -24,7 +24,7 @@ def test_a_pose_that_overlaps_elsewhere_is_proven_in_the_frame_of_the_spiral() -
     found = tolerance(dance, **SPAN)
     assert found.exhibit is not None
     certificate = prove_tolerance(dance, found.stray, exhibit=found.exhibit, **SPAN)
-    assert check(certificate).pair_proofs > 0
+    assert verify(certificate).pair_proofs > 0
 
 
 def test_passages_are_refused_and_the_steady_dance_is_proven() -> None:

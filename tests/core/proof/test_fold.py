@@ -13,9 +13,9 @@ from flint import arb, ctx
 from core import Dragon, LimitedBy, Spiral, minimum_pitch
 from core.dance import end_theta
 from core.errors import ProofRefused
-from core.proof import Certificate, check, prove_minimum_pitch
+from core.proof import Certificate, prove_minimum_pitch, verify
 from core.proof.chain import Chain, delta, rises_to
-from core.proof.fold import check_fold
+from core.proof.fold import verify_fold
 from core.proof.pairs import Unproven
 from tests.core.forgeries import edit, places, refusal, stretches, through_json
 from tests.core.forgeries import put_at as at
@@ -74,7 +74,7 @@ def test_a_pitch_limited_by_a_fold_is_proven_and_checked(folding: Certificate) -
     assert abs(pitch - TRUE) < OFF
     assert folding["overlap"]["folds"] == 0
     assert_folds(folding)
-    statement = check(folding).statement
+    statement = verify(folding).statement
     for words in (
         f"with pitch {pitch!r} m every bench follows and no two benches except neighbours touch until the head is",
         "and with 1e-6 m less bench 0 cannot follow so far (it folds). This says nothing of larger pitches.",
@@ -91,7 +91,7 @@ def test_a_pitch_off_the_one_that_a_fold_limits_is_refused(more: float, reason: 
 
 
 def test_one_bench_has_a_certificate_that_it_follows(alone: Certificate) -> None:
-    assert "every bench follows" in check(alone).statement
+    assert "every bench follows" in verify(alone).statement
     assert_folds(alone)
     assert {tile[2] for tile in stretches(alone)} == {""}
 
@@ -123,19 +123,19 @@ def test_the_fold_of_any_bench_is_proven(seed: int, bench: int) -> None:
     assert found.limited_by is LimitedBy.FOLD
     asked = {"turning_radius": radius, "start_turns": turns, "margin": margin}
     certificate = through_json(prove_minimum_pitch(dragon, found.pitch_bracket[1], **asked))
-    assert f"bench {bench} cannot follow so far (it folds)" in check(certificate).statement
+    assert f"bench {bench} cannot follow so far (it folds)" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="folds"):
         prove_minimum_pitch(dragon, found.pitch_bracket[0] - OFF * (1.0 + found.pitch), **asked)
     for other in {bench - 1, bench + 1, dragon.benches} - {-1}:
         with pytest.raises(ProofRefused):
-            check(edit(at("overlap", "folds", put=other))(certificate))
+            verify(edit(at("overlap", "folds", put=other))(certificate))
 
 
 def test_where_a_fold_only_just_exists_it_is_proven_and_nearer_it_is_undecided() -> None:
     one = Dragon(1, 2.2, 2.2, 0.02, 0.1)
     certificate = through_json(prove_minimum_pitch(one, VANISHED + DECIDED, turning_radius=0.2, start_turns=2.0))
     assert certificate["overlap"]["folds"] == 0
-    check(certificate)
+    verify(certificate)
     with pytest.raises(ProofRefused, match="not proven"):
         prove_minimum_pitch(one, VANISHED, turning_radius=0.2, start_turns=2.0)
 
@@ -155,13 +155,13 @@ def test_no_fold_is_shown_where_every_bench_follows(folding: Certificate) -> Non
     before, after = folding["overlap"]["head_theta"]
     with ctx.workprec(96):
         chain = Chain(DRAGON, folding["claim"]["pitch"] - arb(STEP), TURNS)
-        check_fold(chain, 0, arb(before), arb(after))
+        verify_fold(chain, 0, arb(before), arb(after))
         for shift in (before - after, 1e-3, 1.0, 10.0):
             with pytest.raises(Unproven):
-                check_fold(chain, 0, arb(before + shift), arb(after + shift))
+                verify_fold(chain, 0, arb(before + shift), arb(after + shift))
         for bench in range(1, 14):
             with pytest.raises(Unproven):
-                check_fold(chain, bench, arb(before), arb(after))
+                verify_fold(chain, bench, arb(before), arb(after))
 
 
 def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
@@ -171,9 +171,9 @@ def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
     assert bench == 0
     with ctx.workprec(96):
         chain = Chain(Dragon(1, 2.2, 2.2, 0.02, 0.1), arb(pitch), 2.0)
-        check_fold(chain, 0, arb(fold * (1.0 + 1e-9)), arb(fold * (1.0 - 1e-9)))
+        verify_fold(chain, 0, arb(fold * (1.0 + 1e-9)), arb(fold * (1.0 - 1e-9)))
         with pytest.raises(Unproven, match="no wall"):
-            check_fold(chain, 0, arb(fold * 1.01), arb(fold * (1.0 - 1e-9)))
+            verify_fold(chain, 0, arb(fold * 1.01), arb(fold * (1.0 - 1e-9)))
 
 
 @pytest.mark.parametrize("theta", [1.1, 2.0, 10.0, 100.0])
@@ -200,7 +200,7 @@ def shifted(first: float, last: float) -> Callable[[dict[str, Any]], None]:
     )
 
 
-# name: (change, why core.proof.check refuses it)
+# name: (change, why core.proof.verify refuses it)
 FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "another bench": (at("overlap", "folds", put=1), "not proven"),
     "the last bench": (at("overlap", "folds", put=13), "not proven"),
@@ -258,14 +258,14 @@ ALONE_FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
 def test_a_forged_certificate_of_a_fold_is_refused(folding: Certificate, name: str) -> None:
     change, reason = FORGERIES[name]
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(change)(folding))
+        verify(edit(change)(folding))
 
 
 @pytest.mark.parametrize("name", ALONE_FORGERIES)
 def test_a_forged_certificate_of_one_bench_is_refused(alone: Certificate, name: str) -> None:
     change, reason = ALONE_FORGERIES[name]
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(change)(alone))
+        verify(edit(change)(alone))
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import pytest
 
 from core import Dance, Dragon, Spiral
 from core.errors import ProofRefused
-from core.proof import Certificate, check, prove_collision_time
+from core.proof import Certificate, prove_collision_time, verify
 from tests.core.forgeries import edit, places, refusal, through_json
 from tests.core.forgeries import put_at as at
 
@@ -110,7 +110,7 @@ MALFORMED = {
 def test_a_malformed_certificate_is_refused_by_its_member(small: Certificate, name: str) -> None:
     change, field, words = MALFORMED[name]
     with pytest.raises(ProofRefused) as e:
-        check(edit(change)(small))
+        verify(edit(change)(small))
     assert e.value.message.startswith("the certificate is malformed: ")
     assert e.value.message.endswith(words)
     assert e.value.field == field
@@ -131,4 +131,4 @@ def test_no_change_of_any_member_escapes_or_shows_python(small: Certificate, put
 @pytest.mark.parametrize("value", [None, [], {}, "proof", 1.0])
 def test_what_is_no_certificate_is_refused(value: Any) -> None:
     with pytest.raises(ProofRefused, match="malformed"):
-        check(value)
+        verify(value)

@@ -13,7 +13,7 @@ from flint import arb, ctx
 
 from core import Dance, Dragon, InvalidValue, Line, Route, Spiral, Tolerance, bench_outlines, tolerance, trajectory
 from core.errors import OutsideRun, ProofRefused
-from core.proof import Certificate, check, prove_tolerance
+from core.proof import Certificate, prove_tolerance, verify
 from core.proof.chain import Chain
 from core.sampling import bisected
 from core.tolerance.curve import time_on_circle
@@ -37,7 +37,7 @@ def small(known: Tolerance) -> Certificate:
 
 
 def test_both_ends_of_a_tolerance_are_proven(small: Certificate, known: Tolerance) -> None:
-    proof = check(small)
+    proof = verify(small)
     assert f"while every hole is within {known.stray!r} m of its place and every chord keeps its" in proof.statement
     assert f"no two benches except neighbours touch from 0 s to {STOP!r} s" in proof.statement
     a, b = known.benches or ()
@@ -70,8 +70,8 @@ def test_every_pair_in_its_own_right_proves_the_same() -> None:
     dance = Dance(Dragon(8), Spiral(0.7, 4.0))
     once, each = (prove_tolerance(dance, 0.2, start=1.0, stop=8.0, every_pair=every) for every in (False, True))
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 6)
-    assert check(once).statement == check(each).statement
-    assert check(once).statement.endswith("touch from 1 s to 8 s.")
+    assert verify(once).statement == verify(each).statement
+    assert verify(once).statement.endswith("touch from 1 s to 8 s.")
 
 
 def test_benches_of_many_sizes_are_proven_to_the_end_of_the_run() -> None:
@@ -79,7 +79,7 @@ def test_benches_of_many_sizes_are_proven_to_the_end_of_the_run() -> None:
     dance = Dance(dragon, Spiral(1.2, 3.0))
     stray = tolerance(dance).stray
     assert stray > 0.01
-    assert f"to {dance.end.time - 5e-10!r} s." in check(prove_tolerance(dance, stray)).statement
+    assert f"to {dance.end.time - 5e-10!r} s." in verify(prove_tolerance(dance, stray)).statement
 
 
 @pytest.mark.parametrize("stray", [0.05, 0.3])
@@ -104,7 +104,7 @@ def another_side(content: dict[str, Any]) -> None:
     sides[0] = (sides[0] + 32) % 64
 
 
-# name: (change, why check refuses it)
+# name: (change, why verify refuses it)
 OWN: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a stray a little larger": (
         lambda c: c["claim"].__setitem__("stray", 1.003 * c["claim"]["stray"]), "not apart by face|pairs are missing",
@@ -148,7 +148,7 @@ SHARED = (
 def test_a_forged_certificate_of_a_stray_is_refused(small: Certificate, name: str) -> None:
     change, reason = OWN[name] if name in OWN else FORGERIES[name]
     with pytest.raises(ProofRefused, match=reason):
-        check(edit(change)(small))
+        verify(edit(change)(small))
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import shapely
 from flint import arb, ctx
 
 from core import Dance, Dragon, Spiral, bench_poses, first_contact, trajectory
-from core.proof import check, prove_collision_time
+from core.proof import prove_collision_time, verify
 from core.proof.chain import Chain
 from core.proof.pairs import Unproven
 from core.proof.sweeps import OverlapFound, found, recorded, swept
@@ -30,8 +30,8 @@ def test_every_pair_in_its_own_right_proves_the_same_as_equal_benches_taken_once
     assert time is not None
     once, each = (prove_collision_time(Dance(dragon, path), time, every_pair=every) for every in (False, True))
     assert (len(once["sweeps"]), len(each["sweeps"])) == (2, 10)
-    assert check(once).statement == check(each).statement
-    assert check(each).pair_proofs > check(once).pair_proofs
+    assert verify(once).statement == verify(each).statement
+    assert verify(each).pair_proofs > verify(once).pair_proofs
 
 
 @pytest.mark.parametrize("benches", [13, 40])
