@@ -54,12 +54,8 @@ class Shown:
 
     def _line(self) -> str:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
-        told = [(name, value, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told()]
-        return ", ".join(
-            f"{name} {text}"
-            for name, value, text in told
-            if len(text) <= TEXT_MOST and not (name.endswith(" bracket") and len(set(map(worded, value))) == 1)
-        )
+        told = [(name, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told() if not _alike(name, value)]
+        return ", ".join(f"{name} {text}" for name, text in told if len(text) <= TEXT_MOST)
 
     def _rows(self) -> list[tuple[str, str]]:
         """Name and value of every row of the table."""
@@ -110,6 +106,11 @@ def counted(count: int, noun: str) -> str:
     ('1 pair', '0 grazes')
     """
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _alike(name: str, value: object) -> bool:
+    """True for a bracket whose two ends have the same digits in one line."""
+    return name.endswith(" bracket") and isinstance(value, tuple) and len({worded(end) for end in value}) == 1
 
 
 def _entries(values: Sequence[object], digits: int) -> str:

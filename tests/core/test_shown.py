@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import typing
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from enum import Enum
 from typing import Any
 
@@ -210,7 +210,7 @@ def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
         ),
         (
             core.highest_speed(DANCE, stop=10.0),
-            "<HighestSpeed: speed 1 m/s, speed bracket 1, 1 m/s, time 0 s, handles 0>",
+            "<HighestSpeed: speed 1 m/s, time 0 s, handles 0>",
         ),
         (core.Budget(), "<Budget: the default work of each question>"),
         (core.Budget(math.inf, brief=True), "<Budget: no limit, brief>"),
@@ -266,3 +266,10 @@ def test_a_table_of_many_pieces_or_points_stays_small() -> None:
     table = Area("pond", ((*ring, ring[0]),))._repr_html_()
     assert len(table) < 1_000
     assert "and 495 more" in table
+
+
+def test_a_bracket_stands_in_one_line_only_where_its_ends_differ() -> None:
+    highest = core.highest_speed(DANCE, stop=10.0)
+    assert "bracket" not in repr(replace(highest, speed_bracket=(1.0, 1.0 + 1e-12)))
+    assert "speed bracket 1, 2 m/s" in repr(replace(highest, speed_bracket=(1.0, 2.0)))
+    assert "speed bracket" in highest._repr_html_()
