@@ -1,4 +1,7 @@
-"""Maps as GeoJSON, in degrees as in RFC 7946, or in metres."""
+"""Maps as GeoJSON, in degrees as in RFC 7946, or in metres.
+
+Read by hand (see app/wire/geojson.py): a map of another program may have features without geometry and open rings.
+"""
 
 from __future__ import annotations
 

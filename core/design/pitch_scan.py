@@ -61,7 +61,7 @@ class PitchScan(Shown):
             return "no contact at any pitch"
         radius = f"contact with the head at {extent(self.radius, 'm')}"
         pieces = counted(len(self.pieces), "piece")
-        return f"{self.pitch.size} pitches from {extent(self.pitch, 'm')}, {radius}, in {pieces}"
+        return f"{counted(self.pitch.size, 'sample')} at pitches of {extent(self.pitch, 'm')}, {radius}, in {pieces}"
 
     def to_dataframe(self) -> pandas.DataFrame:
         """One row for each pitch: pitch, radius [m], and the number of its piece.
