@@ -54,7 +54,8 @@ class Shown:
 
     def _line(self) -> str:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
-        told = [(name, worded(value, unit, LINE_DIGITS)) for name, value, unit in self._told() if not _alike(name, value)]
+        differing = [one for one in self._told() if not _alike(*one[:2])]
+        told = [(name, worded(value, unit, LINE_DIGITS)) for name, value, unit in differing]
         return ", ".join(f"{name} {text}" for name, text in told if len(text) <= TEXT_MOST)
 
     def _rows(self) -> list[tuple[str, str]]:
