@@ -16,7 +16,8 @@ import yaml
 from compose_spec import PyCompose
 
 from app.settings import Settings
-from tests.app.jobs.service import PATIENCE, wait_for
+from tests.app.jobs.service import LINGER, PATIENCE, wait_for
+from tests.app.jobs.test_sweeps import SPEC, followed, undisturbed
 from tests.app.sweeps.kills import free_port
 from tests.conftest import STOP_TIMEOUT, wait_until_live
 
@@ -24,6 +25,7 @@ ROOT = Path(__file__).parent.parent
 FILE = yaml.safe_load((ROOT / "compose.yaml").read_text(encoding="utf-8"))
 SERVICES = FILE["services"]
 BIN = Path(sys.executable).parent
+BYTES_MAX = 100_000
 
 
 def test_it_is_valid_by_the_specification() -> None:
@@ -74,6 +76,7 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
     ports = {"8786": str(free_port()), "8000": str(free_port())}
     places = {"0.0.0.0": "127.0.0.1", "scheduler:": "127.0.0.1:", "/tmp": str(tmp_path), **ports}
     given = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{ports['8786']}"}
+    given["BENCH_DRAGON_SWEEP_BYTES_MAX"] = str(BYTES_MAX)
     names = ["scheduler", "worker", "service"]
     running: list[subprocess.Popen[bytes]] = []
     try:
@@ -93,10 +96,18 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
             process.wait(STOP_TIMEOUT)
 
 
-def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service(started: httpx.Client, tmp_path: Path) -> None:
-    spec = {"question": "turn", "over": {"pitch": {"start": 1.5, "stop": 2.0, "count": 40}}, "shard_size": 1}
-    address = started.post("/sweeps", json=spec | {"accept": "text/csv"}).headers["location"]
-    wait_for(lambda: started.get(address).json()["status"] not in ("accepted", "running"))
-    assert started.get(address).json()["status"] == "successful"
-    assert len(started.get(f"{address}/result").text.splitlines()) == 41
+def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service_unless_it_takes_too_much_room(
+    started: httpx.Client, tmp_path: Path
+) -> None:
+    address = started.post("/sweeps", json=SPEC | {"shard_size": 30}).headers["location"]
+    status, told = followed(started, address)
+    assert status["status"] == "successful"
+    assert [status["done"] for status in told] == sorted(status["done"] for status in told)
+    result = started.get(f"{address}/result").content
+    assert result == undisturbed(tmp_path / "a", SPEC | {"shard_size": 30}).compact().read_bytes()
     assert "Registered to" in (tmp_path / "1-worker.log").read_text()
+    large = started.post("/sweeps", json=SPEC | {"shard_size": 1}).headers["location"]
+    status, _ = followed(started, large)
+    assert (status["status"], status["problem"]["status"]) == ("failed", 413)
+    assert f"the limit is {BYTES_MAX} here" in status["message"]
+    wait_for(lambda: not list((tmp_path / "data" / "sweeps").iterdir()), LINGER)

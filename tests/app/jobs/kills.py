@@ -15,6 +15,7 @@ from typing import Any
 import httpx
 
 from app.files.tables import XLSX_TYPE
+from app.jobs.job import JobState
 from app.jobs.store import Store
 from tests.app.jobs.service import Service, direct, wait_for
 
@@ -69,34 +70,36 @@ def kill_one(service: Service, chance: random.Random) -> str:
     return role
 
 
-def survive(folder: Path, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
+def survive(service: Service, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
     """Kills so many processes; then all jobs must be done, with the bytes of the direct calls.
 
     returns: how many processes of each role were killed
     """
-    chance, done = random.Random(seed), dict.fromkeys(ROLES, 0)
+    chance, done, store = random.Random(seed), dict.fromkeys(ROLES, 0), Store(service.folder)
     asked: dict[str, Any] = {}
-    with Service(folder, workers=2, jobs_client_max=1000, deadline_seconds=600) as service:
-        while sum(done.values()) < kills:
-            while sum(not job.is_finished for job in Store(folder).all()) < busy:
-                call = wanted(chance)
-                asked[post(service, call)] = call
-            time.sleep(chance.uniform(0.0, pause))
-            if role := kill_one(service, chance):
-                done[role] += 1
-        wait_for(lambda: all(job.is_finished for job in Store(folder).all()), PATIENCE)
-        for address, call in asked.items():
-            status = service.status(address)
-            assert status["status"] == "successful", status
-            told = direct(service.client, call)
-            assert told.status_code == httpx.codes.OK, told.text
-            assert service.client.get(f"{address}/result").content == told.content, call
-        kept = {file.name for file in (folder / "results").iterdir()}
-        assert kept == {job.id for job in Store(folder).all()}
+    while sum(done.values()) < kills:
+        while sum(not job.is_finished for job in store.all()) < busy:
+            call = wanted(chance)
+            asked[post(service, call)] = call
+        time.sleep(chance.uniform(0.0, pause))
+        if role := kill_one(service, chance):
+            done[role] += 1
+    wait_for(lambda: all(job.is_finished for job in store.all()), PATIENCE)
+    for address, call in asked.items():
+        status = service.status(address)
+        assert status["status"] == "successful", status
+        told = direct(service.client, call)
+        assert told.status_code == httpx.codes.OK, told.text
+        assert service.client.get(f"{address}/result").content == told.content, call
+    kept = {file.name for file in store.results.iterdir()}
+    assert kept == {job.id for job in store.all() if job.state is JobState.SUCCESSFUL}
     print(f"{len(asked)} jobs, kills: {done}")
     return done
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as name:
-        survive(Path(name) / "data", int(sys.argv[1]), int(sys.argv[2]))
+    with (
+        tempfile.TemporaryDirectory() as name,
+        Service(Path(name) / "data", workers=2, jobs_client_max=1000, deadline_seconds=600) as service,
+    ):
+        survive(service, int(sys.argv[1]), int(sys.argv[2]))

@@ -19,15 +19,18 @@ from app.jobs import runner
 from app.jobs.store import Store
 from app.settings import Settings
 from tests.app.jobs.kills import survive
-from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
+from tests.app.jobs.service import ENDLESS, LINGER, SHORT, Service, direct, wait_for
 from tests.depth import examples
 
 KILLS, SEED = examples(2, 4), 1
+# A second of work, in which a process of the job is found and killed.
+SCAN = {"question": "pitch_scan", "request": {"samples": 401, "start_turns": 28}}
 
 
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(tmp_path_factory.mktemp("jobs"), workers=2) as service:
+    settings = {"jobs_client_max": 1000, "deadline_seconds": 600}
+    with Service(tmp_path_factory.mktemp("jobs"), workers=2, **settings) as service:
         yield service
 
 
@@ -45,23 +48,30 @@ def begun(service: Service, wanted: Any = SCAN) -> str:
     return address
 
 
+def kill(service: Service, role: str) -> None:
+    """Kills the processes of this role, of which there is one at least, and returns when they are gone."""
+    wait_for(lambda: service.of(role))
+    killed = {process.pid for process in service.of(role) if process.kill() is None}
+    wait_for(lambda: not killed & {process.pid for process in service.processes()})
+
+
 def is_answered(service: Service, address: str, answer: bytes) -> bool:
     status = service.finished(address)["status"]
     return bool(status == "successful" and service.client.get(f"{address}/result").content == answer)
 
 
-def test_processes_may_be_killed_at_any_moment(tmp_path: Path) -> None:
-    assert sum(survive(tmp_path / "data", KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
+def test_processes_may_be_killed_at_any_moment(service: Service) -> None:
+    assert sum(survive(service, KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
 
 
-@pytest.mark.parametrize("role", ["child", "spare", "runner", "worker"])
-def test_a_job_goes_on_when_a_process_is_killed(service: Service, scan: bytes, role: str) -> None:
+def test_a_job_goes_on_when_a_process_is_killed(service: Service, scan: bytes) -> None:
+    service.finished(service.post(SHORT))  # Its process waits for another job.
+    kill(service, "spare")
     address = begun(service)
-    if role == "spare":
-        service.finished(service.post(SHORT))  # Its process waits for another job.
-    wait_for(lambda: service.of(role))
-    for process in service.of(role):
-        process.kill()
+    for role in ("child", "runner"):  # The job begins again.
+        kill(service, role)
+        wait_for(lambda: service.of("child"))
+    kill(service, "worker")
     assert is_answered(service, address, scan)
 
 
@@ -81,10 +91,7 @@ def test_a_process_does_one_job_after_another_until_one_needs_much_memory(tmp_pa
 def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) -> None:
     address = begun(service, ENDLESS)
     for _ in range(3):
-        wait_for(lambda: service.of("child"))
-        for process in service.of("child"):
-            process.kill()
-            wait_for(lambda dead=process.pid: dead not in {process.pid for process in service.processes()})
+        kill(service, "child")
     status = service.finished(address)
     assert status["status"] == "failed"
     assert "signal 9" in status["message"]
@@ -120,18 +127,20 @@ def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:
         assert len(two.of("runner")) == 1
 
 
-@pytest.mark.parametrize("module", ["runner", "work"])
-def test_the_processes_of_jobs_log_in_the_form_of_the_service(module: str, tmp_path: Path) -> None:
+def test_the_processes_of_jobs_log_in_the_form_of_the_service(tmp_path: Path) -> None:
     code = f"""
-import logging, sys
+import logging, os, sys
 from app.jobs import runner, work
 runner.follow_input = lambda: None
 def said(*given):
-    logging.getLogger("app.jobs").error("said")
+    logging.getLogger("app.jobs").error(module.__name__)
     raise SystemExit
 runner.Runner.run = work.do = said
 sys.argv = ["", {str(tmp_path)!r}]
-{module}.main()
+for module in runner, work:
+    if os.fork() == 0:
+        module.main()
+    os.wait()
 """
     environment = os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}
     command = [sys.executable, "-c", code]
@@ -141,7 +150,7 @@ sys.argv = ["", {str(tmp_path)!r}]
         process.stdin.write("job\n")
         process.stdin.flush()
         assert process.stderr is not None
-        assert [json.loads(line)["message"] for line in process.stderr] == ["said"]
+        assert [json.loads(line)["message"] for line in process.stderr] == ["app.jobs.runner", "app.jobs.work"]
 
 
 def test_a_disk_that_stays_full_is_told_once(
