@@ -14,6 +14,7 @@ import contextlib
 import gc
 import json
 import os
+import resource
 import select
 import signal
 import socket
@@ -47,14 +48,19 @@ SCRIPT = """#!{python} -IS
 import json, os, socket, sys
 with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
     peer.connect({door!r})
-    words = json.dumps([os.getcwd(), dict(os.environ), sys.argv[1:]]).encode()
+    words = json.dumps([os.getcwd(), dict(os.environ), sys.argv[1:], None]).encode()
     socket.send_fds(peer, [words], [0, 1, 2])
     sys.exit(int(peer.recv(9) or 70))
 """
 
 
-def run(*arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Result of the command: exit code, standard output, standard error."""
+def run(
+    *arguments: str, text: str | None = None, room: int | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Result of the command: exit code, standard output, standard error.
+
+    room: longest file that it may write [bytes]
+    """
     command = [COMMAND, *arguments]
     if arguments[:1] == ("serve",) or "PYTHONPATH" in environment:
         given = ENVIRONMENT | environment
@@ -63,26 +69,28 @@ def run(*arguments: str, text: str | None = None, **environment: str) -> subproc
         files = [stack.enter_context(tempfile.TemporaryFile("w+", encoding="utf-8")) for _ in range(3)]
         files[0].write(text or "")
         files[0].seek(0)
-        code = _forked(arguments, ENVIRONMENT | environment, files)
+        code = _forked(arguments, ENVIRONMENT | environment, files, room)
         for file in files:
             file.seek(0)
         return subprocess.CompletedProcess(command, code, files[1].read(), files[2].read())
 
 
-def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO]) -> int:
+def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO], room: int | None) -> int:
     """Exit code of a run in this folder with these files as its standard input, output and error."""
-    with _asked(str(Path.cwd()), arguments, environment, [file.fileno() for file in files]) as peer:
+    with _asked(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:
         code = peer.recv(9)
     if not code:
         raise subprocess.TimeoutExpired([COMMAND, *arguments], PATIENCE)
     return int(code)
 
 
-def _asked(folder: str, arguments: Sequence[str], environment: Mapping[str, str], files: list[int]) -> socket.socket:
+def _asked(
+    folder: str, arguments: Sequence[str], environment: Mapping[str, str], files: list[int], room: int | None = None
+) -> socket.socket:
     """The connection to a new run, over which its exit code comes."""
     peer = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     peer.connect(f"{bin_folder()}/door")
-    socket.send_fds(peer, [json.dumps([folder, dict(environment), arguments]).encode()], files)
+    socket.send_fds(peer, [json.dumps([folder, dict(environment), arguments, room]).encode()], files)
     return peer
 
 
@@ -193,7 +201,7 @@ def _answer(peer: socket.socket, app: Any) -> None:
     """The command as its script calls it; ends this process."""
     signal.alarm(int(PATIENCE))
     words, files, _, _ = socket.recv_fds(peer, WORDS_MAX, 3)
-    here, environment, arguments = json.loads(words)
+    here, environment, arguments, room = json.loads(words)
     if arguments[:1] == ["serve"]:
         signal.alarm(0)
         peer.send(str(os.getpid()).encode())
@@ -205,6 +213,9 @@ def _answer(peer: socket.socket, app: Any) -> None:
     os.environ.clear()
     os.environ.update(environment)
     sys.argv = [COMMAND, *arguments]
+    if room is not None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
     code: Any = 1
     try:
         app()

@@ -5,9 +5,6 @@ from __future__ import annotations
 import errno
 import os
 import re
-import resource
-import signal
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,10 +12,10 @@ import pytest
 
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.app.command import run
 
 OLD, NEW = b"what stood here before", b"what is written now"
-# A file may grow to this in the tests of a full disk [bytes].
+# Longest file in the tests of a full disk [bytes].
 ROOM = 500
 # Each command that writes a file, with its option last.
 WRITERS = [
@@ -37,18 +34,6 @@ def with_target(arguments: tuple[str, ...], folder: Path) -> tuple[list[str], Pa
     if last == "FOLDER":
         return [*before, str(folder)], folder / "contact.png"
     return [*before, str(folder / last)], folder / last
-
-
-def limited(arguments: list[str]) -> subprocess.CompletedProcess[str]:
-    """The command where a file cannot grow beyond ROOM, as on a full disk."""
-
-    def limit() -> None:
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (ROOM, ROOM))
-
-    return subprocess.run(
-        [COMMAND, *arguments], capture_output=True, text=True, env=ENVIRONMENT, timeout=PATIENCE, preexec_fn=limit
-    )
 
 
 @pytest.mark.parametrize("ending", ["", ".doc", ".csvx", ".CSV.txt", "."])
@@ -93,7 +78,7 @@ def test_a_folder_in_the_place_of_the_file_is_told_in_one_line(tmp_path: Path, a
 def test_a_full_disk_leaves_what_was_there_and_nothing_else(tmp_path: Path, arguments: tuple[str, ...]) -> None:
     command, file = with_target(arguments, tmp_path)
     file.write_bytes(OLD)
-    done = limited(command)
+    done = run(*command, room=ROOM)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == f"Error: {file}: File too large\n"
     assert [path.name for path in tmp_path.iterdir()] == [file.name]
@@ -143,11 +128,9 @@ def test_a_long_name_leaves_room_for_the_temporary_one(tmp_path: Path) -> None:
     assert file.read_bytes() == NEW
 
 
-def test_a_relative_name_is_written_beside_where_one_stands(tmp_path: Path) -> None:
-    done = subprocess.run(
-        [COMMAND, "trajectory", "--stop", "2", "--output", "dance.csv"],
-        capture_output=True, text=True, env=ENVIRONMENT, cwd=tmp_path, timeout=PATIENCE,
-    )  # fmt: skip
+def test_a_relative_name_is_written_beside_where_one_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = run("trajectory", "--stop", "2", "--output", "dance.csv")
     assert (done.returncode, done.stderr) == (0, "dance.csv: 224 handles at 3 instants\n")
     assert (tmp_path / "dance.csv").read_bytes().startswith(b"time,handle,x,y,speed\n")
 
