@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import ssl
 from collections.abc import Iterator
+from functools import cache
 
 import httpx
 import pytest
+
+# httpx reads the certificates of all authorities for each client and each httpx.get(), also for http://, which takes
+# 18 ms; the tests that ask in a loop did little else.
+ssl.create_default_context = cache(ssl.create_default_context)
 
 ANSWER_TIMEOUT = 120.0  # [s]; no test waits this long for an answer that is coming
 
