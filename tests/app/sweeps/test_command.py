@@ -28,15 +28,15 @@ shard_size = 10
 [request]
 benches = 60
 [over]
-pitch = { start = 0.42, stop = 0.60, count = 100 }
+pitch = { start = 0.42, stop = 0.60, count = 50 }
 width = [0.25, 0.30, 0.35, -1.0]
 """
-SHARDS = 40
+SHARDS = 20
 
 
 @pytest.fixture
 def spec(tmp_path: Path) -> Path:
-    """A sweep of 400 designs, a quarter of which are refused."""
+    """A sweep of 200 designs, a quarter of which are refused."""
     (tmp_path / "spec.toml").write_text(SPEC)
     return tmp_path / "spec.toml"
 
@@ -66,7 +66,7 @@ def table(spec: Path, folder: Path) -> bytes:
     """Bytes of the table of a sweep that is gone on with and compacted."""
     done = sweep("run", spec, "--output", folder, "--workers", 1)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
-    assert done.stderr == f"{folder}: 400 designs in {SHARDS} shards\n"
+    assert done.stderr == f"{folder}: 200 designs in {SHARDS} shards\n"
     assert sweep("compact", folder).returncode == 0
     return (folder / "sweep.parquet").read_bytes()
 
@@ -111,14 +111,14 @@ def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same
 def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
     shutil.copytree(answered, tmp_path / "a")
     lines = sweep("show", tmp_path / "a").stdout.splitlines()
-    assert lines[0].split() == ["designs", "400", "of", "400"]
-    assert lines[1].split() == ["error", "invalid-value", "100"]
+    assert lines[0].split() == ["designs", "200", "of", "200"]
+    assert lines[1].split() == ["error", "invalid-value", "50"]
     assert lines[2].startswith("least time")
     drawn = sweep("show", tmp_path / "a", "--output", tmp_path / "map.png", "--value", "head.radius")
     assert (drawn.returncode, drawn.stderr) == (0, f"{tmp_path / 'map.png'}\n")
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
     assert sweep("compact", tmp_path / "a", "--csv", tmp_path / "a.csv").returncode == 0
-    assert len((tmp_path / "a.csv").read_text().splitlines()) == 401
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 201
 
 
 def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
@@ -134,7 +134,7 @@ def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Pa
             break
     os.close(parent)
     assert process.wait(PATIENCE) == 0
-    assert b"of 400, " in said
+    assert b"of 200, " in said
     assert b"/s, 0:00:" in said
     assert b" left" in said
 
