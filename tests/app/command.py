@@ -37,9 +37,12 @@ ENVIRONMENT = {
 }
 ROOT = Path(__file__).parents[2]
 PATIENCE = 300.0  # [s]: only against a test that would hang
-# Modules that the command imports at their first use: those of the extras, and parts of matplotlib.
+# Modules that the command imports at their first use: those of the extras, parts of matplotlib and scipy, and engines.
 USED = ("dxf", "figures", "proof", "sweep", "xlsx")
-LAZY = ("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg")
+LAZY = (
+    *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"),
+    *("fcl", "scipy.interpolate", "scipy.special", "shapely"),
+)
 # Modules of other programs, and the compiled loops.
 NEVER = ("app.sweeps.worker", "app.sweeps.cluster", "core.kernels.")
 WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
