@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 from attrs import evolve
 
+from app.files.tables import XLSX_TYPE
 from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES
 from tests.app.conftest import ANSWER_TIMEOUT
@@ -145,6 +146,9 @@ def test_the_result_of_a_job_comes_back_as_the_direct_answer(own: Any, client: h
     assert json.loads(found.payload.read()) == plain.raise_for_status().json()
 
 
+FILM = {"dragon": {"benches": 3}, "start": 1, "stop": 2, "seconds": 1, "height": 240}
+
+
 @pytest.mark.parametrize(
     ("name", "request_", "accept", "begin"),
     [
@@ -153,6 +157,10 @@ def test_the_result_of_a_job_comes_back_as_the_direct_answer(own: Any, client: h
         ("trajectory_figure", {"benches": 3}, "image/svg+xml", b"<?xml"),
         ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
         ("maps", {"dragon": {"benches": 3}}, "image/vnd.dxf", b"  0\n"),
+        ("plan", {"dragon": {"benches": 3}}, "application/pdf", b"%PDF"),
+        ("films", FILM, "image/gif", b"GIF89a"),
+        ("films", FILM, "video/mp4", b"\x00\x00\x00"),
+        ("trajectory", {"dragon": {"benches": 3}}, XLSX_TYPE, b"PK\x03\x04"),
     ],
 )
 def test_a_file_made_by_a_job_comes_back_as_its_bytes(
