@@ -43,7 +43,7 @@ NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
 
 
 class BenchDragonError(Exception):
-    """Root of the tree.
+    """Every error of this library; catch it for all of them.
 
     code: stable word for programs; field: dotted name of the wrong parameter
     rule: what the parameter must be, with {word} in the place of each other parameter; the message is the field, in the

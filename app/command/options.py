@@ -104,7 +104,7 @@ def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) 
         request = checked(DanceFields, {name: held[name] for name in DanceFields.model_fields if name in held})
         with refusing(request):
             dance = request.to_dance(Settings().benches_max)
-            start = (ends | steps).get("start", dance.default_start)
+            start = (ends | steps).get("start", float(dance.default_times[0]))
         ends = {"start": start, "stop": max(start, min(start + DEFAULT_SPAN, math.floor(dance.end.time)))} | ends
     return ends | steps
 

@@ -7,7 +7,7 @@ dance.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag
@@ -96,6 +96,12 @@ class TimeRange(Wire):
             rule = f"must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s"
             raise InvalidValue("times.stop", rule, start="times.start")
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
+
+    def within(self, dance: Dance) -> Self:
+        """The range; a start or stop that was left out is moved to the nearest whole second of the run."""
+        first = float(dance.default_times[0])
+        ends = {"start": first, "stop": max(first, min(self.stop, math.floor(dance.end.time)))}
+        return self.model_copy(update={name: end for name, end in ends.items() if name not in self.model_fields_set})
 
     def times_of(self, dance: Dance, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
@@ -190,7 +196,8 @@ class TimedDance(DanceFields):
         "s",
         "Instants, evenly spaced or as a list; 0 is the start of the dance; null: every second from 0 to 300 s. On a "
         "path other than a spiral, null is every second from 0 (or, if the dance has no time 0, from the first time "
-        "at which the whole dragon is on the path) for 300 s or to the end of the path",
+        "at which the whole dragon is on the path) for 300 s or to the end of the path; a start or stop that is left "
+        "out is moved into that run too",
         None,
     )
 
@@ -207,7 +214,8 @@ class TimedDance(DanceFields):
         elif self.times is None and self.path.kind != "spiral":
             times = dance.default_times
         else:
-            return (self.times or TimeSteps()).times_of(dance, cells_max)
+            steps = self.times or TimeSteps()
+            return (steps if self.path.kind == "spiral" else steps.within(dance)).times_of(dance, cells_max)
         cells = len(times) * (dance.dragon.benches + 1)
         check_limit("times", "instants x handles", cells, cells_max, FEWER_CELLS)
         return np.asarray(times, dtype=np.float64)

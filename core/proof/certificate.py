@@ -16,7 +16,7 @@ from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import ClearClaim, ContactClaim, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
-from core.proof.paths import recorded_path
+from core.proof.paths import core_path, recorded_path
 from core.proof.strays import ToleranceClaim, recorded_pose
 from core.proof.sweeps import Progress, found, recorded, swept
 from core.proof.words import runs
@@ -95,7 +95,7 @@ def prove_clear(
     """
     record, until = recorded_path(_steady(dance).path), "stop"
     if stop is None:
-        stop, until = last_stop(dance.dragon, record, dance.head_speed)
+        stop, until = last_stop(Dance(dance.dragon, core_path(record), dance.head_speed))
     begin = dance.default_start if start is None else start
     return _proven(ClearClaim(dance.dragon, record, dance.head_speed, begin, stop, until, margin), every_pair, progress)
 
@@ -134,7 +134,7 @@ def prove_tolerance(
     if path is None:
         raise InvalidValue("path", "must be a spiral: strays have no proof on any other")
     if stop is None:
-        stop, _ = last_stop(dance.dragon, recorded_path(path), dance.head_speed)
+        stop, _ = last_stop(Dance(dance.dragon, core_path(recorded_path(path)), dance.head_speed))
     if exhibit is not None:
         exhibit = replace(exhibit, handles=dance.path.frame.back(exhibit.handles))
     pose, shown = ({}, None) if exhibit is None else recorded_pose(exhibit)

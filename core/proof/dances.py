@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.dance import Dance, EndReason
-from core.dragon import Dragon
 from core.errors import InvalidValue, said
 from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, verify_near
 from core.proof.fold import folding
@@ -125,9 +124,9 @@ class ContactClaim(DanceClaim):
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {words}"
 
 
-def last_stop(dragon: Dragon, path: Mapping[str, Any], head_speed: float) -> tuple[float, str]:
+def last_stop(dance: Dance) -> tuple[float, str]:
     """Stop of a clear run whose claim includes the end [s], and the kind of end."""
-    end = Dance(dragon, core_path(path), head_speed).end
+    end = dance.end
     at_once = end.reason is EndReason.END  # the chain exists at every place up to the end of a route
     return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -154,6 +155,37 @@ def test_without_times_a_dance_has_seconds_that_its_path_has(
 ) -> None:
     assert posted(client, call, dragon=SHORT, path=path)["time"] == list(seconds)
     assert posted(client, call, dragon=SHORT, path=path, times=None)["time"] == list(seconds)
+
+
+@pytest.mark.parametrize("call", ["/trajectory", "/clearance"])
+@pytest.mark.parametrize(
+    ("path", "told", "seconds"),
+    [
+        (route(LANE), {"stop": 20}, range(8, 21)),
+        (route(LANE), {"start": 20}, range(20, 61)),
+        (route(LANE), {"step": 10}, range(8, 61, 10)),
+        (CURVE, {"stop": 20, "step": 5}, range(8, 21, 5)),
+        (LONG_LANE, {"start": 7.9, "step": 100}, [7.9, 107.9, 207.9]),
+        (TURN, {"start": -50, "step": 50}, range(-50, 301, 50)),
+        (TURN, {"stop": 20, "step": 10}, range(0, 21, 10)),
+    ],
+)
+def test_a_start_or_stop_that_is_left_out_lies_in_the_run(
+    client: httpx.Client, call: str, path: Any, told: dict[str, float], seconds: Sequence[float]
+) -> None:
+    assert posted(client, call, dragon=SHORT, path=path, times=told)["time"] == list(seconds)
+
+
+@pytest.mark.parametrize(("told", "words"), [
+    ({"start": 2}, "times.start must be at least 7.810001 s, when the whole dragon is on the path, got 2 s"),
+    ({"stop": 2}, "times.stop must not be before times.start (8 s), got 2 s"),
+    ({"stop": 99}, "times.stop must be at most 60.000000000 s, when the path ends, got 99 s"),
+])  # fmt: skip
+def test_a_start_or_stop_that_is_given_is_refused_outside_the_run(
+    client: httpx.Client, told: dict[str, float], words: str
+) -> None:
+    answer = client.post("/trajectory", json={"dragon": SHORT, "path": route(LANE), "times": told})
+    assert (answer.status_code, answer.json()["detail"]) == (422, words)
 
 
 @pytest.mark.parametrize("call", ["/figures/trajectory.svg", "/figures/contact.svg", "/check"])

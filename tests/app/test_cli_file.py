@@ -158,6 +158,17 @@ def test_instants_are_those_of_start_and_stop_in_the_file(
     assert json.loads(run(command, str(file), "--json").stdout)["time"] == times
 
 
+@pytest.mark.parametrize("command", ["trajectory", "clearance"])
+def test_instants_that_no_start_is_given_for_begin_when_the_whole_dragon_is_on_the_path(
+    tmp_path: Path, command: str
+) -> None:
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(BODY))
+    assert json.loads(run(command, str(file), "--stop", "10", "--step", "2", "--json").stdout)["time"] == [6, 8, 10]
+    file.write_text(json.dumps(BODY | {"stop": 8}))
+    assert json.loads(run(command, str(file), "--json").stdout)["time"] == [6, 7, 8]
+
+
 @pytest.mark.parametrize(("ends", "words"), [
     ('start = "x"', 'start must be a number [s], got "x"'),
     ("start = 500", "start must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
