@@ -172,6 +172,20 @@ def test_a_file_made_by_a_job_comes_back_as_its_bytes(
     assert call("jobs", "job_result").sync(job.job_id, client=own).payload.read().startswith(begin)
 
 
+@pytest.mark.parametrize(
+    ("accept", "begin"),
+    [("application/vnd.apache.parquet", b"PAR1"), ("text/csv", b'"design","pitch"')],
+)
+def test_the_table_of_a_sweep_comes_back_as_its_bytes(
+    own: Any, client: httpx.Client, accept: str, begin: bytes
+) -> None:
+    module = call("jobs", "sweep")
+    asked = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}, "accept": accept}
+    job = module.sync(client=own, body=body_of(module, asked))
+    client.get(f"/jobs/{job.job_id}/events").raise_for_status()
+    assert call("jobs", "job_result").sync(job.job_id, client=own).payload.read().startswith(begin)
+
+
 def test_the_result_of_a_failed_job_comes_back_as_its_problem(own: Any, client: httpx.Client) -> None:
     later = call("jobs", "ask_later")
     job = later.sync(client=own, body=body_of(later, {"question": "collision_time", "request": {"overhang": 2.0}}))
