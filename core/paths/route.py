@@ -124,7 +124,7 @@ class Route(Shown):
 
     @property
     def _given(self) -> tuple[object, ...]:
-        """What makes two routes equal."""
+        """The values by which routes are equal or not."""
         return type(self), self.pieces, self.start
 
     def __eq__(self, other: object) -> bool:

@@ -204,7 +204,7 @@ class Pose(Benches):
 
     @property
     def places(self) -> list[arb]:
-        """Of the handles [rad]."""
+        """Places of the handles [rad]."""
         return self.thetas
 
     def far_from(self, count: int) -> bool:
@@ -303,7 +303,7 @@ class SpiralStretch:
         return self._beyond(partner, TouchingLine(face, direction, first, second))
 
     def grounds(self, partner: int) -> tuple[Ground, Ground]:
-        """Of the first bench and of partner."""
+        """Grounds of the first bench and of `partner`."""
         first, second = (self.chain.grounds[self.chain.sizes[self.bench + k]] for k in (0, partner))
         return first, second
 
