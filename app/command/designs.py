@@ -9,15 +9,15 @@ from app.questions import minimum_pitch as pitches
 from app.questions import shortest_turn as shortest
 from app.questions import turn as turns
 from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
-from app.questions.minimum_pitch import MinimumPitchQuery
-from app.questions.shortest_turn import ShortestTurnQuery
+from app.questions.minimum_pitch import MinimumPitchQuery, MinimumPitchRequest
+from app.questions.shortest_turn import ShortestTurnQuery, ShortestTurnRequest
 from app.questions.turn import TurnQuery
 from app.wire.question import Terms
 from core.errors import said
 
 
-@asks(MinimumPitchQuery)
-def minimum_pitch(asked: MinimumPitchQuery, json: Json = False) -> None:
+@asks(MinimumPitchQuery, MinimumPitchRequest)
+def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
     with show.waiting("minimum pitch"):
         answer = pitches.minimum_pitch(asked, Terms())
@@ -32,8 +32,8 @@ def turn(asked: TurnQuery, json: Json = False) -> None:
     show.print_answer("Turn", turns.turn(asked, Terms()), json)
 
 
-@asks(ShortestTurnQuery)
-def shortest_turn(asked: ShortestTurnQuery, json: Json = False) -> None:
+@asks(ShortestTurnQuery, ShortestTurnRequest)
+def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, json: Json = False) -> None:
     """The shortest turn inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         answer = shortest.shortest_turn(asked, Terms())

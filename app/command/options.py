@@ -26,15 +26,11 @@ from core.dance import DEFAULT_SPAN
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
 Json = Annotated[bool, typer.Option("--json", help="Print the service's JSON instead of a table.")]
-# Parameters of a command that also answers for the dance in a file.
-FILE = inspect.Parameter(
-    "file",
-    inspect.Parameter.KEYWORD_ONLY,
-    default=None,
-    annotation=Annotated[
-        Path | None, typer.Argument(help="Dance as a .toml or .json file, as for check: any dragon, any path.")
-    ],
-)
+# Help on the FILE of a command, by whether its question is about a path or chooses one.
+FILE_HELP = {
+    True: "Dance as a .toml or .json file, as for check: any dragon, any path.",
+    False: "Dance as a .toml or .json file, as for check: any dragon; its path does not count.",
+}
 # Mark in the context of a command whose instants follow from start, stop and step.
 RANGED = "app.command.options.ranged"
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
@@ -74,8 +70,10 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     """
     from app.questions.check import CheckRequest  # The import takes 0.02 s, and only a FILE needs it.
 
-    unused(context, DanceQuery.model_fields, "cannot be combined with FILE, which describes the dance")
-    held, own = read_dance(file), body.model_fields.keys()
+    own = body.model_fields.keys()
+    described = [name for name in DanceQuery.model_fields if "path" in own or name not in own]
+    unused(context, described, "cannot be combined with FILE, which describes the dance")
+    held = read_dance(file)
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
     told = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
@@ -140,7 +138,7 @@ def asks(
             )
             for name, field in model.model_fields.items()
         ]
-        added = [FILE, CONTEXT] if body else []
+        added = [_file("path" in body.model_fields), CONTEXT] if body else []
 
         def asked(**values: Any) -> None:
             context = values["context"] if "context" in own else values.pop("context", None)
@@ -159,6 +157,12 @@ def asks(
         return asked
 
     return decorated
+
+
+def _file(of_path: bool) -> inspect.Parameter:
+    """The argument FILE. of_path: the question is about a path"""
+    annotation = Annotated[Path | None, typer.Argument(help=FILE_HELP[of_path])]
+    return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 
 def _plain(annotation: Any) -> Any:

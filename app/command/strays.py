@@ -12,12 +12,15 @@ from app.questions import tolerance as tolerances
 from app.questions import tolerance_curve as curves
 from app.questions.contact_probability import ContactProbabilityQuery, ContactProbabilityRequest
 from app.questions.tolerance import ToleranceQuery, ToleranceRequest
-from app.questions.tolerance_curve import ToleranceCurveQuery
+from app.questions.tolerance_curve import ToleranceCurveQuery, ToleranceCurveRequest
 from app.wire.question import Terms
 from core.errors import said
 
+# The reason why strays in a FILE do not count.
+LARGEST = "the answer is the largest stray, by people and by the play of pins together"
 
-@asks(ToleranceQuery, ToleranceRequest, "the answer is the largest stray, by people and by the play of pins together")
+
+@asks(ToleranceQuery, ToleranceRequest, LARGEST)
 def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
     """Largest proven stray without contact, and a pose that touches with a slightly larger one.
 
@@ -28,8 +31,8 @@ def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> N
     show.print_answer("Tolerance to strays", answer, json)
 
 
-@asks(ToleranceCurveQuery)
-def tolerance_curve(asked: ToleranceCurveQuery, json: Json = False) -> None:
+@asks(ToleranceCurveQuery, ToleranceCurveRequest, LARGEST)
+def tolerance_curve(asked: ToleranceCurveQuery | ToleranceCurveRequest, json: Json = False) -> None:
     """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
     with show.waiting("tolerance curve") as progress:
         answer = curves.tolerance_curve(asked, Terms(progress=progress))

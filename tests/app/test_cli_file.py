@@ -76,6 +76,26 @@ def test_a_file_is_asked_as_a_body_is(
 
 
 @pytest.mark.parametrize(
+    ("arguments", "more"),
+    [
+        (["minimum-pitch", "--start-turns", "6", "--turning-diameter", "4"],
+         {"margin": 0.2, "start_turns": 6, "turning_diameter": 4}),
+        (["minimum-pitch", "--margin", "0.1", "--cross-check", "none"], {"margin": 0.1, "cross_check": "none"}),
+        (["shortest-turn", "--pitch", "2", "--ratio", "1"], {"margin": 0.2, "pitch": 2, "ratio": 1}),
+        (["tolerance-curve", "--samples", "2"], {"samples": 2}),
+    ],
+    ids=lambda part: " ".join(part) if isinstance(part, list) else None,
+)  # fmt: skip
+def test_a_question_that_chooses_the_path_is_asked_about_the_dragon_of_a_file(
+    client: httpx.Client, file: str, arguments: list[str], more: dict[str, Any]
+) -> None:
+    done = run(arguments[0], file, *arguments[1:], "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    answer = client.post(f"/{arguments[0]}", json={"dragon": BODY["dragon"]} | more).raise_for_status()
+    assert json.loads(done.stdout) == answer.json()
+
+
+@pytest.mark.parametrize(
     ("places", "where"),
     [(["FILE"], ""), (["FILE", "drawn"], "drawn"), (["drawn", "FILE"], "drawn"), (["-"], ""), (["-", "."], "")],
     ids=" ".join,
@@ -101,6 +121,7 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
     [
         (["collision-time", "FILE", "--pitch", "1"], "--pitch cannot be combined with FILE, which describes the dance"),
         (["trajectory", "FILE", "--head-speed", "1"], "--head-speed cannot be combined with FILE, which describes"),
+        (["minimum-pitch", "FILE", "--width", "1"], "--width cannot be combined with FILE, which describes the dance"),
         (["trajectory", "FILE", "--times", "10", "--stop", "12"], "--times replaces --stop"),
         (["clearance", "FILE", "--stop", "1e5"], "stop must be at most"),
         (["clearance", "FILE", "--stop", "10"], "stop must not be before start (20 s), got 10 s"),
@@ -127,10 +148,13 @@ def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, argu
 
 # Values that questions have for themselves.
 OWN = {("trajectory", "decimals"), ("film", "seconds"), ("tolerance", "turning_diameter"),
-       ("contact-probability", "turning_diameter"), ("contact-probability", "step")}  # fmt: skip
+       ("contact-probability", "turning_diameter"), ("contact-probability", "step"),
+       ("minimum-pitch", "turning_diameter"), ("minimum-pitch", "start_turns"), ("shortest-turn", "turning_diameter"),
+       ("shortest-turn", "start_turns"), ("shortest-turn", "pitch"), ("tolerance-curve", "turning_diameter"),
+       ("tolerance-curve", "start_turns")}  # fmt: skip
 MISPLACED = ("pitch", "start_turns", "turning_diameter", "decimals", "seconds", "step")
 ASKING = ("trajectory", "collision-time", "clearance", "maximum-head-speed", "envelope", "film", "figures", "tolerance",
-          "contact-probability")  # fmt: skip
+          "contact-probability", "minimum-pitch", "shortest-turn", "tolerance-curve")  # fmt: skip
 
 
 @pytest.mark.parametrize(
