@@ -99,9 +99,11 @@ class TimeRange(Wire):
 
     def within(self, dance: Dance) -> Self:
         """The range; a start or stop that was left out is moved to the nearest whole second of the run."""
-        first = float(dance.default_times[0])
-        ends = {"start": first, "stop": max(first, min(self.stop, math.floor(dance.end.time)))}
-        return self.model_copy(update={name: end for name, end in ends.items() if name not in self.model_fields_set})
+        first, told = float(dance.default_times[0]), self.model_fields_set
+        stop = self.stop if "stop" in told else max(first, min(self.stop, math.floor(dance.end.time)))
+        # A stop before the run is refused by its own name.
+        start = self.start if "start" in told else min(first, stop)
+        return self.model_copy(update={"start": start, "stop": stop})
 
     def times_of(self, dance: Dance, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""

@@ -52,7 +52,7 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
 
 
 def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDragonError:
-    """The error for one instant; of a range it names the start, or the field by which the range is too long."""
+    """The error for one instant; of a range it names the start or the stop, of two the one at fault."""
     names = type(request).model_fields
     if "time" in names:
         return error.named("time")
@@ -61,7 +61,8 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
         times = request if "stop" in names else TimeSteps()
     if not hasattr(times, "stop") or error.got is None:
         return error
-    end = "start" if index == 0 else "stop"
+    stop_alone = times.model_fields_set & {"start", "stop"} == {"stop"}
+    end = "stop" if index or stop_alone else "start"
     return error.named(f"times.{end}", getattr(times, end))
 
 
