@@ -281,6 +281,7 @@ ORDER = (
     "app.command.sweep",
     "app.command.jobs",
     "app.command.contacts",
+    "app.command.overlaps",
     "app.command.designs",
     "app.command.strays",
     "app.command.check",

@@ -50,8 +50,8 @@ TOGETHER = {
     "test_api.py": "service/main service/reply service/routes service/version",
     "test_api_limits.py": "settings",
     "test_api_reference.py": "questions/collision_time questions/minimum_pitch questions/trajectory",
-    "test_cli.py": "command/contacts command/entry command/main command/options command/paper"
-    " command/paths command/serve command/show command/trajectory command/usage",
+    "test_cli.py": "command/contacts command/entry command/main command/options command/overlaps"
+    " command/paper command/paths command/serve command/show command/trajectory command/usage",
     "test_cli_check.py": "command/check command/designs",
     "test_cli_file.py": "command/figures files/drawing questions/figures",
     "test_holding.py": "service/bodies service/middleware service/protocol service/workers",

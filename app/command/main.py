@@ -43,7 +43,7 @@ ROOMS = {
     "contact-probability": "strays",
     "maximum-head-speed": "designs",
     "check": "check",
-    "overlaps": "contacts",
+    "overlaps": "overlaps",
     "paper": "paper",
     "serve": "serve",
     "prove": "prove",
