@@ -59,9 +59,9 @@ EXPRESSIONS = {
     "trajectory on a turn": "core.trajectory(Dance(Dragon(20), Turn(1.7)), [0.0, 14.0, 30.0])",
     "first excess": "core.motion.speed.first_excess(Dance(Dragon(20), Turn(1.7)), 1.5, start=0.0, stop=30.0)",
     "first excess before a fold": "core.motion.speed.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)",
-    "minimum pitch": "core.minimum_pitch(Dragon(20), turning_radius=3.0, start_turns=6.0)",
+    "minimum pitch": "core.minimum_pitch(Dragon(12), turning_radius=2.5, start_turns=5.0)",
     "first contact with a stray": "core.first_contact(Dance(Dragon(30), Spiral()), stray=0.02, start=370.0)",
-    "minimum pitch with a stray": "core.minimum_pitch(Dragon(14), turning_radius=2.5, start_turns=5.0, stray=0.02)",
+    "minimum pitch with a stray": "core.minimum_pitch(Dragon(12), turning_radius=2.5, start_turns=5.0, stray=0.02)",
     "contacts by chance": "core.contact_probability("
     "Dance(Dragon(12), Spiral()), Wobble(0.05, 0.02, 4.0, hole=0.06, pin=0.04), 4, 1, start=404.0, stop=412.0)",
     "clearance profile": "core.clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 405.0, 410.0])",
