@@ -97,7 +97,8 @@ def test_throughput(benchmark: BenchmarkFixture, workers: int, cores: int, tmp_p
 
     def requests() -> tuple[tuple[list[bytes]], dict[str, object]]:
         head = "GET /collision-time?cross_check=pair&pitch={:.9f} HTTP/1.1\r\nHost: localhost\r\nConnection: close"
-        return ([f"{head.format(next(PITCHES))}\r\n\r\n".encode() for _ in range(REQUESTS)],), {}
+        count = REQUESTS if benchmark.enabled else CLIENTS
+        return ([f"{head.format(next(PITCHES))}\r\n\r\n".encode() for _ in range(count)],), {}
 
     with serving(workers, set(usable[:cores]), tmp_path / "server.log") as server:
         port = int(server.rpartition(":")[2])
