@@ -76,7 +76,10 @@ export class Questions {
   refresh() {
     this.#rest.begin(REST, () => this.#atRest());
     const kind = this.state.get("path");
+    // An answer about the former path would take the place of this one.
+    this.service.drop([kind === "route" ? "path" : "course"]);
     if (kind === "route") return this.#refreshDrawn();
+    this.#asked.delete("course");
     const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
     const asked = this.#asking(kind, query);
     if (this.#isNew("contact", { kind, ...query, ...asked.said })) this.#askContact(asked);
@@ -112,7 +115,10 @@ export class Questions {
     const asked = this.drawn();
     const { drawing } = asked;
     // Without a drawing nothing stays visible, so the next one is asked about again, even if it is an earlier one.
-    if (!drawing.path && drawing.points.length < 2) return this.#asked.clear();
+    if (!drawing.path && drawing.points.length < 2) {
+      this.service.drop(["contact"]);
+      return this.#asked.clear();
+    }
     const { dragon, path } = this.body({}, asked);
     if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);
     if (!this.#isNew("contact", this.checkBody(asked))) return;

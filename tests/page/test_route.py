@@ -74,6 +74,37 @@ def test_a_dragged_point_brings_a_verdict_that_undo_redo_and_the_browser_take_ba
     page.locator("#first-contact .value", has_text="Contact at").wait_for()
 
 
+def in_the_picture(page: Any) -> bool:
+    """All points of the path are inside the picture."""
+    settled(page)
+    canvas, boxes = page.locator("#canvas").bounding_box(), [one.bounding_box() for one in page.locator(".knot").all()]
+    return len(boxes) > 1 and all(
+        0 < box["x"] - canvas["x"] < canvas["width"] and 0 < box["y"] - canvas["y"] < canvas["height"] for box in boxes
+    )
+
+
+def test_the_drawn_path_is_in_the_picture_whatever_answers_late_and_after_another_kind_of_dance(visit: Any) -> None:
+    page = visit("?benches=5&time=end")
+    held: list[Any] = []
+    page.route("**/trajectory", lambda one: held.append(one))
+    page.locator("#pitch").fill("0.6")
+    page.locator("#first-contact .value", has_text="Contact at").wait_for()
+    settled(page, "contact")
+    while not held:
+        page.wait_for_timeout(10)
+    page.locator("[data-path=route]").click()
+    verdict(page, "Can be danced")
+    settled(page, "course")
+    while held:
+        held.pop(0).continue_()
+    page.unroute_all()
+    assert in_the_picture(page)
+    page.locator("[data-path=spiral]").click()
+    settled(page)
+    page.locator("[data-path=route]").click()
+    assert in_the_picture(page)
+
+
 def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> None:
     page = visit(S_CURVE)
     verdict(page, "Can be danced")
