@@ -26,11 +26,6 @@ from core.dance import DEFAULT_SPAN
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
 Json = Annotated[bool, typer.Option("--json", help="Print the service's JSON instead of a table.")]
-# Help on the FILE of a command, by whether its question is about a path or chooses one.
-FILE_HELP = {
-    True: "Dance as a .toml or .json file, as for check: any dragon, any path.",
-    False: "Dance as a .toml or .json file, as for check: any dragon; its path does not count.",
-}
 # Mark in the context of a command whose instants follow from start, stop and step.
 RANGED = "app.command.options.ranged"
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
@@ -90,20 +85,19 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
 def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) -> dict[str, Any]:
     """Evenly spaced instants from the options, and from start and stop of a file that holds no times; empty for none.
 
-    Where only one of start and stop is known and the file gives it, the other is that of the whole dance, 300 s later
-    at most.
+    The stop after a start of the file is that of the whole dance, 300 s later at most.
     """
     steps = {name: context.params[name] for name in given(context, *TimeRange.model_fields)}
     ends = {} if "times" in held else {name: held[name] for name in SpanFields.model_fields if name in held}
     ends = checked(SpanFields, ends).model_dump(exclude_none=True)
     if steps or ends:
         context.meta[RANGED] = True
-    if ends and not steps.keys() | ends.keys() >= SpanFields.model_fields.keys():
+    if "start" in ends and "stop" not in ends | steps:
         request = checked(DanceFields, {name: held[name] for name in DanceFields.model_fields if name in held})
         with refusing(request):
             dance = request.to_dance(Settings().benches_max)
-            start = (ends | steps).get("start", float(dance.default_times[0]))
-        ends = {"start": start, "stop": max(start, min(start + DEFAULT_SPAN, math.floor(dance.end.time)))} | ends
+            start = (ends | steps)["start"]
+            ends["stop"] = max(start, min(start + DEFAULT_SPAN, math.floor(dance.end.time)))
     return ends | steps
 
 
@@ -138,7 +132,7 @@ def asks(
             )
             for name, field in model.model_fields.items()
         ]
-        added = [_file("path" in body.model_fields), CONTEXT] if body else []
+        added = [_file(body), CONTEXT] if body else []
 
         def asked(**values: Any) -> None:
             context = values["context"] if "context" in own else values.pop("context", None)
@@ -159,9 +153,11 @@ def asks(
     return decorated
 
 
-def _file(of_path: bool) -> inspect.Parameter:
-    """The argument FILE. of_path: the question is about a path"""
-    annotation = Annotated[Path | None, typer.Argument(help=FILE_HELP[of_path])]
+def _file(body: type[BaseModel]) -> inspect.Parameter:
+    """The argument FILE of a command that also answers this request."""
+    path = ", any path" if "path" in body.model_fields else "; its path does not count"
+    words = f"Dance as a .toml or .json file, as for check: any dragon{path}."
+    annotation = Annotated[Path | None, typer.Argument(help=words)]
     return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 

@@ -182,6 +182,13 @@ def test_instants_are_those_of_start_and_stop_in_the_file(
     assert json.loads(run(command, str(file), "--json").stdout)["time"] == times
 
 
+def test_the_stop_of_a_file_with_a_start_is_counted_from_the_start_that_is_given(tmp_path: Path) -> None:
+    file = tmp_path / "dance.toml"
+    file.write_text("start = 7")
+    found = run("trajectory", str(file), "--start", "20", "--step", "100", "--json")
+    assert json.loads(found.stdout)["time"] == [20, 120, 220, 320]
+
+
 @pytest.mark.parametrize("command", ["trajectory", "clearance"])
 def test_instants_that_no_start_is_given_for_begin_when_the_whole_dragon_is_on_the_path(
     tmp_path: Path, command: str

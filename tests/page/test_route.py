@@ -87,11 +87,8 @@ def test_the_drawn_path_is_in_the_picture_whatever_answers_late_and_after_anothe
     page = visit("?benches=5&time=end")
     held: list[Any] = []
     page.route("**/trajectory", lambda one: held.append(one))
-    page.locator("#pitch").fill("0.6")
-    page.locator("#first-contact .value", has_text="Contact at").wait_for()
-    settled(page, "contact")
-    while not held:
-        page.wait_for_timeout(10)
+    with page.expect_request(lambda one: '"decimals":4' in (one.post_data or "")):  # the path of the spiral
+        page.locator("#pitch").fill("0.6")
     page.locator("[data-path=route]").click()
     verdict(page, "Can be danced")
     settled(page, "course")
@@ -103,6 +100,22 @@ def test_the_drawn_path_is_in_the_picture_whatever_answers_late_and_after_anothe
     settled(page)
     page.locator("[data-path=route]").click()
     assert in_the_picture(page)
+
+
+def test_a_verdict_that_comes_late_is_not_shown_without_a_drawing(visit: Any) -> None:
+    page = visit("?path=route&benches=3&route=*-20,0_20,0")
+    verdict(page, "Can be danced")
+    page.locator("#edit").click()
+    held: list[Any] = []
+    page.route("**/check", lambda one: held.append(one))
+    with page.expect_request("**/check"):
+        page.locator("#benches").fill("4")
+    page.locator("#delete").click()
+    while held:
+        held.pop(0).continue_()
+    page.unroute_all()
+    settled(page)
+    assert "Can be danced" not in page.locator("#judgement").inner_text()
 
 
 def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> None:
