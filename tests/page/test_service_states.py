@@ -256,6 +256,8 @@ def test_old_answers_turn_pale_while_new_ones_are_computed(visit: Any, server: s
     for place in OLD:
         page.wait_for_function("place => getComputedStyle(document.querySelector(place)).opacity < 1", arg=place)
         assert 0.3 < opacity(page, place) < 0.7, place
+    titles = ("#first-contact h3", "#run-end h3", "#clearance h2")
+    assert {place: opacity(page, place) for place in titles} == dict.fromkeys(titles, 1.0)
     page.unroute("**/collision-time*")
     page.locator("#pitch").fill("0.52")
     wanted = polite.get(f"{server}/collision-time?benches=20&pitch=0.52").json()["time"]
