@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 
 from core import BenchDragonError
+from core.extras import not_installed
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
 _SERVICE = ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn")
@@ -34,5 +35,4 @@ def require(extra: str, field: str, what: str) -> None:
     """raises: MissingPackage, at the field and with what to install, when a module of the extra is missing"""
     for module in MODULES[extra]:
         if find_spec(module) is None:
-            words = f"{what} needs the package {module}, which is not installed"
-            raise MissingPackage.in_words(field, f"{words}: pip install 'bench-dragon[{extra}]'")
+            raise MissingPackage.in_words(field, not_installed(what, module, extra))

@@ -6,16 +6,24 @@ from importlib import import_module
 from typing import Any
 
 
+def not_installed(what: str, package: str, extra: str) -> str:
+    """The message about a package that is missing.
+
+    what: the caller; package: its name in a package index; extra: the extra of bench-dragon that installs it
+    """
+    return f"{what} needs the package {package}, which is not installed: pip install 'bench-dragon[{extra}]'"
+
+
 def wanted(module: str, extra: str, what: str) -> Any:
     """A module of an optional package.
 
     module: dotted name; extra: the extra of bench-dragon that installs it; what: the caller, for the message
     raises: ImportError naming the package and the extra if the package is not installed
 
-    >>> wanted("no_such_package", "data", "Trajectory.to_dataframe()")
+    >>> wanted("no_such", "data", "A table")
     Traceback (most recent call last):
         ...
-    ImportError: Trajectory.to_dataframe() needs no_such_package: pip install 'bench-dragon[data]'
+    ImportError: A table needs the package no_such, which is not installed: pip install 'bench-dragon[data]'
     """
     package = module.partition(".")[0]
     try:
@@ -23,6 +31,5 @@ def wanted(module: str, extra: str, what: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name != package:  # the package is installed, but one of its own requirements is missing
             raise
-        message = f"{what} needs {package}: pip install 'bench-dragon[{extra}]'"
-        raise ImportError(message, name=package) from error
+        raise ImportError(not_installed(what, package, extra), name=package) from error
     return import_module(module)

@@ -146,11 +146,12 @@ checked. The precision of flint is global to the process: prove and check in one
 
 from __future__ import annotations
 
+from core.extras import not_installed
+
 try:
     import flint  # noqa: F401
 except ImportError as error:
-    words = "A proof needs the package python-flint, which is not installed"
-    raise ImportError(f"{words}: pip install 'bench-dragon[proof]'") from error
+    raise ImportError(not_installed("A proof", "python-flint", "proof"), name="flint") from error
 
 from core.proof.certificate import (
     Certificate,

@@ -35,7 +35,8 @@ def test_a_missing_package_is_named_with_the_extra_that_brings_it(
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, package, None)
-    with pytest.raises(ImportError, match=rf"needs {package}: pip install 'bench-dragon\[{extra}\]'"):
+    words = rf"needs the package {package}, which is not installed: pip install 'bench-dragon\[{extra}\]'"
+    with pytest.raises(ImportError, match=words):
         ask()
 
 
