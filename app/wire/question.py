@@ -13,9 +13,9 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, model_validator
 from pydantic.fields import FieldInfo
-from pydantic_core import PydanticCustomError
+from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.settings import Settings
 from core import Budget, Dance, Dragon, InvalidValue, Spiral, Stray, TooLarge
@@ -80,7 +80,11 @@ def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> N
 
 
 class Wire(BaseModel):
-    """A request or a part of one: no unknown names, no infinities, immutable."""
+    """A request or a part of one: no unknown names, no infinities, immutable.
+
+    Null counts as left out for a field whose default is an object or a list: the schema cannot state such a default, so
+    clients that were generated from it send null.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
 
@@ -92,6 +96,26 @@ class Wire(BaseModel):
             counts = {"most": NAMES_MAX, "given": len(value)}
             raise PydanticCustomError("too_many_names", "at most {most} names, got {given}", counts)
         return value
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_nulls(cls, value: Any) -> Any:
+        if isinstance(value, dict) and None in value.values():
+            return {name: given for name, given in value.items() if given is not None or name not in cls._parts()}
+        return value
+
+    @classmethod
+    def _parts(cls) -> set[str]:
+        return {name for name, field in cls.model_fields.items() if field.default_factory is not None}
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        schema = handler(core)
+        for name in cls._parts():
+            field = handler.resolve_ref_schema(schema)["properties"][name]
+            told = {word: field.pop(word) for word in ("title", "description") if word in field}
+            handler.resolve_ref_schema(schema)["properties"][name] = {"anyOf": [field, {"type": "null"}], **told}
+        return schema
 
 
 class Answer(BaseModel):
