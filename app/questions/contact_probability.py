@@ -11,7 +11,7 @@ import core
 from app.questions.tolerance import CircleQuery, SpanOrCircle, span_asked
 from app.wire.answers import Pair
 from app.wire.dances import DanceFields
-from app.wire.question import Answer, Question, Terms, Wire, check_limit, measure
+from app.wire.question import Answer, Question, Terms, Whole, Wire, check_limit, measure
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 
 # Quantiles of the times of first contact in the answer [1].
@@ -39,8 +39,8 @@ class Wobbling(Wire):
     hole: Diameter = measure("m", "Diameter of the holes in the benches; with the pin it gives the play", 0.0)
     pin: Diameter = measure("m", "Diameter of the pins in these holes, each of which lies anywhere in its holes", 0.0)
     pitch_error: Spread = measure("m", "Standard deviation of the pitch of the painted spiral", 0.0)
-    samples: int = Field(500, ge=1, description="Number of dances drawn at random")
-    seed: int = Field(
+    samples: Whole = Field(500, ge=1, description="Number of dances drawn at random")
+    seed: Whole = Field(
         1, ge=0, le=SEED_MAX, description="Seed of the random numbers: the same seed gives the same dances"
     )
 

@@ -7,7 +7,7 @@ from pydantic import Field
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
 from app.wire.dances import PlacedDance
-from app.wire.question import Instant, Question, Terms, Wire, check_limit, measure
+from app.wire.question import Instant, Question, Terms, Whole, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, first_contact
 from core.errors import said
 
@@ -28,8 +28,8 @@ class FilmFields(Wire):
         "s", "Last instant; default: first contact, otherwise the end of the run, at most 1,000 s after the start", None
     )
     seconds: float = measure("s", "Length of the film", 20.0, ge=0.1, le=120)
-    rate: int | None = measure("1/s", "Frames per second; default: 30, or 12 for a GIF", None, ge=1, le=60)
-    height: int | None = measure(
+    rate: Whole | None = measure("1/s", "Frames per second; default: 30, or 12 for a GIF", None, ge=1, le=60)
+    height: Whole | None = measure(
         "pixels", "Height of the picture, 16 : 9; default: 1080, or 360 for a GIF", None, ge=90, le=2160, multiple_of=2
     )
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture")

@@ -9,7 +9,7 @@ from app.questions.minimum_pitch import allowed
 from app.wire.answers import Columns, Pair, Point
 from app.wire.dances import DragonFields
 from app.wire.paths import Circle
-from app.wire.question import UNKNOWN_COST, Answer, Question, Terms, UniformDragon, measure
+from app.wire.question import UNKNOWN_COST, Answer, Question, Terms, UniformDragon, Whole, measure
 from core.design.pitch_scan import JUMP, pitches_near, scan_near_minimum
 
 # Time of a first contact near the minimum pitch, measured 2026-11-22 [s].
@@ -19,7 +19,7 @@ SECONDS_PER_SAMPLE = 1.5e-3
 class ScanFields(Circle):
     """Pitches around the minimum pitch."""
 
-    samples: int = Field(101, ge=2, le=401, description="Number of evenly spaced pitches in the answer")
+    samples: Whole = Field(101, ge=2, le=401, description="Number of evenly spaced pitches in the answer")
 
 
 class Located(ScanFields):

@@ -10,7 +10,7 @@ from app.questions.minimum_pitch import allowed
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields
 from app.wire.paths import WayToCircle
-from app.wire.question import Answer, Pitch, Question, Terms, UniformDragon, measure
+from app.wire.question import Answer, Pitch, Question, Terms, UniformDragon, Whole, measure
 from core import Dragon, InvalidValue, Limit, TooMuchWork
 from core.errors import said
 from core.values import Floats
@@ -27,7 +27,7 @@ class CurveFields(WayToCircle):
 
     from_pitch: Pitch | None = measure("m", "Lowest pitch; default: a millionth above the minimum pitch", None)
     to_pitch: Pitch | None = measure("m", "Highest pitch; default: twice the lowest one", None)
-    samples: int = Field(20, ge=2, le=401, description="Number of pitches, evenly spaced")
+    samples: Whole = Field(20, ge=2, le=401, description="Number of pitches, evenly spaced")
 
     def pitches(self, dragon: Dragon, terms: Terms) -> Floats:
         """raises: InvalidValue for a highest pitch that is not above the lowest one"""

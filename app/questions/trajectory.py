@@ -10,13 +10,13 @@ from pydantic import Field
 import core
 from app.files import tables
 from app.wire.dances import TimedDance
-from app.wire.question import JSON, Answer, Question, Terms, measure
+from app.wire.question import JSON, Answer, Question, Terms, Whole, measure
 
 
 class TrajectoryRequest(TimedDance):
     """Positions and speeds of every handle at every instant."""
 
-    decimals: int | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; default: full precision")
+    decimals: Whole | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; default: full precision")
 
 
 class TrajectoryTable(Answer):

@@ -7,19 +7,22 @@ on 2026-11-22), in any thread. So their number is limited, by a count of the bra
 from __future__ import annotations
 
 import asyncio
+import json
 import re
-from contextlib import suppress
+from collections import Counter
 from typing import Annotated, Any
 
 from anyio import CapacityLimiter, to_thread
 from fastapi import Depends, Request, Response
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
+from starlette.types import Message
 
 from app.service.middleware import Handler, Lanes, watched
-from app.service.problems import Refused, validation_problem
+from app.service.problems import Refused, broken_json, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings
+from app.wire.messages import shown
 from app.wire.problem import ERRORS_MAX, ErrorItem
 from app.wire.question import JSON
 
@@ -30,6 +33,32 @@ LARGE_COST = 1.0
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(rb"\\u(?:0000|[dD][89a-fA-F])")
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
+
+
+class JsonRequest(Request):
+    """A request whose body is JSON that states every name of an object once."""
+
+    def __init__(self, request: Request, body: bytes) -> None:
+        async def receive() -> Message:
+            return {"type": "http.request", "body": body, "more_body": False}
+
+        super().__init__(request.scope, receive)
+        self._read: list[Any] = []
+
+    async def json(self) -> Any:
+        """raises: ValueError for a body that is not JSON, RecursionError; Refused (422) for a name given twice"""
+        if not self._read:
+            self._read.append(json.loads(await self.body(), object_pairs_hook=_once))
+        return self._read[0]
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        name = next(name for name, times in Counter(name for name, _ in pairs).items() if times > 1)
+        detail = f"{shown(name)} is given more than once in an object of the body: give it once"
+        raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
+    return found
 
 
 class WatchedRoute(APIRoute):
@@ -58,10 +87,17 @@ class BodyRoute(WatchedRoute):
     def unwatched(self) -> Handler:
         answer = super().unwatched()
 
-        async def small(request: Request) -> Response:
-            if ESCAPES.search(await request.body()):
-                with suppress(ValueError, RecursionError):  # It is not JSON, which the answer reports.
-                    _refuse_no_text(await request.json())
+        async def small(plain: Request) -> Response:
+            refuse_type(plain)
+            if not (body := await plain.body()):
+                return await answer(plain)
+            request = JsonRequest(plain, body)
+            try:
+                value = await request.json()
+            except (ValueError, RecursionError) as error:
+                return broken_json(error)
+            if ESCAPES.search(body):
+                _refuse_no_text(value)
             return await answer(request)
 
         async def in_thread(request: Request) -> Response:
@@ -106,16 +142,27 @@ def content_type(request: Request) -> str:
     return request.headers.get("content-type", "").partition(";")[0].strip().lower()
 
 
-async def reply_body(request: Request) -> Reply:
-    """Reply to a call that takes a JSON body and no query.
-
-    raises: Refused 415 for a body of another type, 422 for a query
-    """
+def refuse_type(request: Request) -> None:
+    """raises: Refused (415) for a body that is not JSON, or that is compressed"""
     kind = content_type(request)
     has_body = request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
     if has_body and kind != JSON:
         detail = f"The body must be {JSON}, got {kind or 'no Content-Type'}: send the header Content-Type: {JSON}."
         raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": JSON})
+    if has_body:
+        refuse_coded(request)
+
+
+def refuse_coded(request: Request) -> None:
+    """raises: Refused (415) for a body that is compressed"""
+    coding = request.headers.get("content-encoding", "identity").strip()
+    if coding.lower() != "identity":
+        detail = f"The body must not be compressed, got Content-Encoding: {shown(coding)[1:-1]}: send it as it is."
+        raise Refused(415, detail, [ErrorItem(name="Content-Encoding", detail=detail)], {"Accept-Encoding": "identity"})
+
+
+async def reply_body(request: Request) -> Reply:
+    """Reply to a call that takes a body and no query. raises: Refused (422) for a query"""
     await refuse_query(request)
     return Reply(request)
 

@@ -77,7 +77,7 @@ class RequestLimits(Layer):
             message = await receive()
             read += len(message.get("body", b""))
             if read > most:
-                raise self._refused(most)
+                raise self._refused(most, "more")
             return message
 
         if refused := self._refused_head(Headers(scope=scope), scope["query_string"], most):
@@ -93,10 +93,10 @@ class RequestLimits(Layer):
         if "transfer-encoding" in headers and "content-length" in headers:
             detail = "The length of a body is stated twice: send Content-Length or Transfer-Encoding, not both."
             return Refused(400, detail, [ErrorItem(name="Content-Length", detail=detail)], CLOSE)
-        return self._refused(most) if stated.isdecimal() and int(stated) > most else None
+        return self._refused(most, stated) if stated.isdecimal() and int(stated) > most else None
 
-    def _refused(self, most: int) -> Refused:
-        detail = f"The body must be at most {most} bytes: ask for less in one request."
+    def _refused(self, most: int, got: str) -> Refused:
+        detail = f"The body must be at most {most} bytes, got {got}: ask for less in one request."
         return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], CLOSE)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from http import HTTPStatus
+from json import JSONDecodeError
 from typing import get_type_hints
 
 from fastapi import FastAPI, Request, Response
@@ -12,7 +14,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match, Mount
 
 from app.wire.faults import Placing, in_body, in_query, refused, unfit
-from app.wire.messages import shown
+from app.wire.messages import fault_of, shown
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
 from core import BenchDragonError, TooMuchWork
 
@@ -59,15 +61,27 @@ async def core_problem(request: Request, error: BenchDragonError) -> Response:
 
 
 async def validation_problem(request: Request, error: RequestValidationError) -> Response:
-    """Answer to a request whose fields do not fit the schema, or to a body that is not JSON."""
+    """Answer to a request whose fields do not fit the schema."""
     found = error.errors()
-    if found[0]["type"] == "json_invalid":
-        position, why = found[0]["loc"][-1], found[0]["ctx"]["error"].removesuffix(" at")
-        detail = f"The body is not JSON: {why} at character {position}. Send an object such as {{}}."
-        return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
     if found[0]["loc"][0] == "path":
-        return await http_problem(request, HTTPException(404))
+        name, detail = found[0]["loc"][-1], fault_of(found[0], None).message
+        return problem(404, "not-found", detail, [ErrorItem(name=name, detail=detail)])
     return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
+
+
+def broken_json(error: ValueError | RecursionError) -> Response:
+    """Answer to a body that Python cannot read as JSON."""
+    match error:
+        case JSONDecodeError():
+            why = f"is not JSON: {error.msg.removesuffix(' at')} at character {error.pos}"
+        case UnicodeDecodeError():
+            why = f"is not text in UTF-8: byte {error.object[error.start]:#04x} at position {error.start}"
+        case RecursionError():
+            why = "nests too many objects and lists in one another"
+        case _:
+            why = f"has a whole number of more than {sys.get_int_max_str_digits()} digits"
+    detail = f"The body {why}. Send an object such as {{}}."
+    return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
 
 
 def _takes_file(request: Request) -> bool:
@@ -93,9 +107,6 @@ async def http_problem(request: Request, error: HTTPException) -> Response:
         if request.method == "OPTIONS":
             return Response(status_code=204, headers=headers)
         detail = f"{request.url.path} does not support {request.method}: use {headers['Allow']}."
-    elif status == 400 and detail == "There was an error parsing the body":
-        detail, code = "The body is not JSON in UTF-8. Send an object such as {}.", "broken-json"
-        items = [ErrorItem(pointer="", detail=detail)]
     return problem(status, code, detail, items, headers)
 
 

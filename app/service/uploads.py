@@ -19,7 +19,7 @@ from app.grade.report import GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.places import Places, read_places
 from app.questions.maps import FORMS
-from app.service.bodies import WatchedRoute, content_type
+from app.service.bodies import WatchedRoute, content_type, refuse_coded
 from app.service.graders import Graders
 from app.service.middleware import Lanes, client_of
 from app.service.problems import Refused
@@ -92,6 +92,7 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
         data = await request.body()
         if data:
             guard(request)
+            refuse_coded(request)
         kind = content_type(request)
         if data and kind not in types:
             known = " or ".join(types)

@@ -19,7 +19,7 @@ import core
 from app.sweeps.questions import Question, question_of
 from app.wire.dances import AXIS
 from app.wire.messages import checked
-from app.wire.question import measure
+from app.wire.question import Whole, measure
 from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8
@@ -47,7 +47,7 @@ class Range(_Told):
 
     start: float = measure("as the parameter", "First value")
     stop: float = measure("as the parameter", "Last value")
-    count: int | None = Field(None, ge=2, le=DESIGNS_MAX, description="Number of values; null: sampled")
+    count: Whole | None = Field(None, ge=2, le=DESIGNS_MAX, description="Number of values; null: sampled")
     scale: Literal["linear", "log"] = Field(
         "linear", description="linear: evenly spaced values; log: evenly spaced logarithms"
     )
@@ -75,11 +75,11 @@ class Range(_Told):
 class Samples(_Told):
     """Method for all sampled ranges together; point k depends on k alone."""
 
-    count: int = Field(ge=1, le=DESIGNS_MAX, description="Number of samples")
+    count: Whole = Field(ge=1, le=DESIGNS_MAX, description="Number of samples")
     sequence: Literal["sobol", "philox"] = Field(
         "sobol", description="sobol: spread evenly; philox: independent random ones"
     )
-    seed: int = Field(0, ge=0, lt=2**63, description="Seed of philox")
+    seed: Whole = Field(0, ge=0, lt=2**63, description="Seed of philox")
 
 
 Axis = Annotated[
@@ -101,7 +101,9 @@ class Spec(_Told):
     )
     request: dict[str, Any] = Field(default_factory=dict, description="The other parameters; default: their defaults")
     samples: Samples | None = Field(None, description="Method for ranges without a count")
-    shard_size: int | None = Field(None, ge=1, le=SHARD_MAX, description="Designs in a shard; null: about 5 s of work")
+    shard_size: Whole | None = Field(
+        None, ge=1, le=SHARD_MAX, description="Designs in a shard; null: about 5 s of work"
+    )
 
     @classmethod
     def of(cls, told: Any, question: Question | None = None) -> Self:

@@ -115,6 +115,8 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> str:
             return f" must be at most {limit}, {got}{_unit_hint(number, limits['le'], unit)}"
         case "finite_number":
             return f" must be a finite number{of_unit}, {got}"
+        case "float_type" if isinstance(value, int) and not isinstance(value, bool):
+            return f" must be a finite number{of_unit}, {got}"
         case "float_type" | "float_parsing":
             return f" must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
@@ -135,7 +137,8 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> str:
         case "too_long":
             return f" must have at most {limits['max_length']} entries, got more"
         case "union_tag_invalid":
-            return f" must be one of {_quoted(limits['expected_tags'])}, got {shown(limits['tag'])}"
+            kind = value.get("kind") if isinstance(value, dict) else limits["tag"]
+            return f" must be one of {_quoted(limits['expected_tags'])}, got {shown(kind)}"
         case "too_deep":
             return f" must nest objects and lists at most {limits['most']} deep"
         case "literal_error" | "enum":
@@ -156,6 +159,10 @@ def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: 
     """The rest of the sentence after a name that is unknown at its place."""
     if homes := _homes(name, asked, place[1:-1]):
         return f" is unknown here: it belongs in {' or '.join(homes)}"
+    if place[-2] in KINDS:
+        kinds = sorted(kind for kind in KINDS if name in names_at(asked, (*place[1:-2], kind)))
+        if kinds:
+            return f" is unknown in the kind {shown(place[-2])}: it belongs to {' or '.join(map(shown, kinds))}"
     alike = ALIKE if name in units else ALIKE_SLIP
     near = difflib.get_close_matches(name, names_at(asked, place[1:-1]), n=1, cutoff=alike)
     return " is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")

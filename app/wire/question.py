@@ -13,7 +13,7 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 
@@ -41,6 +41,12 @@ def unit_of(field: FieldInfo) -> str:
     return str(extra["x-unit"]) if isinstance(extra, dict) and "x-unit" in extra else ""
 
 
+def _whole(value: Any) -> Any:
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+# A whole number of JSON, of which 223.0 is one.
+Whole = Annotated[int, BeforeValidator(_whole)]
 # Least and largest sizes of a bench [m].
 LENGTHS, WIDTHS, OVERHANGS = (1e-3, 50.0), (1e-3, 5.0), (0.0, 5.0)
 Length = Annotated[float, Field(ge=LENGTHS[0], le=LENGTHS[1])]
@@ -139,7 +145,7 @@ uniform_dragon = lru_cache(maxsize=4)(Dragon)
 class UniformDragon(Wire):
     """A head and a body of equal benches."""
 
-    benches: int = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
+    benches: Whole = Field(223, ge=1, le=BENCHES_MAX, description="Number of benches")
     head_length: Length = measure("m", "Length of the head's bench", 3.41)
     body_length: Length = measure("m", "Length of every other bench", 2.20)
     width: Width = measure("m", "Width of every bench", 0.30)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 from typing import Any, NamedTuple
 
@@ -82,6 +83,23 @@ BAD_BODIES = [
         ("half",),
     ),
     Bad("other_path", '{"path": {"kind": "maze"}}', "/path/kind", ('"spiral"', '"route"', "maze")),
+    Bad("kind_of_null", '{"path": {"kind": null}}', "/path/kind", ('"spiral"', "got null")),
+    Bad("kind_as_number", '{"path": {"kind": 3}}', "/path/kind", ('"spiral"', "got 3")),
+    Bad(
+        "forgotten_kind",
+        '{"path": {"points": [[0, 0], [9, 9]]}}',
+        "/path/points",
+        ('in the kind "spiral"', 'belongs to "waypoints"'),
+    ),
+    Bad(
+        "field_of_another_piece",
+        '{"path": {"kind": "route", "pieces": [{"kind": "line", "pitch": 1}]}}',
+        "/path/pieces/0/pitch",
+        ('in the kind "line"', 'belongs to "coil"'),
+    ),
+    Bad("name_twice", '{"path": {"kind": "spiral", "pitch": 0.5, "pitch": 0.6}}', "", ('"pitch" is given more than',)),
+    Bad("number_beyond_double", '{"path": {"pitch": 1' + "0" * 400 + "}}", "/path/pitch", ("finite number [m]",)),
+    Bad("part_of_a_bench", '{"dragon": {"benches": 2.5}}', "/dragon/benches", ("whole number", "got 2.5")),
     Bad("path_as_list", '{"path": []}', "/path", ("JSON object",)),
     Bad("unknown_field", '{"path": {"pich": 0.5}}', "/path/pich", ("unknown", "did you mean pitch?")),
     Bad("slash_in_name", '{"a/b": 1}', "/a~1b", ("unknown",)),
@@ -92,12 +110,12 @@ BAD_BODIES = [
     Bad("null", "null", "", ("JSON object",)),
 ]
 BROKEN_BODIES = {
-    "broken": b"{bad",
-    "cut_off": b'{"times": [1, 2',
-    "two_values": b"{} {}",
-    "no_utf8": b"\xff\xfe{}",
-    "deep": b"[" * 100_000,
-    "endless_digits": b'{"times": [' + b"9" * 10_000 + b"]}",
+    "broken": (b"{bad", "is not JSON: Expecting property name"),
+    "cut_off": (b'{"times": [1, 2', "is not JSON: Expecting ',' delimiter at character 15"),
+    "two_values": (b"{} {}", "is not JSON: Extra data at character 3"),
+    "no_utf8": (b'{"a": "\xff"}', "is not text in UTF-8: byte 0xff at position 7"),
+    "deep": (b"[" * 100_000, "nests too many objects and lists"),
+    "endless_digits": (b'{"times": [' + b"9" * 10_000 + b"]}", "has a whole number of more than 4300 digits"),
 }
 
 
@@ -133,10 +151,30 @@ def test_a_bad_body_is_a_problem(client: httpx.Client, bad: Bad) -> None:
     assert_problem(answer, 422, bad.place, bad.words)
 
 
-@pytest.mark.parametrize("body", BROKEN_BODIES.values(), ids=BROKEN_BODIES)
-def test_a_body_that_is_no_json_is_a_problem(client: httpx.Client, body: bytes) -> None:
+@pytest.mark.parametrize(("body", "words"), BROKEN_BODIES.values(), ids=BROKEN_BODIES)
+def test_a_body_that_is_no_json_is_a_problem(client: httpx.Client, body: bytes, words: str) -> None:
     answer = client.post("/trajectory", content=body, headers={"Content-Type": "application/json"})
-    assert_problem(answer, 400, "", ("not JSON",))
+    assert_problem(answer, 400, "", (f"The body {words}",))
+
+
+@pytest.mark.parametrize(("path", "kind"), [("/trajectory", "application/json"), ("/grade", "application/zip")])
+def test_a_compressed_body_is_a_problem(client: httpx.Client, path: str, kind: str) -> None:
+    headers = {"Content-Type": kind, "Content-Encoding": "gzip"}
+    answer = client.post(path, content=gzip.compress(b"{}"), headers=headers)
+    assert_problem(answer, 415, "Content-Encoding", ("must not be compressed", "got Content-Encoding: gzip"))
+    assert answer.headers["accept-encoding"] == "identity"
+
+
+def test_an_unknown_format_is_not_found_and_the_known_ones_are_named(client: httpx.Client) -> None:
+    assert_problem(client.get("/figures/contact.pdf"), 404, "format", ('must be "svg" or "png", got "pdf"',))
+
+
+def test_a_whole_number_may_have_a_fraction_of_nought(client: httpx.Client) -> None:
+    """JSON has one type for numbers: 5.0 is the integer 5 of the schema."""
+    bodies = ('{"dragon": {"benches": 5.0}, "times": [0]}', '{"dragon": {"benches": 5}, "times": [0]}')
+    one, other = (client.post("/trajectory", content=b, headers={"Content-Type": "application/json"}) for b in bodies)
+    assert one.json() == other.json()
+    assert len(one.json()["x"][0]) == 6
 
 
 @pytest.mark.parametrize("kind", ["text/plain", "application/x-www-form-urlencoded", "application/xml", ""])

@@ -173,6 +173,6 @@ export const WHOLE = [
   [/^passages must (?:be|have) at most (\d+).*$/, "There may be at most {1} passages", "变速段最多为 {1} 段"],
   [/^designs must be at most (.+) here, got (.+): .+$/, "A sweep may have at most {1} designs here, and this one has {2}", "一次最多计算 {1} 个方案，现为 {2} 个"],
   [/^over must have at least 1 entry.*$/, "Choose a parameter", "请选择一个参数"],
-  [/^"(.+)" is unknown here.*$/, null, "“{1}”不可识别"],
+  [/^"(.+)" is unknown (?:here|in the kind).*$/, null, "“{1}”不可识别"],
   [/^HTTP (\d+)$/, "The service answered with HTTP {1} and gave no reason", "服务的回答为 HTTP {1}，没有说明原因"],
 ];
