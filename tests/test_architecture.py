@@ -148,6 +148,7 @@ ORDER = (
     "app.wire.dances",
     "app.wire.refusals",
     "app.wire.messages",
+    "app.wire.texts",
     "app.wire.problem",
     "app.wire.faults",
     "app.files.outlines",

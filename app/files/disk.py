@@ -5,17 +5,15 @@ from __future__ import annotations
 import errno
 import os
 import sys
-import tomllib
 from collections.abc import Sequence
 from datetime import time
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-import orjson
-
 from app.files.flush import new_file
 from app.wire.messages import OBJECT, shown
+from app.wire.texts import Unreadable, json_of, text_of, toml_of
 from core import InvalidValue
 
 # Endings of a file that describes a dance.
@@ -78,9 +76,9 @@ def _standard_input() -> bytes:
 def read_json(file: Path) -> dict[str, Any]:
     """The JSON object in a file, or on standard input for -. raises: InvalidValue, OSError"""
     try:
-        found = orjson.loads(_standard_input() if str(file) == "-" else file.read_bytes())
-    except orjson.JSONDecodeError as error:
-        raise InvalidValue.in_words("file", f"{file} is not JSON: {error}") from error
+        found = json_of(_standard_input() if str(file) == "-" else file.read_bytes())
+    except Unreadable as error:
+        raise InvalidValue.in_words("file", f"{file} {error}") from error
     if not isinstance(found, dict):
         raise InvalidValue.in_words("file", f"{file} must hold a JSON object, got {shown(found)}")
     return found
@@ -99,13 +97,13 @@ def read_dance(file: Path) -> dict[str, Any]:
             "file", f"{file} must end in {' or '.join(DANCE_ENDINGS)}, got {ending or 'no ending'}"
         )
     piped = _standard_input() if str(file) == "-" else b""
-    if ending != ".toml" and (not piped.strip() or piped.lstrip().startswith(b"{")):
+    if ending != ".toml" and (not piped.strip() or piped.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")):
         asked = read_json(file)
     else:
         try:
-            asked = tomllib.loads((piped or file.read_bytes()).decode())
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InvalidValue.in_words("file", f"{file} is not TOML: {error}") from error
+            asked = toml_of(piped or file.read_bytes())
+        except Unreadable as error:
+            raise InvalidValue.in_words("file", f"{file} {error}") from error
     if not asked:
         print(f"{file} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
@@ -118,11 +116,11 @@ def read_dance(file: Path) -> dict[str, Any]:
     if isinstance(asked.get("dragon"), str):
         place = file.parent / asked["dragon"]
         try:
-            asked["dragon"] = {"csv": place.read_text(encoding="utf-8")}
+            asked["dragon"] = {"csv": text_of(place.read_bytes())}
         except OSError as error:
             raise InvalidValue("dragon", f"of {file}: {place}: {error.strerror}") from error
-        except UnicodeDecodeError as error:
-            raise InvalidValue.in_words("dragon", f"{place} must be text in UTF-8: {error}") from error
+        except Unreadable as error:
+            raise InvalidValue.in_words("dragon", f"{place} {error}") from error
     if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
         asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked

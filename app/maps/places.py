@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -17,6 +16,7 @@ from app.maps.features import features_of
 from app.maps.layout import DanceParts, Reading, checked_path
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
+from app.wire.texts import Unreadable, toml_of
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 
 # Longest file [bytes].
@@ -75,10 +75,10 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
         return Reading(dxf.read(data), units, say).found()
     try:
-        return _of_dance(tomllib.loads(data.decode()), say)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        return _of_dance(toml_of(data), say)
+    except Unreadable as error:
         words = "file must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON"
-        raise InvalidValue.in_words("file", f"{words}, got none of these: read as TOML, {error}") from error
+        raise InvalidValue.in_words("file", f"{words}, got none of these: it {error}") from error
 
 
 def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:

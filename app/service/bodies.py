@@ -7,9 +7,6 @@ on 2026-11-22), in any thread. So their number is limited, by a count of the bra
 from __future__ import annotations
 
 import asyncio
-import json
-import re
-from collections import Counter
 from typing import Annotated, Any
 
 from anyio import CapacityLimiter, to_thread
@@ -19,20 +16,18 @@ from fastapi.routing import APIRoute
 from starlette.types import Message
 
 from app.service.middleware import Handler, Lanes, watched
-from app.service.problems import Refused, broken_json, validation_problem
+from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings
 from app.wire.messages import shown
 from app.wire.problem import ERRORS_MAX, ErrorItem
 from app.wire.question import JSON
+from app.wire.texts import Unreadable, json_of
 
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
 LARGE = 64_000
 # Estimated time to answer a large body, for the Retry-After of a full lane [s].
 LARGE_COST = 1.0
-# Escapes for the character NUL and for halves of characters; a text that holds one is refused.
-ESCAPES = re.compile(rb"\\u(?:0000|[dD][89a-fA-F])")
-NO_TEXT = re.compile("[\0\ud800-\udfff]")
 
 
 class JsonRequest(Request):
@@ -46,19 +41,10 @@ class JsonRequest(Request):
         self._read: list[Any] = []
 
     async def json(self) -> Any:
-        """raises: ValueError for a body that is not JSON, RecursionError; Refused (422) for a name given twice"""
+        """raises: Unreadable"""
         if not self._read:
-            self._read.append(json.loads(await self.body(), object_pairs_hook=_once))
+            self._read.append(json_of(await self.body()))
         return self._read[0]
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        name = next(name for name, times in Counter(name for name, _ in pairs).items() if times > 1)
-        detail = f"{shown(name)} is given more than once in an object of the body: give it once"
-        raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
-    return found
 
 
 class WatchedRoute(APIRoute):
@@ -93,11 +79,9 @@ class BodyRoute(WatchedRoute):
                 return await answer(plain)
             request = JsonRequest(plain, body)
             try:
-                value = await request.json()
-            except (ValueError, RecursionError) as error:
-                return broken_json(error)
-            if ESCAPES.search(body):
-                _refuse_no_text(value)
+                await request.json()
+            except Unreadable as error:
+                return unreadable(error)
             return await answer(request)
 
         async def in_thread(request: Request) -> Response:
@@ -121,20 +105,6 @@ class BodyRoute(WatchedRoute):
                 return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
 
         return handled
-
-
-def _refuse_no_text(value: Any) -> None:
-    """raises: Refused (422) when a text in the body, or a name, holds NUL or half a character"""
-    left = [value]
-    while left:
-        one = left.pop()
-        if isinstance(one, dict):
-            left += [*one, *one.values()]
-        elif isinstance(one, list):
-            left += one
-        elif isinstance(one, str) and NO_TEXT.search(one):
-            detail = f"A text in the body holds NUL or half of a character, near {one[:40]!a}: leave it out."
-            raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
 
 
 def content_type(request: Request) -> str:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from http import HTTPStatus
-from json import JSONDecodeError
 from typing import get_type_hints
 
 from fastapi import FastAPI, Request, Response
@@ -16,6 +14,7 @@ from starlette.routing import Match, Mount
 from app.wire.faults import Placing, in_body, in_query, refused, unfit
 from app.wire.messages import fault_of, shown
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
+from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
 
 # Advice to a client whose answer takes too much work.
@@ -69,19 +68,11 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
     return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
 
 
-def broken_json(error: ValueError | RecursionError) -> Response:
-    """Answer to a body that Python cannot read as JSON."""
-    match error:
-        case JSONDecodeError():
-            why = f"is not JSON: {error.msg.removesuffix(' at')} at character {error.pos}"
-        case UnicodeDecodeError():
-            why = f"is not text in UTF-8: byte {error.object[error.start]:#04x} at position {error.start}"
-        case RecursionError():
-            why = "nests too many objects and lists in one another"
-        case _:
-            why = f"has a whole number of more than {sys.get_int_max_str_digits()} digits"
-    detail = f"The body {why}. Send an object such as {{}}."
-    return problem(400, "broken-json", detail, [ErrorItem(pointer="", detail=detail)])
+def unreadable(error: Unreadable) -> Response:
+    """Answer to a body that cannot be read as JSON."""
+    detail = f"The body {error}. Send an object such as {{}}."
+    status, code = (422, "invalid-value") if isinstance(error, Unfit) else (400, "broken-json")
+    return problem(status, code, detail, [ErrorItem(pointer="", detail=detail)])
 
 
 def _takes_file(request: Request) -> bool:

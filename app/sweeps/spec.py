@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -20,6 +19,7 @@ from app.sweeps.questions import Question, question_of
 from app.wire.dances import AXIS
 from app.wire.messages import checked
 from app.wire.question import Whole, measure
+from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
 
 DESIGNS_MAX = 10**8
@@ -126,12 +126,10 @@ class Spec(_Told):
     @classmethod
     def read(cls, file: Path) -> Self:
         """The spec in a .toml or .json file. raises: InvalidValue, TooLarge, OSError"""
-        data, toml = file.read_bytes(), file.suffix.lower() == ".toml"
         try:
-            told = tomllib.loads(data.decode()) if toml else orjson.loads(data)
-        except (tomllib.TOMLDecodeError, orjson.JSONDecodeError, UnicodeDecodeError) as error:
-            raise InvalidValue.in_words("spec", f"{file} is not {'TOML' if toml else 'JSON'}: {error}") from error
-        return cls.of(told)
+            return cls.of((toml_of if file.suffix.lower() == ".toml" else json_of)(file.read_bytes()))
+        except Unreadable as error:
+            raise InvalidValue.in_words("spec", f"{file} {error}") from error
 
     @property
     def asks(self) -> Question:

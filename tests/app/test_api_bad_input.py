@@ -97,7 +97,7 @@ BAD_BODIES = [
         "/path/pieces/0/pitch",
         ('in the kind "line"', 'belongs to "coil"'),
     ),
-    Bad("name_twice", '{"path": {"kind": "spiral", "pitch": 0.5, "pitch": 0.6}}', "", ('"pitch" is given more than',)),
+    Bad("name_twice", '{"path": {"kind": "spiral", "pitch": 0.5, "pitch": 0.6}}', "", ('name "pitch" more than once',)),
     Bad("number_beyond_double", '{"path": {"pitch": 1' + "0" * 400 + "}}", "/path/pitch", ("finite number [m]",)),
     Bad("part_of_a_bench", '{"dragon": {"benches": 2.5}}', "/dragon/benches", ("whole number", "got 2.5")),
     Bad("path_as_list", '{"path": []}', "/path", ("JSON object",)),

@@ -224,6 +224,7 @@ def test_benches_that_overlap_at_the_start_are_said_to(tmp_path: Path) -> None:
         ('"line"', '"maze"', ["path.pieces[0]", '"line"', "maze"]),
         ("yard.geojson", "garden.geojson", ["garden.geojson", "No such file"]),
         ("margin =", "margin", ["not TOML"]),
+        ("margin =", "a = " + "[" * 10_000 + "\nmargin =", ["dance.toml nests too many"]),
         ("start = 15", "start = 1", ["start must be at least 7.81", "got 1 s"]),
     ],
 )
@@ -233,6 +234,13 @@ def test_a_dance_that_is_none_is_one_line_and_exit_code_2(dance: Path, old: str,
     assert (done.returncode, done.stdout) == (2, "")
     assert len(done.stderr.splitlines()) == 1
     assert [word for word in words if word not in done.stderr] == []
+
+
+def test_a_file_that_windows_saved_is_read(dance: Path) -> None:
+    answer = answer_of("check", str(dance))
+    for encoding in ("utf-8-sig", "utf-16"):
+        dance.write_text(DANCE, encoding=encoding)
+        assert answer_of("check", str(dance)) == answer
 
 
 def test_a_figure_of_another_format_is_refused(dance: Path) -> None:

@@ -126,7 +126,7 @@ export const WHOLE = [
   [/^start_clock: must be a time of day.*$/, "A time of day is like 19:30 or 19:30:15", "时刻的格式为 19:30 或 19:30:15"],
   [/^marks must be at most (\d+) here, got (\d+): .+$/, "The path is too long for chalk marks: there would be {2} of them, and there may be {1}", "路径过长：将有 {2} 个粉笔标记，最多可有 {1} 个"],
   [/^origin must be known for KML.*$/, "KML needs to know where on earth the square is. Give its latitude and longitude under Route, or keep GeoJSON or DXF, which are in metres", "KML 需要知道广场在地球上的位置：请在“路线”中填写其纬度和经度，或改存以米为单位的 GeoJSON、DXF"],
-  [/^file must be GeoJSON, .+ read as TOML, .+ \(at line (\d+), .+\)$/s, "This file cannot be read here, and as a dance in TOML it has a fault in line {1}. Save a map as GeoJSON, KML, KMZ or DXF", "无法读取此文件；若为 TOML，其第 {1} 行有误。地图请存为 GeoJSON、KML、KMZ 或 DXF"],
+  [/^file must be GeoJSON, .+: it is not TOML: .+ \(at line (\d+), .+\)$/s, "This file cannot be read here, and as a dance in TOML it has a fault in line {1}. Save a map as GeoJSON, KML, KMZ or DXF", "无法读取此文件；若为 TOML，其第 {1} 行有误。地图请存为 GeoJSON、KML、KMZ 或 DXF"],
   [/^file must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, got none of these.*$/s, "This file cannot be read here. Save it as GeoJSON, KML, KMZ or DXF, or as a dance in TOML or JSON", "无法读取此文件：请存为 GeoJSON、KML、KMZ 或 DXF，或 TOML、JSON 格式的舞龙文件"],
   [/^(?:Send a map as the body|file must hold a map).*$/, "The file is empty", "文件是空的"],
   [/^file must be JSON, got one with a fault: (.+)$/, null, "文件不是正确的 JSON"],

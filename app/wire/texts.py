@@ -1,0 +1,89 @@
+"""Text of requests: files and bodies as text, and JSON that states every name of an object once."""
+
+from __future__ import annotations
+
+import codecs
+import json
+import re
+import sys
+import tomllib
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from app.wire.messages import shown
+
+# Escapes for the character NUL and for halves of characters; a text that holds one is refused.
+ESCAPES = re.compile(r"\\u(?:0000|[dD][89a-fA-F])")
+NO_TEXT = re.compile("[\0\ud800-\udfff]")
+
+
+class Unreadable(ValueError):
+    """Bytes that are no text, or text in no known form; the message begins with a verb, such as "is not JSON: ..."."""
+
+
+class Unfit(Unreadable):
+    """JSON with a name given twice, or with a text that is none."""
+
+
+def text_of(data: bytes) -> str:
+    """Text in UTF-8, or in UTF-16 with a byte order mark, as Windows saves it. raises: Unreadable"""
+    marked = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    try:
+        return data.decode("utf-16" if marked else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        byte, place = data[error.start], error.start
+        raise Unreadable(f"is not text in UTF-8: byte {byte:#04x} at position {place}") from error
+
+
+def json_of(data: bytes) -> Any:
+    """The value of JSON. raises: Unreadable"""
+    text = text_of(data)
+    with _refusing():
+        found = json.loads(text, object_pairs_hook=_once)
+    if ESCAPES.search(text):
+        _refuse_no_text(found)
+    return found
+
+
+def toml_of(data: bytes) -> dict[str, Any]:
+    """The values of TOML. raises: Unreadable"""
+    with _refusing():
+        return tomllib.loads(text_of(data))
+
+
+@contextmanager
+def _refusing() -> Iterator[None]:
+    try:
+        yield
+    except Unreadable:
+        raise
+    except json.JSONDecodeError as error:
+        raise Unreadable(f"is not JSON: {error.msg.removesuffix(' at')} at character {error.pos}") from error
+    except tomllib.TOMLDecodeError as error:
+        raise Unreadable(f"is not TOML: {error}") from error
+    except RecursionError as error:
+        raise Unreadable("nests too many objects and lists in one another") from error
+    except ValueError as error:  # Python reads no longer numbers.
+        raise Unreadable(f"has a whole number of more than {sys.get_int_max_str_digits()} digits") from error
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        name = next(name for name, times in Counter(name for name, _ in pairs).items() if times > 1)
+        raise Unfit(f"has an object with the name {shown(name)} more than once")
+    return found
+
+
+def _refuse_no_text(value: Any) -> None:
+    left = [value]
+    while left:
+        one = left.pop()
+        if isinstance(one, dict):
+            left += [*one, *one.values()]
+        elif isinstance(one, list):
+            left += one
+        elif isinstance(one, str) and NO_TEXT.search(one):
+            raise Unfit(f"has a text with NUL or half of a character, near {one[:40]!a}")
