@@ -23,7 +23,7 @@ help:
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
-	@echo 'make soak     each attack alone, then 64 clients and all attacks at once, 8 minutes (SECONDS=, FOLDER= for its curve)'
+	@echo 'make soak     each attack alone, then all in turn beside 64 clients, 8 minutes (SECONDS=, FOLDER= for its curve)'
 	@echo 'make fuzz     10,000 requests from the service description and 12,000 odd ones (CASES=, MUTANTS=, SEED=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
@@ -43,7 +43,7 @@ setup:
 # bytecode: Python writes it at the first import, and most installed modules are never imported.
 $(VENV)/tools: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
-	@echo 'Installing the locked packages into $(VENV) (a minute, once)'
+	@echo 'Installing the locked packages into $(VENV) (one to four minutes, once)'
 	@$(PIP) install --no-compile "$$(grep '^pip==' requirements.lock)"
 	@grep -iE '^(cython|setuptools)==' requirements.lock | xargs $(PIP) install --no-deps --no-compile
 	@touch $@

@@ -109,13 +109,17 @@ class Settings(BaseModel):
     pairs_max: int = Field(20_000, ge=1, description="Largest number of overlapping pairs in one /overlaps answer")
     query_bytes_max: int = Field(8_000, ge=1, description="Longest query [bytes]")
     parts_max: int = Field(200_000, ge=1, description="Most objects and lists in one request body")
-    cheap_max: int = Field(8, ge=1, description="Computations of up to 0.1 s at once in one process; more get 503")
-    heavy_max: int = Field(4, ge=1, description="Longer computations at once in one process; more get 503")
-    heavy_client_max: int = Field(
-        4, ge=1, description="Longer computations at once of one client in one process; more get 429"
+    cheap_max: int = Field(
+        8, ge=1, description="Computations of up to 0.1 s at once in one process; further ones get 503"
     )
-    workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; more get 503")
-    large_bodies_max: int = Field(4, ge=1, description="Bodies over 64 kB read at once in one process; more get 503")
+    heavy_max: int = Field(4, ge=1, description="Longer computations at once in one process; further ones get 503")
+    heavy_client_max: int = Field(
+        4, ge=1, description="Longer computations at once of one client in one process; further ones get 429"
+    )
+    workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; further ones get 503")
+    large_bodies_max: int = Field(
+        4, ge=1, description="Bodies over 64 kB read at once in one process; further ones get 503"
+    )
     retry_after: int = Field(1, ge=1, description="Shortest wait that a 503 asks for [s]")
     deadline_seconds: float = Field(10.0, gt=0, description="Longest computation of one answer [s]; jobs take longer")
     head_seconds: float = Field(10.0, gt=0, description="Longest time to send the head of a request [s]")
@@ -136,7 +140,7 @@ class Settings(BaseModel):
     token: str = Field(
         "", description="Token that jobs and uploads must carry (Authorization: Bearer); empty: none needed"
     )
-    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; more get 503")
+    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; further requests get 503")
     jobs_client_max: int = Field(20, ge=1, description="Unfinished jobs of one client; further requests get 429")
     jobs_running_max: int = Field(2, ge=1, description="Jobs that run at once; the others wait")
     jobs_bytes_max: int = Field(

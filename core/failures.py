@@ -89,7 +89,7 @@ def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
     if stray:
         return f"may {_meeting(margin, 'come', near)} with strays up to {said(stray)} m"
     if margin > 0.0:
-        return f"{come} nearer than {said(margin)} m{near and ' to '}{near}"
+        return f"{come} within {said(margin)} m{near and ' of '}{near}"
     return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
 
 

@@ -144,7 +144,7 @@ def draw_clearance(axes: Axes, time: Floats, clearance: Floats, grazes: Sequence
 def draw_scan(axes: Axes, points: Floats, pieces: Sequence[tuple[int, int]], jump: float, label: str) -> None:
     """Draw the radius of the head at first contact against the pitch: a staircase, its jumps dotted.
 
-    points: (N, 2) pitch, radius [m]; pieces: (start, end) indices; jump: largest distance of two pitches with a
+    points: (N, 2) pitch, radius [m]; pieces: (start, end) indices; jump: largest distance between two pitches with a
     jump between them [m]; label: of the staircase
     """
     from matplotlib.collections import LineCollection

@@ -186,7 +186,7 @@ def hull(x, y):
 
 
 def sqrt(x):
-    """For x >= 0."""
+    """Square root of an interval, for x >= 0."""
     return Interval(math.isqrt(x.lo << BITS), math.isqrt(x.hi << BITS) + 1)
 
 
@@ -195,7 +195,7 @@ PI = exactly(Fraction(31415926535897932384626433832795028841971693993751, 10**49
 
 
 def log(y):
-    """For y >= 1."""
+    """Natural logarithm of an interval, for y >= 1."""
     if y.hi > 2 * UNIT:
         return TWO * log(sqrt(y))
     x = total = power = (y - ONE) / (y + ONE)
@@ -225,7 +225,7 @@ def sin(x):
 
 
 def root(rising, wanted, reached, most):
-    """Where a function that rises takes the wanted value. reached(x): is x there, or above? In floats, a guess."""
+    """Guess, in floats, of the place at which a rising function takes a value. reached(x): True there and above."""
     scale, step = int(most * 2.0 ** (BITS - 56)), UNIT >> 40
     x = scale * bisect_left(range(1 << 56), True, key=lambda k: reached(k * most * 2.0**-56))
     value, further = (rising(Interval(end, end)).lo for end in (x, x + step))
@@ -278,7 +278,7 @@ class Chain:
         return HALF * self.growth * (theta * slant + log(theta + slant))
 
     def theta_after(self, way):
-        """Where the head is after this way."""
+        """Angle of the head after this way [rad]."""
         rest, most = self.arc(self.start) - way, 2.0 * float(self.start) + 1.0
         if not rest > ZERO:
             raise Refused("not proven: the claim reaches past the centre of the spiral")
@@ -298,7 +298,7 @@ def curving(theta, d):
 
 
 def bend(theta, bench):
-    """d of 1., for every theta of an interval."""
+    """Angle d between two handles, see 1., for every theta of an interval [rad]."""
     if theta.lo < 0 or next(BENDS_LEFT, None) is None:
         raise Loose("not proven: a handle may be past the centre, or this is too much work for this verifier")
     return hull(bend_at(theta.lo, bench), bend_at(theta.hi, bench))
@@ -362,7 +362,7 @@ class Row:
         return to + across + beside, to + across - beside, to - across - beside, to - across + beside
 
     def apart(self, partner, face):
-        """3."""
+        """Check by 3. of the docstring that this bench and a partner are apart, by one face."""
         pair = f"benches {self.bench} and {self.bench + partner} are not apart by face {face}"
         for low, high, between in zip(*(row.gaps(partner, face) for row in (*self.ends, self)), strict=True):
             low, high, slope = low.value, high.value, between.rate
@@ -373,20 +373,20 @@ class Row:
                 raise Loose(f"not proven: {pair} all over a stretch")
 
     def all_far(self, rear):
-        """4., of the benches that are not placed."""
+        """True if, by 4., this bench is apart from all benches that are not placed."""
         chain, nearest = self.chain, self.chain.growth * self.theta
         apart = chain.growth * rear + chain.benches[self.bench].reach + chain.reach
         return apart * apart < nearest * nearest - chain.chord * chain.chord * HALF * HALF
 
 
 def covered(chain, bench, low, high, faces, places, halvings=3):
-    """Where the next handle is, over a stretch in which these faces show this bench apart from the others."""
+    """Angle of the next handle over a stretch in which these faces show this bench apart from the others [rad]."""
     try:
         row = Row(chain, bench, low, high).grow()
         rear, rises = row.theta, row.rate > ZERO
         while len(row.placed) < min(len(faces) + 2, len(chain.benches) - bench):
             row.grow()
-        # As many benches are missing at the end as there are places below this stretch.
+        # The benches that are missing at the end are as many as the places below this stretch.
         if not (bench + len(row.placed) + bisect_left(places, low.lo) >= len(chain.benches) or row.all_far(rear)):
             raise Loose("not proven: pairs are missing")
         for partner, face in enumerate(faces, 2):
@@ -402,7 +402,7 @@ def covered(chain, bench, low, high, faces, places, halvings=3):
 
 
 def all_apart(chain, high, low, sweeps, repeats_from):
-    """5.: no two benches touch while the head goes from high in to low."""
+    """Check by 5. that no two benches touch while the head goes in from high to low."""
     count, way = len(chain.benches), hull(low, high)
     if repeats_from > max(0, count - 3) or (repeats_from < count - 3 and len(set(chain.benches[repeats_from:])) > 1):
         raise Refused(f"not proven: the benches from {repeats_from} on are not alike, or have no pairs")
@@ -493,7 +493,7 @@ def check_form(value, form, place):
 
 
 def verified(certificate, not_judged=("margin", "folds", "clear", "contact", "tolerance")):
-    """What the certificate proves, in words."""
+    """Statement that the certificate proves, in words."""
     check_form(certificate, dict, "")
     inside = [item for part in certificate.values() if isinstance(part, dict) for item in part.items()]
     if other := {name: value for name, value in inside if name in not_judged or value in not_judged}:

@@ -1,4 +1,4 @@
-"""How deep the tests sample: some of the random cases in every run, all of them by `make deep`."""
+"""Depth of the tests' samples: some of the random cases in every run, all of them by `make deep`."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ DEEP = "DEEP" in os.environ
 
 
 def some(cases: Sequence[Case], count: int) -> Sequence[Case]:
-    """So many of the cases, evenly spread; by `make deep` all."""
+    """`count` of the cases, evenly spread; all of them by `make deep`."""
     return cases if DEEP or count >= len(cases) else [cases[k * len(cases) // count] for k in range(count)]
 
 
 def examples(count: int, all_of_them: int) -> int:
-    """So many examples of hypothesis; by `make deep` all."""
+    """Number of examples of hypothesis; the full number by `make deep`."""
     return all_of_them if DEEP else count

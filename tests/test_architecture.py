@@ -293,7 +293,7 @@ ORDER = (
 )
 # The classes of paths, in core and in requests. A certificate writes a Turn by its own numbers, any other path by kind.
 PATHS = {"Spiral", "Route", "Turn", "Legs", "SpiralPath", "TurnPath", "RoutePath", "WaypointsPath"}
-# How often rooms ask for Path.spiral: for a pitch, a centre or a fold, which only a spiral has.
+# Uses of Path.spiral by room: for a pitch, a centre or a fold, which only a spiral has.
 ON_SPIRALS = {
     "core.dance": 1,  # its end: a fold
     "core.contact.search": 3,  # bounds by radius instead of place
@@ -314,7 +314,7 @@ ON_SPIRALS = {
 TABLES = {"table", "pieces", "frame", "chain", "motion"}
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
-# Of continuous collision detection, which are only compared with.
+# Engines of continuous collision detection, only for comparison.
 OTHER_ENGINES = {"Box2D", "ipctk"}
 # No function is longer, docstring included, or takes more parameters; and no room is longer.
 LINES_MOST, PARAMETERS_MOST, ROOM_MOST = 80, 8, 350

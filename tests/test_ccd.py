@@ -31,7 +31,7 @@ from tests.depth import some
 
 SHARD = load_shard(SAMPLE)
 EVERYTHING = np.ones(len(SHARD), dtype=bool)
-# Of the sample the queries that other engines than ours are asked.
+# Queries of the sample that other engines than ours are asked.
 OTHERS = SHARD.taken(np.array(some(range(len(SHARD)), 40)))
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
 # doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.
@@ -41,7 +41,7 @@ SAME = 1e-11
 
 
 def part(count: int) -> Shard:
-    """So many queries spread over the sample."""
+    """A number of queries spread over the sample."""
     return SHARD.taken(np.linspace(0, len(SHARD) - 1, count).astype(int))
 
 

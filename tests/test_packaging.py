@@ -26,7 +26,7 @@ SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = SETTINGS["project"]
 LOCK = [line for line in (ROOT / "requirements.lock").read_text().splitlines() if not line.startswith("#")]
 BUILD = runpy.run_path(str(ROOT / "setup.py"))
-# What every package may need alike, whatever the system.
+# Systems on which requirements may differ.
 SYSTEMS = {"linux": "Linux", "darwin": "Darwin", "win32": "Windows"}
 # In Python's library on POSIX systems alone.
 POSIX_ONLY = {"fcntl", "grp", "posix", "pty", "pwd", "resource", "syslog", "termios", "tty"}

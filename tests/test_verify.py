@@ -209,7 +209,7 @@ def test_certificates_of_all_kinds_are_verified(tmp_path: Path, name: str) -> No
     assert words in done.stdout
 
 
-# Where verify.py has other words than core.proof.
+# Refusals that verify.py words otherwise than core.proof.
 OWN_WORDS = dict.fromkeys(("a sweep dropped", "a sweep too many", "sweeps exchanged"), "the sweeps are not those of")
 
 

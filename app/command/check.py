@@ -117,7 +117,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
     """Rows of quantity, value, time and benches."""
     contact = report.first_contact
     pair = f"benches {show.shown(contact.benches)}" if contact.benches else ""
-    what = f"first nearer than {said(margin)} m" if margin else "first contact"
+    what = f"first within {said(margin)} m" if margin else "first contact"
     if contact.stray:
         what += f" with strays up to {said(contact.stray)} m"
     yield what, show.near(contact.outcome.value, margin), contact.time, pair

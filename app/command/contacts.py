@@ -17,10 +17,11 @@ from core.errors import said
 
 @asks(CollisionQuery, CollisionRequest)
 def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
-    """Time of first contact: when two benches first touch, or come nearer than a margin."""
+    """Time of first contact: when two benches first touch, or come within a margin."""
     with show.waiting("first contact"):
         answer = collisions.collision_time(asked, Terms())
-    title = f"First time that two benches are nearer than {said(asked.margin)} m" if asked.margin else "First contact"
+    near = f"First time that two benches are within {said(asked.margin)} m of each other"
+    title = near if asked.margin else "First contact"
     if stray := asked.to_stray():
         title += f" that may come about with strays up to {said(stray)} m"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)

@@ -21,14 +21,14 @@ def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, json: Json = F
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
     with show.waiting("minimum pitch"):
         answer = pitches.minimum_pitch(asked, Terms())
-    gap = f" and no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    gap = f" and no bench within {said(asked.margin)} m of another" if asked.margin else ""
     title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
 
 
 @asks(TurnQuery)
 def turn(asked: TurnQuery, json: Json = False) -> None:
-    """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
+    """Two tangent arcs that lead from a spiral inwards to the same spiral, rotated by half a turn, outwards."""
     show.print_answer("Turn", turns.turn(asked, Terms()), json)
 
 
@@ -37,7 +37,7 @@ def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, json: Json = F
     """The shortest turn inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         answer = shortest.shortest_turn(asked, Terms())
-    gap = f" with no bench nearer than {said(asked.margin)} m to another" if asked.margin else ""
+    gap = f" with no bench within {said(asked.margin)} m of another" if asked.margin else ""
     show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
 
 

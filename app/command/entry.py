@@ -13,7 +13,8 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 
 def main() -> None:
-    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # A shell's background ignores it.
+    # A shell lets its background jobs ignore SIGINT.
+    heeded = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if heeded:
         # No exception here, because a module that is being imported may catch it or turn it into another one.
         signal.signal(signal.SIGINT, _leave)

@@ -57,7 +57,7 @@ def figures(
         Path | None,
         typer.Argument(
             parser=path,
-            help="Folder for the files, created if missing; alone or before FILE too. Default: this folder.",
+            help="Folder for the files; created if missing. It may stand alone, or before FILE. Default: this folder.",
         ),
     ] = None,
     kind: Annotated[

@@ -147,7 +147,9 @@ def asks(
         parameters += [p for p in added if p.name not in own] + fields
         asked.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
         asked.__annotations__ = {p.name: p.annotation for p in parameters}
-        asked.__name__, asked.__doc__ = command.__name__, command.__doc__
+        asked.__name__ = command.__name__
+        # Help keeps the ends of lines of all paragraphs but the first.
+        asked.__doc__ = "\n\n".join(" ".join(one.split()) for one in (command.__doc__ or "").split("\n\n"))
         return asked
 
     return decorated

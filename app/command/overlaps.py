@@ -29,7 +29,7 @@ def overlaps(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Benches that overlap, or are nearer than a margin, at one instant, according to four engines."""
+    """Benches that overlap, or come within a margin, at one instant, according to four engines."""
     if file:
         why = "describes a dance, and FILE gives the benches: give one of the two"
         unused(context, InstantQuery.model_fields, why)
@@ -44,7 +44,7 @@ def overlaps(
 
 
 def _overlap_parts(answer: OverlapsAnswer, margin: float) -> Iterator[show.Part]:
-    title = f"Pairs nearer than {said(margin)} m" if margin else "Overlapping pairs"
+    title = f"Pairs within {said(margin)} m of each other" if margin else "Overlapping pairs"
     table = show.new_table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
     for one in answer.overlaps:
         witnesses = map(show.shown, (one.witness_a, one.witness_b))

@@ -30,7 +30,8 @@ from core.shown import counted
 def places(
     file: Annotated[Path, typer.Argument(help="A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json.")],
     units: Annotated[
-        str | None, typer.Option(metavar="metres|degrees", help="Unit of its coordinates; default: as it looks.")
+        str | None,
+        typer.Option(metavar="metres|degrees", help="Unit of its coordinates; default: recognised from them."),
     ] = None,
     output: Annotated[
         Path | None, typer.Option(help="Write a .json file for check: the square, its obstacles and the path.")

@@ -30,6 +30,7 @@ from app.settings import Settings
 from app.wire.messages import checked
 from app.wire.paths import Circle, TurnFields
 from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
+from app.wire.texts import Unreadable, json_of
 from core import InvalidValue, Outcome
 from core.errors import ProofRefused, said
 from core.tolerance.curve import time_on_circle
@@ -49,7 +50,7 @@ class _Thorough(Wire):
 
 
 class CollisionClaim(_Thorough, DanceQuery):
-    """First time two benches touch or come nearer than the margin."""
+    """First time two benches touch or come within the margin."""
 
     time: float | None = measure("s", "Time to prove; default: the answer of collision-time", None, ge=0)
     margin: Margin = 0.0
@@ -128,9 +129,9 @@ def check_or_prove(
         return
     data = sys.stdin.buffer.read() if str(check) == "-" else check.read_bytes()
     try:
-        certificate = orjson.loads(data)
-    except orjson.JSONDecodeError as error:
-        raise InvalidValue.in_words("check", f"{check} is not JSON: {error}") from error
+        certificate = json_of(data)
+    except Unreadable as error:
+        raise InvalidValue.in_words("check", f"{check} {error}") from error
     _print(_checked(certificate))
 
 
@@ -139,7 +140,7 @@ def check_or_prove(
 def collision_time(asked: CollisionClaim, output: Output = Path("collision-time.proof.json")) -> None:
     """Prove that nothing touches until 1e-10 s before a time, and that two benches overlap 1e-10 s after it.
 
-    With a margin: no two benches come nearer than it before, and two are nearer after.
+    With a margin: no two benches come within it before, and two are within it after.
     """
     checked_output("output", output, (".json",))
     dance, time = asked.to_dance(Settings().benches_max), asked.time
@@ -158,10 +159,11 @@ def collision_time(asked: CollisionClaim, output: Output = Path("collision-time.
 @prove.command()
 @asks(PitchClaim)
 def minimum_pitch(asked: PitchClaim, output: Output = Path("minimum-pitch.proof.json")) -> None:
-    """Prove that nothing touches on the way to the circle, and that two benches overlap or one folds with 1e-6 m less.
+    """Prove that nothing touches on the way to the circle, and that at a pitch 1e-6 m smaller two benches overlap or
+    one folds.
 
-    With a margin: no two benches come nearer than it, and two are nearer with 1e-6 m less. Larger pitches are not part
-    of the proof.
+    With a margin: no two benches come within it, and at the smaller pitch two do. Larger pitches are not part of the
+    proof.
     """
     checked_output("output", output, (".json",))
     dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
@@ -181,7 +183,7 @@ def minimum_pitch(asked: PitchClaim, output: Output = Path("minimum-pitch.proof.
 @prove.command()
 @asks(ClearClaim)
 def clear(asked: ClearClaim, output: Output = Path("clear.proof.json")) -> None:
-    """Prove that nothing touches, or comes nearer than the margin, on the spiral until a time or the end of the run."""
+    """Prove that nothing touches, or comes within the margin, on the spiral until a time or the end of the run."""
     checked_output("output", output, (".json",))
     dance = asked.to_dance(Settings().benches_max)
     with _working("proof") as progress:
@@ -222,7 +224,7 @@ def tolerance(asked: StrayClaim, output: Output = Path("tolerance.proof.json")) 
 @prove.command()
 @asks(TurnClaim)
 def turn(asked: TurnClaim, output: Output = Path("turn.proof.json")) -> None:
-    """Prove that the contest's turn between two spirals is clear from start to stop, or its first contact."""
+    """Prove that a dance on the contest's turn is clear from start to stop, or prove its first contact."""
     checked_output("output", output, (".json",))
     dance = core.Dance(asked.to_dragon(Settings().benches_max), asked.to_turn(), asked.head_speed)
     times = {"start": asked.start, "stop": asked.stop, "margin": asked.margin}
@@ -237,7 +239,7 @@ def dance(
     every_pair: Annotated[bool, typer.Option(help="Prove every pair separately, also those that repeat.")] = False,
     output: Output = Path("dance.proof.json"),
 ) -> None:
-    """Prove that a dance on any path but waypoints is clear from its start to its stop or end, or its first contact."""
+    """Prove that a dance, on any path but waypoints, is clear from start to stop or end, or prove its first contact."""
     checked_output("output", output, (".json",))
     asked = checked(CheckRequest, read_dance(file))
     told = asked.to_dance(Settings().checked_benches_max)

@@ -138,7 +138,7 @@ def _polygon_words(value: answers.Polygon | answers.MultiPolygon) -> str:
 
 def near(word: str, margin: float) -> str:
     """An outcome in words: with a margin a contact is not always a touch."""
-    near = f"nearer than {said(margin)} m"
+    near = f"within {said(margin)} m"
     words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
     return words.get(word, word) if margin else word
 

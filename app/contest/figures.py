@@ -121,7 +121,7 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
 
 
 def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
-    """Question 2: the smallest distance of two benches over time, with its local minima."""
+    """Question 2: the smallest distance between two benches over time, with its local minima."""
     figure = canvas(8.0, 4.6)
     axes = figure.subplots()
     profile = core.clearance_profile(solved.spiral, np.linspace(CLEARANCE_FROM * solved.met_at, solved.met_at, CURVE))

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from app.files.flush import new_file
-from app.wire.messages import OBJECT, shown
+from app.wire.messages import OBJECT
+from app.wire.question import shown
 from app.wire.texts import Unreadable, json_of, text_of, toml_of
 from core import InvalidValue
 

@@ -75,14 +75,14 @@ def pitch_scan_figure(
     with DRAWING:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
-        near_words = f"first nearer than {said(margin)} m" if margin else "first contact"
+        near_words = f"first within {said(margin)} m of each other" if margin else "first contact"
         when = f"when two benches are {near_words}" if margin else f"at {near_words}"
         _draw_scan(axes, scan, least, turning_radius, near_words)
         axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label="start of the dance")
         axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel=f"radius of the head {when} [m]")
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
-        none = f"Never nearer than {said(margin)} m at any" if margin else "No contact at any"
+        none = f"Never within {said(margin)} m at any" if margin else "No contact at any"
         title = f"Radius of the head {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
         axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))

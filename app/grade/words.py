@@ -34,7 +34,7 @@ def say(code: str, language: Language, **values: object) -> str:
 # fmt: off
 WORDS = ERRORS | PAPER | {
     # -- files that cannot be graded --
-    "too_long": ("The file has more than {most} MB, so it was not read: a workbook of the contest has 2 MB.",
+    "too_long": ("The file has more than {most} MB, so it was not read: a workbook of the contest is about 2 MB.",
         "文件超过 {most} MB，未读取：竞赛工作簿约 2 MB。"),
     "empty": ("The file is empty.", "文件为空。"),
     "encrypted": ("The workbook is encrypted: save it without a password.", "工作簿已加密：请取消密码后另存。"),
@@ -65,15 +65,15 @@ WORDS = ERRORS | PAPER | {
     "no_numbers": ("The sheet has no numbers in the expected places.", "工作表中应有数据处没有数值。"),
     # -- notes --
     "macros": ("The workbook holds macros: they were not run.", "工作簿含有宏：未运行。"),
-    "formulas": ("{count} cells hold formulas, the first is {cell}: the values stored with them were read.",
+    "formulas": ("Cells with formulas: {count}, the first is {cell}. The values stored with them were read.",
         "{count} 个单元格含有公式，第一个是 {cell}：读取的是随公式保存的数值。"),
-    "unstored": ("{count} cells hold formulas without a stored value, the first is {cell}: open and save the workbook in a spreadsheet.",
+    "unstored": ("Cells with formulas but no stored value: {count}, the first is {cell}. Open and save the workbook in a spreadsheet.",
         "{count} 个单元格的公式没有保存结果，第一个是 {cell}：请用电子表格软件打开并保存，使结果随公式保存。"),
-    "merged": ("{count} ranges of cells are merged, the first is {cell}: only its first cell has a value.",
+    "merged": ("Merged ranges of cells: {count}, the first is {cell}. Only the first cell of each has a value.",
         "{count} 处合并单元格，第一处是 {cell}：只有首个单元格有值。"),
     "text_number": ("The number in {cell} is stored as text.", "{cell} 中的数值以文本形式保存。"),
     "text": ("{cell} should hold a number, but holds the text “{text}”.", "{cell} 应为数值，却是文本“{text}”。"),
-    "more_text": ("{count} further cells hold text.", "另有 {count} 个单元格为文本。"),
+    "more_text": ("Further cells with text: {count}.", "另有 {count} 个单元格为文本。"),
     "unit": ("The numbers are in {unit}, and were converted.", "数值单位为 {unit}：已按此读取。"),
     "by_order": ("The labels of the handles are shifted: the handles were read in the order of the rows.",
         "把手标签有错位：已按排列顺序对应把手。"),

@@ -36,16 +36,15 @@ from app.jobs.wire import (
 from app.questions.registry import CALLS, QUESTIONS
 from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
-from app.service.middleware import client_of
+from app.service.middleware import client_of, reached
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
-from app.wire.messages import shown
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, problem_of
-from app.wire.question import JSON, FileFormat, check_limit
+from app.wire.question import JSON, FileFormat, check_limit, shown
 from core import BenchDragonError
 
 logger = logging.getLogger("uvicorn.error")
@@ -91,13 +90,13 @@ def take(request: Request, task: Task) -> Response:
     try:
         job = keeper.store.create(task.call, task.to_bytes(), client_of(request), limits)
     except FullForClient as error:
-        detail = f"{limits.jobs_client_max} of your jobs are unfinished, which is the limit: await or dismiss one."
+        detail = f"{reached('Your', limits.jobs_client_max, 'unfinished job')}: wait for one, or dismiss it."
         raise Refused(429, detail, headers=COME_AGAIN) from error
     except FullOfBytes as error:
         detail = "The kept jobs take all the room that they may have: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
-        detail = f"{limits.jobs_max} jobs are kept, which is the limit: remove some, or come later."
+        detail = f"{reached('The', limits.jobs_max, 'kept job')}: remove some, or try again later."
         raise Refused(503, detail, headers=COME_AGAIN) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")

@@ -257,7 +257,7 @@ class Store:
             job, question = run.execute(asked, (sweeps,)).fetchone() or (None, "")
             if job is not None:
                 again = {} if question == SWEEP else {"progress": 0}  # A sweep goes on from its shards.
-                self._move(run, job, "1", state=JobState.RUNNING, started=time.time(), message="It runs.", **again)
+                self._move(run, job, "1", state=JobState.RUNNING, started=time.time(), message="Running.", **again)
         return job
 
     def tidy(self, works: Container[str]) -> None:

@@ -33,8 +33,8 @@ NAMED = 5
 AROUND = 20.0
 # A map narrower than this is in degrees, if its numbers allow it: 22 km in degrees, only 0.2 m in metres [degrees].
 DEGREES_ACROSS = 0.2
-# Least distance of two points of a path [m]; and largest distance of a line from its stored path, beyond which the line
-# was moved [m].
+# Least distance between two points of a path [m]; and largest distance of a line from its stored path, beyond which the
+# line was moved [m].
 POINTS_APART, MOVED = 0.05, 0.01
 # Approximate number of points of that line to compare [1].
 TRIED = 200
@@ -103,7 +103,7 @@ class Reading:
         self.origin = drawing.origin
         self._lay_out(units)
         for kind, count in drawing.left_out.items():
-            self.notes.append(say(f"Left out: {kind}, {count} times.", f"未读取：{kind}，{count} 个。"))
+            self.notes.append(say(f"Left out: {counted(count, kind)}.", f"未读取：{kind}，{count} 个。"))
 
     def found(self) -> DanceParts:
         lines = [one for one in self.features if one.shape == "line"]
@@ -152,7 +152,8 @@ class Reading:
         self.features = [one.moved(plane.metres) for one in self.features]
         east, north = self.origin.longitude, self.origin.latitude
         self._note(
-            f"Longitude and latitude became metres about {east:.6f}, {north:.6f}: x to the east, y to the north.",
+            f"Longitude and latitude were converted to metres around {east:.6f}, {north:.6f}: x to the east, y to the "
+            "north.",
             f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
         )
 
@@ -175,7 +176,7 @@ class Reading:
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
             listed = ", ".join(without[:NAMED]) + (", …" if len(without) > NAMED else "")
-            english = f"{counted(len(without), 'thing')} without a radius, taken as {radius:g} m: {listed}."
+            english = f"{counted(len(without), 'thing')} without a radius; {radius:g} m is assumed: {listed}."
             self._note(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。")
         if square is None:
             if not obstacles:

@@ -43,6 +43,7 @@ const state = new State();
 const service = new Service({
   busy(channel, busy) {
     for (const box of BUSY[channel] ?? []) $(box).setAttribute("aria-busy", busy);
+    if (channel === "look" && busy) $("#scan").classList.remove("coarse"); // The view drawn so far is no longer of these numbers.
     if (channel === "contact") $("main").classList.toggle("waiting", busy && Boolean(questions.dance));
   },
   lost,

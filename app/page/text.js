@@ -33,14 +33,14 @@ export function say(key, values = {}) {
 
 /**
  * The text of this key for a question: with a margin benches in contact may be apart, and with a stray they only may
- * touch. {touch} and {touches} in a text are the words for a contact. asked: {margin, stray, hole, pin}, [m]
+ * touch. {touch} and {meet} in a text are the words for a contact. asked: {margin, stray, hole, pin}, [m]
  */
 export function sayOf(key, asked, values = {}) {
   const [near, strays] = [Number(asked.margin) > 0, strayOf(asked) > 0];
   const form = (name) => [strays && `${name}Stray`, near && `${name}Near`].find((one) => one in WORDS) ?? name;
   const { margin } = asked;
   const touch = say(near ? "touchNear" : "touch", { margin });
-  return say(form(key), { margin, touch, touches: say(form("touches"), { margin, touch }), ...values });
+  return say(form(key), { margin, touch, meet: say(form("meet"), { margin, touch }), ...values });
 }
 
 /** A title with the stray of the answer. */

@@ -38,6 +38,7 @@ class Plan:
     clock: TimeFormat
     title: Title
     paper: PaperName
+    budget: core.Budget
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,10 @@ class _Page:
 
 
 def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda share: None) -> bytes:
-    """The bytes of the plan. raises: InvalidValue if it is too large for the paper at every scale"""
+    """The bytes of the plan.
+
+    raises: InvalidValue if it is too large for the paper at every scale; Halted once the budget is stopped
+    """
     scale = scale_for(plan.ground, plan.paper)
     sink = io.BytesIO()
     with DRAWING, matplotlib.rc_context({"font.family": plan.family, **FONTS}):
@@ -71,12 +75,12 @@ def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda sh
 
 def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
     ground, timing = plan.ground, plan.ground.timing
-    sheet = Sheet(scale.paper, say, plan.family)
+    sheet = Sheet(scale.paper, say, plan.family, plan.budget)
     draw_ground(sheet, ground, scale, numbers=True)
     yield _Page(sheet, say("Plan of the ground", "场地平面图"), scale)
     dance = ground.dance
     for time, handles in zip(timing.moments, core.trajectory(dance, timing.moments).position, strict=True):
-        sheet = Sheet(scale.paper, say, plan.family)
+        sheet = Sheet(scale.paper, say, plan.family, plan.budget)
         frame = draw_ground(sheet, ground, scale, numbers=False)
         draw_benches(sheet, ground, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
         when = plan.clock.words(time)
@@ -85,7 +89,7 @@ def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
 
 def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
     tables = [_events(plan, say), _benches(plan, say), _marks(plan, say), _points(plan, say)]
-    for sheet in draw_tables(tables, lambda: Sheet(paper, say, plan.family)):
+    for sheet in draw_tables(tables, lambda: Sheet(paper, say, plan.family, plan.budget)):
         sheet.frame(paper.room)
         yield _Page(sheet, say("Points to paint, and times", "放样点与时间表"))
 

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
 
 from app.files.words import Say
-from core import InvalidValue
+from core import Budget, InvalidValue
 from core.values import Floats
 
 PaperName = Literal["A4", "A3"]
@@ -110,11 +110,15 @@ class Entries(Artist):
 
 @dataclass
 class Sheet:
-    """A page with coordinates in mm, x to the right and y up. State: boxes that are taken, where no text may go."""
+    """A page with coordinates in mm, x to the right and y up. State: boxes that are taken, where no text may go.
+
+    raises: Halted from all that draws, once the budget is stopped
+    """
 
     paper: Paper
     say: Say
     family: tuple[str, ...]
+    budget: Budget
     taken: Floats = field(default_factory=lambda: np.empty((0, 4)))
 
     def __post_init__(self) -> None:
@@ -148,6 +152,7 @@ class Sheet:
         self._add(Polygon(points, closed=True, **look), clip)
 
     def _add(self, patch: Patch, clip: Rectangle | None) -> None:
+        self.budget.look()
         self.axes.add_patch(patch)
         if clip is not None:
             patch.set_clip_path(clip)
@@ -170,10 +175,12 @@ class Sheet:
 
     def entry(self, x: float, y: float, words: str, size: float, *, bold: bool = False) -> None:
         """Write text from a point on, without layout, because a table has thousands of entries."""
+        self.budget.look()
         self.entries.words.append((x, y, words, size, bold))
 
     def label(self, words: str, size: float, places: Iterable[Sequence[float]], room: Box, **look: Any) -> bool:
         """Write text at the first of the places where it is inside the room and overlaps nothing; False: none."""
+        self.budget.look()
         wide, high = 0.5 * self.width(words, size) + 0.3, 0.5 * size * POINT + 0.2
         for x, y in places:
             box = np.array([x - wide, y - high, x + wide, y + high])

@@ -30,7 +30,7 @@ class LeastClearance(Answer):
     """The least clearance over the dance."""
 
     distance: float = measure(
-        "m", "Smallest distance found; 0 at the first touch; below zero by how much benches overlap at the start"
+        "m", "Smallest distance found; 0 at the first touch; if benches overlap at the start, minus the depth"
     )
     at_least: float | None = measure(
         "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
@@ -54,10 +54,10 @@ class AreaClearance(Answer):
     """Distance between the benches and the edges of the square or of one obstacle."""
 
     name: str = Field(description="Name of the area")
-    outcome: Outcome = Field(description="Whether a bench comes nearer than the margin, or touches if it is 0")
+    outcome: Outcome = Field(description="Whether a bench comes within the margin, or touches if it is 0")
     time: float | None = measure("s", "First such time; null when clear or undecided")
-    time_bracket: Point | None = measure("s", "Proven clear until; nearer than the margin, or touching if it is 0, at")
-    bench: int | None = Field(description="The first bench nearer than the margin, or touching if it is 0")
+    time_bracket: Point | None = measure("s", "Proven clear until; within the margin, or touching if it is 0, at")
+    bench: int | None = Field(description="The first bench within the margin, or touching if it is 0")
     gap: float | None = measure(
         "m", "Distance to the area at that time: the margin, or less if it is nearer from the start"
     )
@@ -152,7 +152,7 @@ class Report(Answer):
     start: float = measure("s", "Start of the time checked")
     stop: float = measure("s", "End of the time checked")
     first_contact: CollisionTime = Field(
-        description="First time two benches come nearer than the margin, or touch if it is 0"
+        description="First time two benches come within the margin, or touch if it is 0"
     )
     least_clearance: LeastClearance | None = Field(
         description="Least clearance of any two benches; null with fewer than three, or without details"
@@ -167,7 +167,7 @@ class Report(Answer):
         description="Sharpest bend between two consecutive benches; null for a single bench, or without details"
     )
     origin: Origin | None = Field(
-        description="Place of x = y = 0; null unless the venue was given in degrees or tells it"
+        description="Place of x = y = 0; null unless the venue was given in degrees or states it"
     )
 
 
@@ -176,7 +176,7 @@ def check(asked: CheckRequest, terms: Terms) -> Report:
     dance = asked.to_dance(terms.settings.checked_benches_max)
     place = asked.to_place(dance.dragon)
     found = judged(asked, dance, place.venue, asked.start, terms, details=asked.details)
-    contact = CollisionTime.of(found.first_contact, dance, asked, terms)
+    contact = CollisionTime.of(found.first_contact, asked, terms)
     failures = [Failure.of(failure, dance.dragon, asked.start_clock) for failure in found.failures]
     venue = None if found.venue is None else VenueClearance.known(found.venue, stray=found.venue.misplaced)
     return Report.known(found, failures=failures, first_contact=contact, venue=venue, origin=place.origin)

@@ -1,4 +1,4 @@
-"""The question clearance: the smallest distance of two benches over time."""
+"""The question clearance: the smallest distance between two benches over time."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ SECONDS_PER_CELL = 3e-6
 
 
 class ClearanceQuery(TimeRange, DanceQuery):
-    """Smallest distance of two benches over time, on a spiral."""
+    """Smallest distance between two benches over time, on a spiral."""
 
 
 class ClearanceRequest(TimedDance):
-    """Smallest distance of two benches over time, on any path."""
+    """Smallest distance between two benches over time, on any path."""
 
 
 class ClearanceTable(Answer):

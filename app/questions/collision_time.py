@@ -1,4 +1,4 @@
-"""The question collision_time: first contact, or the first time that benches are nearer than a margin."""
+"""The question collision_time: first contact, or the first time that benches come within a margin."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from app.wire.question import (
     UniformDragon,
     measure,
 )
-from core import Dance, Outcome
+from core import Outcome
 
 # Most benches of a dragon that are all judged; of a longer dragon only those near the contact are [1].
 JUDGED_MOST = 2_000
@@ -35,11 +35,11 @@ class Contact(Strays):
 
 
 class CollisionQuery(Contact, DanceQuery):
-    """First time that two benches touch, or are nearer than a margin, on a spiral."""
+    """First time that two benches touch, or come within a margin, on a spiral."""
 
 
 class CollisionRequest(Contact, SpanFields, DanceFields, strict=True):
-    """First time that two benches touch, or are nearer than a margin, on any path."""
+    """First time that two benches touch, or come within a margin, on any path."""
 
 
 class Certificate(Answer):
@@ -49,7 +49,7 @@ class Certificate(Answer):
     steps: int = Field(description="Number of proven steps")
     clear_until: float | None = measure(
         "s",
-        "Time until which no two benches come nearer than the margin, or touch if it is 0; null if no time is "
+        "Time until which no two benches come within the margin, or touch if it is 0; null if no time is "
         "proven clear: benches touch or are nearer at the start, or nothing is decided from the start",
     )
     bound: float = measure("1/m", "Largest bound on the second derivative of a gap that a step used")
@@ -59,15 +59,15 @@ class Certificate(Answer):
 
 
 class CollisionTime(Answer):
-    """First time that two benches that share no handle are nearer than the margin, or touch if it is 0."""
+    """First time that two benches that share no handle come within the margin, or touch if it is 0."""
 
     outcome: Outcome = Field(
-        description="End of the search; contact: two benches come nearer than the margin, or touch if it is 0"
+        description="End of the search; contact: two benches come within the margin, or touch if it is 0"
     )
     margin: float = measure("m", "Required clearance; 0: only a touch counts as a contact")
     stray: float | None = TOTAL_STRAY
     time: float | None = measure(
-        "s", "First time nearer than the margin, or touching if it is 0; null when clear or undecided"
+        "s", "First time within the margin, or touching if it is 0; null when clear or undecided"
     )
     time_bracket: Point | None = measure(
         "s", "Two times: no contact is proven up to the first, and a contact is certain at the second"
@@ -91,23 +91,23 @@ class CollisionTime(Answer):
     )
 
     @classmethod
-    def of(cls, contact: core.FirstContact, dance: Dance, asked: Contact, terms: Terms) -> Self:
+    def of(cls, contact: core.FirstContact, asked: Contact, terms: Terms) -> Self:
         check = None
         if asked.cross_check != "none":
             whole = asked.cross_check == "dragon"
-            check = core.contact_check(contact, dance, margin=asked.margin, whole=whole, budget=terms.budget)
+            check = core.contact_check(contact, whole=whole, budget=terms.budget)
         return cls.known(contact, margin=asked.margin, stray=asked.total_stray, cross_check=check)
 
 
 def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:
-    """First time that two benches that share no handle touch or are nearer than a margin, with the evidence."""
+    """First time that two benches that share no handle touch or come within a margin, with the evidence."""
     dance, start, stop = asked.to_dance(asked.most_benches(terms.settings)), 0.0, None
     if isinstance(asked, CollisionRequest):
         start, stop = dance.begin if asked.start is None else asked.start, asked.stop
     found = core.first_contact(
         dance, margin=asked.margin, stray=asked.to_stray(), start=start, stop=stop, budget=terms.budget
     )
-    return CollisionTime.of(found, dance, asked, terms)
+    return CollisionTime.of(found, asked, terms)
 
 
 def _cost(asked: CollisionQuery | CollisionRequest) -> float:

@@ -40,10 +40,10 @@ class OriginFields(Wire, strict=True):
 class Marked(CheckRequest, strict=True):
     """A dance, as for /check, and the marks along its path."""
 
-    spacing: float = measure("m", "Distance of the chalk marks along the path", 5.0, ge=0.5, le=1_000)
+    spacing: float = measure("m", "Distance between the chalk marks along the path", 5.0, ge=0.5, le=1_000)
     origin: OriginFields | None = Field(
         None,
-        description="Place of x = y = 0; null: as the venue tells it. KML needs it; GeoJSON is in metres without it",
+        description="Place of x = y = 0; null: as the venue states it. KML needs it; GeoJSON is in metres without it",
     )
 
     def told_origin(self, place: degrees.Place) -> degrees.Origin | None:

@@ -51,7 +51,7 @@ class MinimumPitch(Answer):
     limited_by: core.LimitedBy = Field(
         description="Effect of a slightly smaller pitch. graze: contact on the way; circle: contact when the "
         "head is on the circle; start: contact at the start or, if benches is null, a start inside the circle; fold: a "
-        "bench cannot follow the head as far as the circle. Contact: nearer than the margin, or a touch if it is 0"
+        "bench cannot follow the head as far as the circle. Contact: within the margin, or a touch if it is 0"
     )
     benches: Pair | None = Field(
         description="The pair in contact at a slightly smaller pitch; null for a fold or if there is none"
@@ -67,12 +67,12 @@ class MinimumPitch(Answer):
     proven_up_to: float | None = measure("m", "Upper end of the proven pitches; null: no upper end")
     scan_step: float | None = measure("m", "Largest distance between two pitches of the scan; null: no scan")
     evaluations: int = Field(
-        description="Number of ways to the circle computed, for single pitches or for whole strips of pitches"
+        description="Number of runs to the circle computed, for single pitches or for whole bands of pitches"
     )
     stray: float | None = TOTAL_STRAY
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
-        "contact (with a stray shapely's alone, on the grounds that benches may cover); null without a pair or if not "
+        "contact (with a stray shapely's alone, for the areas that benches may cover); null without a pair or if not "
         "requested"
     )
 

@@ -38,7 +38,7 @@ class OverlapsRequest(Wire, strict=True):
 
 
 class Overlap(Answer):
-    """Two benches nearer than the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
+    """Two benches within the margin, or overlapping if it is 0. witness_b - witness_a = separation * normal."""
 
     benches: Pair = Field(description="The pair a, b")
     separation: float = measure("m", "Signed distance; minus the penetration depth if they overlap")
@@ -63,7 +63,7 @@ class OverlapsAnswer(Answer):
 
 
 def overlaps(asked: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
-    """Benches that overlap or are nearer than a margin, with depth and place, according to four engines."""
+    """Benches that overlap or come within a margin, with depth and place, according to four engines."""
     poses, lengths, widths = asked.to_poses(terms.settings.poses_max)
     return _judged(poses, lengths, widths, terms, margin=asked.margin, chained=asked.chained)
 

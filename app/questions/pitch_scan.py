@@ -44,7 +44,7 @@ class Jump(Answer):
 
 
 class PitchScanTable(Answer):
-    """Columns with one entry per sampled pitch at which two benches come nearer than the margin, or touch if it is 0,
+    """Columns with one entry per sampled pitch at which two benches come within the margin, or touch if it is 0,
     and the jumps of the radius besides."""
 
     pitch: list[float] = measure("m", "Samples, ascending; a pitch without contact has no entry")

@@ -16,7 +16,7 @@ from app.questions.check import judged
 from app.questions.maps import Marked
 from app.wire.question import Question, Terms, measure
 from core import Dance, FailureKind, Judgement
-from core.errors import said
+from core.errors import asked_of, said
 from core.shapes.engines import widened
 from core.shown import counted
 
@@ -83,7 +83,13 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     told = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
     # Chinese names may stand in an English plan.
     family = families(Language.CHINESE if max(told) >= FIRST_CHINESE else asked.language)
-    return plan_pdf(Plan(ground, family, names, clock, title, asked.paper), say, terms.progress)
+    drawn = Plan(ground, family, names, clock, title, asked.paper, budget)
+
+    @asked_of("dance", Dance, "the plan was not drawn")
+    def draw(dance: Dance) -> bytes:
+        return plan_pdf(drawn, say, terms.progress)
+
+    return draw(dance)
 
 
 def _facts(

@@ -37,7 +37,10 @@ class SpanOrCircle(SpanFields):
     """A stretch of a dance; on a spiral also the way to a turning circle."""
 
     turning_diameter: TurningDiameter | None = measure(
-        "m", "Diameter of the circle at which the head stops, on a spiral, in place of an end time", None
+        "m",
+        "Diameter of the circle at which the head stops, on a spiral, in place of an end time; default: none, the "
+        "whole stretch from start to stop counts",
+        None,
     )
 
 

@@ -43,7 +43,7 @@ class Turn(Answer):
 
 
 def turn(asked: TurnQuery | TurnRequest, terms: Terms) -> Turn:
-    """Two tangent arcs that lead from a spiral inwards to the same one outwards."""
+    """Two tangent arcs that lead from a spiral inwards to the same spiral, rotated by half a turn, outwards."""
     return Turn.of(asked.to_turn() if isinstance(asked, TurnQuery) else asked.path.to_path())
 
 

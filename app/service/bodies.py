@@ -19,9 +19,8 @@ from app.service.middleware import Handler, Lanes, watched
 from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings
-from app.wire.messages import shown
 from app.wire.problem import ERRORS_MAX, ErrorItem
-from app.wire.question import JSON
+from app.wire.question import JSON, shown
 from app.wire.texts import Unreadable, json_of
 
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.

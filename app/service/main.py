@@ -60,7 +60,7 @@ TAGS = {
     "Figures": "Answers as pictures, films, maps and plans: files.",
     "Grading": "Right and wrong cells of a student's workbook, and the errors behind them.",
     "Maps": "The square and the path in a map file.",
-    "Jobs": "Answers computed later; no kill of a process loses them.",
+    "Jobs": "Answers computed later; they survive the death of any process.",
     "Service": "Liveness and readiness.",
 }
 
@@ -89,7 +89,7 @@ def _difference() -> str:
         return f"x of handle 1 at the start is {x!r} m, expected {KNOWN_X!r} m"
     if contact is None or abs(contact - KNOWN_CONTACT) > KNOWN_TOLERANCE:
         return f"first contact is at {contact!r} s, expected {KNOWN_CONTACT!r} s"
-    check = contact_check(found, dance)
+    check = contact_check(found)
     if not (check and check.agree):
         return f"the engines do not agree about the first contact: {check}"
     return ""

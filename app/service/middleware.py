@@ -30,6 +30,7 @@ from app.service.problems import Refused, http_problem, server_problem
 from app.settings import Settings
 from app.wire.problem import ErrorItem
 from core import Budget
+from core.shown import counted
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -215,6 +216,11 @@ def client_of(request: Request) -> str:
     return request.client.host if request.client else ""
 
 
+def reached(whose: str, limit: int, thing: str, when: str = "") -> str:
+    """A limit of the service in words: "Your limit of 2 unfinished jobs is reached"."""
+    return f"{whose} limit of {counted(limit, thing)}{when} is reached"
+
+
 class Lane:
     """A limit on simultaneous computations, in total and for each client."""
 
@@ -234,10 +240,10 @@ class Lane:
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
             if len(self._begun) >= self.most:
-                words = f"{self.most} {self.name} computations are running, which is the limit"
+                words = reached("The", self.most, f"{self.name} computation", " at once")
                 raise self._full(503, words, self._begun.values())
             if client and len(own) >= self.of_client:
-                words = f"{self.of_client} of your {self.name} computations are running, which is one client's limit"
+                words = reached("Your", self.of_client, f"{self.name} computation", " at once")
                 raise self._full(429, words, own)
             self._begun[key] = (time.monotonic(), cost, client)
         self._running.inc()

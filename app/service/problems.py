@@ -12,8 +12,9 @@ from starlette.exceptions import HTTPException
 from starlette.routing import Match, Mount
 
 from app.wire.faults import Placing, in_body, in_query, refused, unfit
-from app.wire.messages import fault_of, shown
+from app.wire.messages import fault_of
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
+from app.wire.question import shown
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
 

@@ -67,7 +67,7 @@ def add_calls(router: APIRouter) -> None:
             _endpoint(call),
             methods=[method],
             operation_id=call.name,
-            summary=title + (", in a body" if method == "POST" else ""),
+            summary=title + (", in a body" if method == "POST" and question.flat else ""),
             description=question.summary,
             tags=["Figures" if question.model is None else "Questions"],
             response_class=Response,

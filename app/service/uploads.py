@@ -58,9 +58,12 @@ class GradeQuery(Wire):
 class PlacesQuery(Wire):
     """Query parameters beside the file."""
 
-    name: str | None = Field(None, max_length=200, description="Name of the file; its form is told by its bytes")
+    name: str | None = Field(
+        None, max_length=200, description="Name of the file; its format is recognised from its first bytes"
+    )
     units: Coordinates | None = Field(
-        None, description="Unit of its coordinates: metres or degrees; default: as the file says, or as they look"
+        None,
+        description="Unit of its coordinates: metres or degrees; default: as the file says, or recognised from them",
     )
     language: Language = Field(Language.ENGLISH, description="Language of the notes: en or zh")
 

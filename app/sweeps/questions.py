@@ -81,19 +81,19 @@ class TrajectoryRow(Answer):
     """The two ends of the dragon at the last instant of the request, and the speeds at all instants."""
 
     time: float = measure("s", "Last instant")
-    head_x: float = measure("m", "Of the first handle, at the last instant")
-    head_y: float = measure("m", "As head_x")
-    tail_x: float = measure("m", "Of the last handle, at the last instant")
-    tail_y: float = measure("m", "As tail_x")
-    tail_speed: float = measure("m/s", "Of the last handle, at the last instant")
-    least_speed: float = measure("m/s", "Of any handle at any instant")
-    greatest_speed: float = measure("m/s", "Of any handle at any instant")
+    head_x: float = measure("m", "x of the first handle at the last instant")
+    head_y: float = measure("m", "y of the first handle at the last instant")
+    tail_x: float = measure("m", "x of the last handle at the last instant")
+    tail_y: float = measure("m", "y of the last handle at the last instant")
+    tail_speed: float = measure("m/s", "Speed of the last handle at the last instant")
+    least_speed: float = measure("m/s", "Lowest speed of any handle at any instant")
+    greatest_speed: float = measure("m/s", "Highest speed of any handle at any instant")
 
 
 class OverlapsRow(Answer):
     """The number of overlapping pairs, and the deepest overlap."""
 
-    pairs: int = Field(description="Pairs that overlap, or are nearer than the margin")
+    pairs: int = Field(description="Pairs that overlap or come within the margin")
     separation: float | None = measure("m", "Smallest separation of these pairs; null: there is no such pair")
     benches: Pair | None = Field(description="The pair with that separation")
     agree: bool = Field(description="True if all engines found the same pairs")

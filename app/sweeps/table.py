@@ -20,6 +20,7 @@ from app.sweeps import shards
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
 from core import InvalidValue
+from core.shown import counted
 from core.tables import data_frame
 from core.values import Floats
 
@@ -124,8 +125,8 @@ class Sweep:
 
     def _check_complete(self) -> None:
         if self.missing:
-            words = f"{self.missing} of {self.spec.shards} shards are missing"
-            raise InvalidValue.in_words("folder", f"{self.folder} is not complete, {words}: run the sweep again")
+            words = f"lacks {self.missing} of {counted(self.spec.shards, 'shard')}"
+            raise InvalidValue.in_words("folder", f"{self.folder} {words}: run the sweep again")
 
     def _write(self, file: Path, tables: Iterable[pa.Table], begun: Callable[..., Any]) -> None:
         """Write the rows with a writer of pyarrow, begun with a file and the schema. raises: InvalidValue; OSError"""

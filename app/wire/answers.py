@@ -47,7 +47,7 @@ class Feature(Answer):
 
 
 class End(Answer):
-    """End of a run on which no two benches come nearer than the margin, or touch if it is 0."""
+    """End of a run on which no two benches come within the margin, or touch if it is 0."""
 
     reason: core.EndReason = Field(
         description="fold: a bench cannot follow any more; centre: the head reaches the centre; end: the path ends; "
@@ -84,17 +84,17 @@ class Verdict(Answer):
     """Findings of one engine among the benches judged, without pairs of neighbours."""
 
     before: bool | None = Field(
-        description="Whether it finds any two overlapping, or nearer than the margin, just before; null for a contact "
+        description="Whether it finds any two overlapping, or within the margin, just before; null for a contact "
         "at the start"
     )
     after: bool = Field(
-        description="Whether it finds the reported pair overlapping, or nearer than the margin, just after, and no "
+        description="Whether it finds the reported pair overlapping, or within the margin, just after, and no "
         "other pairs except those in together. For a contact at the start other pairs are allowed"
     )
 
 
 class PairCheck(Answer):
-    """Verdicts of independent engines just before and just after; nearer than the margin counts as overlapping."""
+    """Verdicts of independent engines just before and just after; within the margin counts as overlapping."""
 
     agree: bool = Field(description="True if every engine asked finds nothing before, and only the reported pair after")
     judged: list[int] = Field(
@@ -105,7 +105,7 @@ class PairCheck(Answer):
         description="Verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0"
     )
     together: list[Pair] = Field(
-        description="Other pairs that come nearer than the margin, or touch if it is 0, at the same time as the "
+        description="Other pairs that come within the margin, or touch if it is 0, at the same time as the "
         "reported one, as when a corner meets two benches of a straight row at once: apart just before, and barely "
         "within the margin just after"
     )

@@ -22,7 +22,7 @@ WORDS = {
     "name": ("name", "名称", "姓名"),
     "length": ("length", "长度", "长"),
     "width": ("width", "宽度", "宽"),
-    "overhang": ("overhang", "孔距", "端距"),
+    "overhang": ("overhang", "孔心距板头", "孔距", "端距"),
 }
 SIZES = {"length": LENGTHS, "width": WIDTHS, "overhang": OVERHANGS}
 LONGEST_WORD = 60

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from app.wire.question import shown
 from core import Area, Envelope, InvalidValue, Venue
 from core.errors import COORDINATE_MAX, checked_name, checked_number
 from core.shapes.engines import thickened
@@ -91,7 +92,7 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     if depth > DEPTH_MAX:
         raise InvalidValue("venue", f"must not nest objects deeper than {DEPTH_MAX}")
     if not isinstance(geometry, Mapping):
-        raise InvalidValue(field, f"must be a GeoJSON object, got {type(geometry).__name__}")
+        raise InvalidValue(field, f"must be a GeoJSON object, got {shown(geometry)}")
     kind = geometry.get("type")
     if kind == "Polygon":
         return [(None, f"{field}.coordinates", geometry.get("coordinates"), None)]
@@ -148,7 +149,7 @@ def _place(field: str, value: object, scale: Scale) -> Point:
 def _listed(field: str, value: object, entry: str = "") -> list[object]:
     """The value if it is a list; if the entry has a name, the list must not be empty."""
     if not isinstance(value, list):
-        raise InvalidValue(field, f"must be a list, got {type(value).__name__}")
+        raise InvalidValue(field, f"must be a list, got {shown(value)}")
     if entry and not value:
         raise InvalidValue(field, f"must hold at least one {entry}")
     return value

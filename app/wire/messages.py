@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import json
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -15,15 +14,13 @@ from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
 from app.wire.paths import KINDS
-from app.wire.question import Wire, unit_of
+from app.wire.question import Wire, shown, unit_of
 from core import InvalidValue
-from core.errors import said, spoken
+from core.errors import spoken
 
 Model = TypeVar("Model", bound=BaseModel)
 # An object, in the words of JSON.
 OBJECT = "a JSON object"
-# Longer values are shortened [characters].
-SHOWN_MAX = 60
 # Similarity above which an unknown name counts as a slip [1] (difflib); higher for a name that other calls know, such
 # as `width` for `widths`.
 ALIKE_SLIP, ALIKE = 0.6, 0.8
@@ -44,15 +41,6 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
         named = next((step for step in reversed(steps) if isinstance(step, str)), fault.name) == fault.name
         subject = fault.subject if len(steps) < 2 else spoken(field) if named else f"{spoken(field)}: {fault.subject}"
         raise InvalidValue.in_words(field, subject + fault.rule) from error
-
-
-def shown(value: Any) -> str:
-    if isinstance(value, float) and not math.isfinite(value):
-        return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
-    if isinstance(value, float):
-        return said(value)
-    text = json.dumps(value, ensure_ascii=False, default=str)
-    return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 
 
 def place_of(error: Mapping[str, Any]) -> tuple[str | int, ...]:

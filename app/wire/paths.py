@@ -67,7 +67,8 @@ class TurnCircle(Wire):
 
 
 class TurnFields(TurnCircle):
-    """A coil inwards, two tangent arcs and the same coil outwards; time 0 is when the head enters the first arc."""
+    """A coil inwards, two tangent arcs, and the same coil outwards, rotated by half a turn. Time 0: the head enters the
+    first arc."""
 
     entry_radius: EntryRadius = None
 

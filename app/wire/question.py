@@ -7,6 +7,8 @@ is noticed.
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -25,8 +27,20 @@ from core.errors import said
 JSON = "application/json"
 # Any file.
 BYTES = "application/octet-stream"
+# Longer values are shortened in messages [characters].
+SHOWN_MAX = 60
 # An object with more names than this is refused without a look at its fields.
 NAMES_MAX = 100
+
+
+def shown(value: Any) -> str:
+    """A value of a request in JSON, shortened, for a message."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    if isinstance(value, float):
+        return said(value)
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 
 
 def measure(unit: str, description: str = "", default: Any = ..., **limits: Any) -> Any:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from app.wire.messages import shown
+from app.wire.question import shown
 
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(r"\\u(?:0000|[dD][89a-fA-F])")

@@ -21,7 +21,7 @@ DANCES = 10
 
 
 def run(folder: Path, seed: int, count: int, names: Iterable[str]) -> None:
-    """Make at least so many queries, file by file, and have these engines answer them."""
+    """Make a least number of queries, file by file, and have these engines answer them."""
     folder.mkdir(parents=True, exist_ok=True)
     workers, found, number = {name: Worker(name) for name in names}, 0, 0
     while found < count:
@@ -42,7 +42,7 @@ def run(folder: Path, seed: int, count: int, names: Iterable[str]) -> None:
 
 
 def at_least(least: int) -> Callable[[str], int]:
-    """Reads a whole number that is not below the least one."""
+    """A reader of whole numbers that are not below the least one."""
 
     def read(text: str) -> int:
         if not text.lstrip("-").isdecimal() or int(text) < least:

@@ -15,7 +15,7 @@ from core.paths.turn import Turn
 from core.proof.paths import core_path, recorded_path
 
 KINDS = ("spiral", "turn", "arcs", "waypoints")
-# How often a dance is drawn again because its path bends too tightly for its dragon.
+# Most draws of a dance, if its path bends too tightly for its dragon.
 TRIES = 200
 Record = dict[str, Any]
 

@@ -54,7 +54,7 @@ class Engine(NamedTuple):
 
     @property
     def version(self) -> str:
-        """Of the package; raises PackageNotFoundError where it is not installed."""
+        """Version of the package. raises: PackageNotFoundError if it is not installed"""
         return version(self.package or "bench-dragon")
 
 
@@ -102,7 +102,8 @@ def with_box2d(scale: float) -> Solver:
     def solve(motion: Motion) -> Answer:
         query, stage = motion.query, motion.stage
         unit = scale / float(stage.dance.dragon.lengths.max())
-        # Box2D keeps shapes one slop apart: their radii, here none and the 2 slops of an edge, less 3, but 1 at least.
+        # Box2D keeps shapes at a distance: the sum of their radii less 3 slops, but at least 1 slop. Here the radii are
+        # 0 and 2 slops (an edge), so the distance is 1 slop.
         ends = moved_edge(stage, query, query.margin - BOX2D_SLOP / unit)
         edge = box.b2EdgeShape(vertices=[(x * unit, y * unit) for x, y in ends])
         x, y = local_corner(stage, query.corner_bench, query.corner)

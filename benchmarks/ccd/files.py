@@ -20,7 +20,7 @@ QUERY = Query._fields
 TRUTH = ("kind", "depth", "low", "high")
 WHOLE = {"dance": "i4", "kind": "i1", "corner_bench": "i2", "corner": "i1", "edge_bench": "i2", "edge": "i1"}
 COLUMNS = ("dance", *QUERY, *TRUTH)
-# How a query ended: answered, not decided by the engine itself, a crash of its process, or no answer in time.
+# Ends of a query: answered, not decided by the engine itself, a crash of its process, or no answer in time.
 ENDS = ("answered", "undecided", "crash", "hang")
 ANSWER = {"touches": "i1", "travel": "f8", "microseconds": "f8", "evaluations": "i4", "end": "i1"}
 

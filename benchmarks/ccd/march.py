@@ -58,11 +58,11 @@ class March:
         self.travel = 0.0
 
     def out(self, q: Point) -> float:
-        """How far a point of the edge's bench is along the direction outwards [m]."""
+        """Distance of a point of the edge's bench along the direction outwards [m]."""
         return self.outwards[0] * q[0] + self.outwards[1] * q[1]
 
     def gap(self, rows: Floats) -> float:
-        """How far the corner is out from the moved edge [m]."""
+        """Distance of the corner out from the moved edge [m]."""
         mx, my, ux, uy = rows[self.query.corner_bench, MX : UY + 1].tolist()
         ox, oy, vx, vy = rows[self.query.edge_bench, MX : UY + 1].tolist()
         x = mx + self.corner[0] * ux - self.corner[1] * uy - ox

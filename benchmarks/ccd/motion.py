@@ -143,7 +143,7 @@ class Motion:
 
 
 def beside(rows: Floats, sizes: Floats, corner_bench: int, edge_bench: int) -> tuple[Floats, Floats]:
-    """How far every corner of one bench is along every edge of another from its middle, and out from it [m].
+    """Place of every corner of one bench by every edge of another: along it from its middle, and out from it [m].
 
     rows: (..., handles, CHAIN_COLUMNS); returns: (..., 4, 4) each, by corner and edge
     """

@@ -141,7 +141,7 @@ class Piece:
 
 
 def _same_cubic(table: Any, p: int) -> tuple[arb, arb]:
-    """How far the cubic of a row goes on through its neighbours, which were cut from the same one: they share c_3."""
+    """Range over which the cubic of a row goes on through neighbours cut from the same one: they share c_3."""
     low, high, first, last = arb(0), arb(table[p, c.T_END]), p, p
     same = [c.X3, c.Y3]
     while first > 0 and (table[first - 1, same] == table[p, same]).all():

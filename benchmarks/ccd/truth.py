@@ -45,7 +45,7 @@ class Track:
         self.parts, self.error = parts, error
 
     def out(self, travel: float) -> arb:
-        """How far the corner is out from the edge after a travel, less the error [m]."""
+        """Distance of the corner out from the edge after a travel, less the error [m]."""
         part = next(part for part in self.parts if travel <= part.high)
         return part.out(arb(travel) - part.middle)
 

@@ -131,15 +131,15 @@ class FirstContact(Shown):
         margin = self.margin
         if enlarged and self.point is not None:
             place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
-            near = f"Nearer than {said(margin)} m: a gap of {self.gap:.6f} m at {place}"
+            near = f"Within {said(margin)} m: a gap of {self.gap:.6f} m at {place}"
             return near if margin else f"They meet at {place}"
-        what = f"First nearer than {said(margin)} m" if margin else "First contact"
+        what = f"First within {said(margin)} m" if margin else "First contact"
         if self.outcome is Outcome.CONTACT and self.head is not None:
             return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
         if self.outcome is Outcome.CONTACT_AT_START:
-            return f"Nearer than {said(margin)} m from the start on" if margin else f"{what}: already at the start"
+            return f"Within {said(margin)} m from the start on" if margin else f"{what}: already at the start"
         if self.outcome is Outcome.CLEAR and self.end is not None:
-            none = f"Never nearer than {said(margin)} m" if margin else "No contact"
+            none = f"Never within {said(margin)} m" if margin else "No contact"
             if self.end.reason is EndReason.FOLD:
                 return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
             return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"

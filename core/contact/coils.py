@@ -47,7 +47,7 @@ FOOT = 1.67
 CLEARLY = 1e-6
 # Largest relative error of an arc length from a centre: 10 u, with u = 2^-53 [1].
 ARC_ROUNDING = 2e-15
-# Largest distance of two centres that count as one [m]; CLEARLY includes it.
+# Largest distance between two centres that count as one [m]; CLEARLY includes it.
 CENTRES_APART = 1e-9
 
 

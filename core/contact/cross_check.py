@@ -80,26 +80,21 @@ class ContactCheck(Shown):
 
 
 @asked_of("contact", FirstContact, "the engines' verdict on the contact was not found")
-def contact_check(
-    contact: FirstContact, dance: Dance, *, margin: float = 0.0, whole: bool = True, budget: Budget | None = None
-) -> ContactCheck | None:
+def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget | None = None) -> ContactCheck | None:
     """The engines' verdicts CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
     A contact at the start is judged at the start and CHECK_TRAVEL after it, and counts if it is found at one of them.
     whole: True judges the whole dragon, False only the reported pair. With a stray each pair has its own distance: the
         engines judge the reported pair with its gap at that time, and shapely judges the ground that benches may cover
     returns: None if nothing touches or nothing is decided
-    raises: InvalidValue
+    raises: TooMuchWork
 
     >>> from core import first_contact
-    >>> dance = Dance(Dragon(), Spiral())
-    >>> check = contact_check(first_contact(dance), dance)
+    >>> check = contact_check(first_contact(Dance(Dragon(), Spiral())))
     >>> check.agree, len(check.judged)
     (True, 223)
     """
-    checked_type("dance", dance, Dance)
-    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    clock, dance = dance.clock, dance.steady
+    margin, clock, dance = contact.margin, contact.dance.clock, contact.dance.steady
     dragon, path, head_speed = dance.dragon, dance.path, dance.head_speed
     if contact.time is None or contact.benches is None:
         return None

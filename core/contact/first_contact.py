@@ -57,10 +57,10 @@ NO_PAIR = "Of fewer than three benches, any two share a handle, so there is no p
 TRIED = "Computed in doubles, with allowances for their rounding."
 MEASURED = "Measured at that instant, in doubles."
 ENDS = {
-    EndReason.FOLD: ", where a bench folds and the run ends.",
-    EndReason.CENTRE: ", where the head is at the centre.",
-    EndReason.END: ", where the path ends.",
-    EndReason.STOP: ", where the search was to stop.",
+    EndReason.FOLD: "; there a bench folds, and the run ends.",
+    EndReason.CENTRE: "; there the head is at the centre.",
+    EndReason.END: "; there the path ends.",
+    EndReason.STOP: "; the search was to stop there.",
 }
 UNDECIDED_THEN = "; whether any do after that is not decided."
 

@@ -312,7 +312,7 @@ def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
         return too_near(search.nominal, straight.at, margin)
     if not search.stray:
         return too_near(search.dragon, a, margin)
-    near = f"come nearer than {said(margin)} m" if margin else "touch"
+    near = f"come within {said(margin)} m" if margin else "touch"
     why = f"on a straight line, and so on every wide enough spiral, benches {a} and {a + 2} may then {near}"
     return InvalidValue("stray", f"must be smaller, got {said(search.stray)} m: {why}")
 

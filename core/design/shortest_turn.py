@@ -239,7 +239,7 @@ def _refusal(touch: Touch, margin: float, stray: float) -> str:
     if benches is None or time is None:
         what = f"benches come so near to the margin of {said(margin)} m that it is not decided whether they keep it"
     else:
-        near = f"come nearer than {said(margin)} m" if margin else "touch"
+        near = f"come within {said(margin)} m" if margin else "touch"
         near = f"may {near} with strays up to {said(stray)} m" if stray else near
         side = f"{time:.6f} s after" if time >= 0.0 else f"{-time:.6f} s before"
         what = f"benches {benches[0]} and {benches[1]} {near} {side} the entry at 1 m/s"

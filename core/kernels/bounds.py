@@ -167,7 +167,7 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     inwards = (1.0 + widened) / growth
     for k in range(benches):
         chord = sizes[k, CHORD]
-        if error > chord and not filled:  # no such chords are allowed for where spiral_error() takes the place of sums
+        if error > chord and not filled:  # spiral_error() does not cover such chords: compute the sums
             filled = True
             widened = summed_widening(growth, benches, sizes, before, after)
             outwards = (1.0 - widened) / growth
@@ -183,7 +183,7 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             k_low = 0.0 if followed else spiral_curvature(outer) * outwards
             link = curved_link(chord, k_low, k_high, rate_a, rate_low)
         else:
-            if not filled:  # the sums that spiral_error() takes the place of are needed themselves
+            if not filled:  # spiral_error() does not cover such chords: compute the sums
                 filled = True
                 widened = summed_widening(growth, benches, sizes, before, after)
                 inwards = (1.0 + widened) / growth

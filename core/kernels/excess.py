@@ -2,7 +2,7 @@
 
 import cython
 
-import core.kernels.constants as of_python  # for results: in compiled code its enums are plain numbers
+import core.kernels.constants as of_python  # only for results: compiled enums are plain numbers
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *

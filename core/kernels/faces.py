@@ -93,7 +93,7 @@ def face_least(kinds, start, end, hulls, k, curvature, h, enough):
 def hulls_most(scene, interval, a, b, distance):
     """Upper bound of the separation of benches a and b over an interval, without rounding [m]; 0 or less: touching.
 
-    See corner_beyond(); distance: upper bound of the distance of their centres [m]
+    See corner_beyond(); distance: upper bound of the distance between their centres [m]
     """
     faced = nearest_hulls(scene.kinds, a, b, b > scene.room, FREE, scene.sizes, interval.after)
     i = b if faced.swapped else a

@@ -51,7 +51,8 @@ def against_rotation(growth, k, omega_low, omega_high, motion):
     return slip, pull + motion[k, RATE_RATE] + omega_high * omega_high * growth
 
 
-# Input:  bench i, in which the axis is fixed, bench j, the distance of their centres, and the bounds on their motion.
+# Input:  bench i, in which the axis is fixed, bench j, the distance between their centres, and the bounds on their
+#         motion.
 # State:  `slips` and `pulls`, sums of |xi| and of |P'' + Omega^2 P|, against the rotation of bench i.
 # Output: K: the lesser of the bound made of these sums and of plain_curvature(), the bound in the resting frame.
 def axis_curvature(growth, i, j, distance, sizes, motion):

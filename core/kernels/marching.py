@@ -3,7 +3,7 @@
 import cython
 from cython.cimports.libc.math import fabs
 
-import core.kernels.constants as of_python  # for results: in compiled code its enums are plain numbers
+import core.kernels.constants as of_python  # only for results: compiled enums are plain numbers
 from core.kernels.results import Dip
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler

@@ -141,7 +141,7 @@ def pair_least(scene, interval, i, j, enough, distance):
     """Lower bound of the separation of benches i and j over the interval, without rounding [m].
 
     Tries axes until the bound of one exceeds `enough`, which is more than the margin.
-    distance: upper bound of the distance of their centres [m]; returns: the bound, and K of the last axis [1/m]
+    distance: upper bound of the distance between their centres [m]; returns: the bound, and K of the last axis [1/m]
     """
     back = curvature_along(scene, interval, j, i, distance)
     best = axis_least(scene, interval, j, i, True, back)

@@ -97,9 +97,9 @@ def corners_gap_squared(seen):
 
 
 def pair_gap_within(a, b, limit):
-    """Signed separation of two rectangles where that is at most limit; elsewhere a value above limit, not above it [m].
+    """Signed separation of two rectangles if that is at most limit; else a value above limit, at most that separation.
 
-    Where limit and separation differ by rounding alone, either case may apply.
+    In metres. Where limit and separation differ by rounding alone, either case may apply.
     """
     b_seen = seen_from(a, b)
     from_a = face_gap(b_seen)

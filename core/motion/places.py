@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from core.dance import Dance
+from core.errors import asked_of
 from core.kernels import Budget
 from core.kernels.constants import CHAIN_COLUMNS, CHORD, LAG, SIZE_COLUMNS
 from core.values import Floats
@@ -15,6 +16,7 @@ from core.values import Floats
 STEP, ROWS_MAX = 0.25, 2_000
 
 
+@asked_of("dance", Dance)
 def handle_places(dance: Dance, times: Floats | Sequence[float], *, budget: Budget | None = None) -> Floats:
     """Arc length s of every handle along the path.
 
@@ -29,8 +31,9 @@ def handle_places(dance: Dance, times: Floats | Sequence[float], *, budget: Budg
     return _behind(dance, np.array([dance.clock.travel(time) for time in asked.tolist()]), budget or Budget())
 
 
+@asked_of("dance", Dance, "the places of the handles were not found")
 def _behind(dance: Dance, travels: Floats, budget: Budget) -> Floats:
-    """Arc lengths (T, n + 1) of all handles for travels (T,) of the head [m]."""
+    """Arc lengths (T, n + 1) of all handles for travels (T,) of the head [m]. raises: TooMuchWork"""
     path, last = dance.path, dance.dragon.benches
     sizes, chain = np.zeros((last + 1, SIZE_COLUMNS)), np.zeros((last + 1, CHAIN_COLUMNS))
     sizes[:last, CHORD] = dance.dragon.chords
@@ -47,6 +50,7 @@ class Passing:
 
     The place of a handle depends only on the head's travel. It is interpolated linearly between the rows of a table,
     STEP apart, with an error below a centimetre.
+    raises: TooMuchWork
     """
 
     def __init__(self, dance: Dance, start: float, stop: float, *, budget: Budget | None = None) -> None:

@@ -15,7 +15,7 @@ from core.paths.cubics import cut
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point
 
-# Least distance of two consecutive waypoints [m]: nearer ones are a mistake.
+# Least distance between two consecutive waypoints [m]: nearer ones are a mistake.
 WAYPOINT_GAP = 1e-3
 # Least length of a piece [m]: the direction of a shorter one is lost in rounding.
 LENGTH_MIN = 1e-6

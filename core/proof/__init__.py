@@ -54,9 +54,9 @@ the head's way, sweep a + 1 all places of handle a + 1 in the stretches of sweep
      handle is below P[u + 1]. Only handles from u + s on pass a stretch that begins above P[u], ..., P[u + s - 1]:
      in it, bench u needs only its pairs with benches up to n - 1 - s.
 
-Margin. Let the separation of two benches be the distance of two closest points, one of each.
+Margin. Let the separation of two benches be the distance between two closest points, one of each.
   7. If bench a lies behind a line of unit normal n, and all corners of b lie more than the margin beyond it, the
-     separation exceeds the margin, because it is no less than the distance of the projections onto n. Besides the
+     separation exceeds the margin, because it is no less than the distance between the projections onto n. Besides the
      eight faces, n may be any direction fixed in the first bench; two corners that are nearest to one another need
      this. 4. holds for it as for a face. Two benches are nearer than the margin m when they strictly
      overlap, or when some corner of one, with x and y its distances beyond the nearer of two opposite faces of the
@@ -90,8 +90,9 @@ of travel phi and the direction psi of the chord, alpha = phi - psi at the front
          e' = i (w_b - w_a) e,   q' = e v_b - v_a - i w_a q,   |q|' <= |e v_b - v_a|,
      and r of the next handle is f' r. Each encloses e and q from either end of the stretch through half of it. So
      4. applies with g' from e, e', q and q', and with a and b exchanged.
- 10. Benches are apart if the distance of their centres exceeds the sum of their half diagonals. By the last of 9. this
-     distance is never less than half the sum of its values at both ends, less half of |e v_b - v_a| times the stretch.
+ 10. Benches are apart if the distance between their centres exceeds the sum of their half diagonals. By the last of
+     9. this distance is never less than half the sum of its values at both ends, less half of |e v_b - v_a| times the
+     stretch.
  11. Let the first piece coil inwards; it continues outwards without end. If a handle stands on it and bench a is
      inside the circle, 5. holds for all benches from that handle on: a point of the way of its handle, of length w,
      is no farther from the centre than half the sum of w and its distances at both ends.

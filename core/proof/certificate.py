@@ -67,9 +67,9 @@ def prove_minimum_pitch(
     every_pair: bool = False,
     progress: Progress = lambda share: None,
 ) -> Certificate:
-    """A certificate that nothing touches on the way to the circle, and that with 1e-6 m less a pair overlaps on it.
+    """A certificate that nothing touches on the way to the circle, and that a pair overlaps at a pitch 1e-6 m smaller.
 
-    Every bench follows on that way. With 1e-6 m less a bench may also fold before the circle, or the start may lie
+    Every bench follows on that way. At the smaller pitch a bench may also fold before the circle, or the start may lie
     within the circle; then the certificate proves that instead. It proves nothing about larger pitches.
     pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
     """

@@ -22,6 +22,7 @@ from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
 from core.proof.words import spiral_words
+from core.shown import counted
 
 Record = Mapping[str, Any]
 
@@ -50,8 +51,8 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
             must = f"path.pieces[{k}] must be a line, an arc or a coil"
             if len(path.pieces) == 1:
                 must = "path must be a spiral, a turn or a route of lines, arcs and coils"
-            got = "got waypoints: on a path with waypoints a dance can be checked in double precision, with bounds on"
-            words = f"{must} for a proof in ball arithmetic, {got} its rounding, not proven"
+            got = "got waypoints: on such a path a dance is checked in double precision, with bounds on its rounding"
+            words = f"{must} for a proof in ball arithmetic, {got}"
             raise InvalidValue.in_words(f"path.pieces.{k}", words)
         kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
         recorded.append({"kind": kind} | {name: _plain(name, getattr(piece, name)) for name in names})
@@ -92,7 +93,7 @@ def described(record: Record) -> str:
         return f"the turn of ratio {said(record['ratio'])}, {entered}, between {coils}"
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
     place = f"its s = 0 at {said(record['start'])} m from its beginning"
-    return f"the route of {len(record['pieces'])} pieces ({kinds}), joined exactly, {place}"
+    return f"the route of {counted(len(record['pieces']), 'piece')} ({kinds}), joined exactly, {place}"
 
 
 def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChain:

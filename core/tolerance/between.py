@@ -10,8 +10,8 @@ The sag of handle j of three handles i, j, k is its distance from the point betw
 straight line. With L = c_0 + c_1 + c_2 the sag of
     0, 1, 2 is |u (e(a) - 1) - v (e(b) - 1)| with u = c_0 c_1 / (c_0 + c_1), v = 0,   and of 1, 2, 3 likewise,
     0, 1, 3 has u = c_0 (c_1 + c_2) / L, v = c_0 c_2 / L,   and 0, 2, 3 has u = c_0 c_2 / L, v = (c_0 + c_1) c_2 / L.
-Strays within delta change no distance of two handles and no sag by more than 2 delta. So three benches whose nominal
-shape has the distances D and the sags S can come into a shape (a, b) with d and s only if
+Strays within delta change no distance between two handles and no sag by more than 2 delta. So three benches whose
+nominal shape has the distances D and the sags S can come into a shape (a, b) with d and s only if
     delta >= N(a, b) = max(D - d, s - S) / 2 over all of them.
 They do not touch while delta is below the least N of all shapes in which they touch. Distances show a fold; small
 angles change them only by their squares, but change sags in proportion.

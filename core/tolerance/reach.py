@@ -54,7 +54,7 @@ from core.values import Floats
 
 # Number of samples of psi on either side of 0 [1]: the supports are then too large by at most 2e-4 of the stray.
 SAMPLES = 64
-# Largest part of the distance of two hulls by which their largest gap across a side of either falls short of it [1].
+# Largest part of the distance between two hulls by which their largest gap across a side of either falls short [1].
 SHORT = 1.0 - math.cos(math.pi / DIRECTIONS)
 # Part added to every support, for the rounding of fewer than 100 operations on lengths of the bench [1]; the corners of
 # a polygon with DIRECTIONS sides magnify an error of its supports tenfold.

@@ -54,7 +54,7 @@ def ask_and_leave(url: str, path: str, stay: float) -> None:
 
 
 def at_once(jobs: list[Callable[[], object]]) -> None:
-    """Each in a thread of its own; one that gets no answer is no matter: the client that watches says what it sees."""
+    """Run each job in a thread of its own. A job may get no answer: the watching client reports what it sees."""
 
     def without_answer(job: Callable[[], object]) -> None:
         with suppress(OSError):
@@ -164,7 +164,7 @@ def large_csv(url: str, seconds: float) -> None:
 
 
 def tables(url: str, count: int, accept: str) -> None:
-    """So many tables of a million cells at once."""
+    """`count` tables of a million cells at once."""
     body = json.dumps({"times": {"start": 0, "stop": 400, "step": 0.09}}).encode()
     at_once([lambda: ask(url, "POST", "/trajectory", body, timeout=60.0, accept=accept)] * count)
 
@@ -212,7 +212,7 @@ def half_open(url: str, seconds: float) -> None:
 
 @dataclass
 class Watch:
-    """What another client saw: the slowest answers [s], and what was not answered well."""
+    """Observations of another client: the slowest answers [s], and the bad ones."""
 
     slowest: dict[str, float] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)

@@ -1,6 +1,6 @@
 """Odd requests: valid and invalid ones made from the description of every call, and examples with odd values.
 
-`make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED] asks a service so many of each, and prints what it answered.
+`make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED] asks a service this many of each, and prints its answers.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def mutant(call: str, chance: random.Random) -> tuple[str, dict[str, Any]]:
 
 
 def ask_mutants(url: str, count: int, seed: int = 0) -> Tally:
-    """Ask so many of them, each call in turn."""
+    """Ask a number of them, each call in turn."""
     chance, tally, calls = random.Random(seed), Tally(), sorted(EXAMPLES)
     with httpx.Client(base_url=url, timeout=2.0 * SLOWEST) as client:
         for number in range(count):

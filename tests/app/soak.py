@@ -1,4 +1,4 @@
-"""The service under attack, seen by another client: first each attack alone, then all at once for a long time.
+"""The service under attack, seen by another client: each attack alone, then all in turn beside 64 clients.
 
 `make soak`: python -m tests.app.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
 """
@@ -120,7 +120,7 @@ def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
     below.plot(minutes, healthz, label="/healthz")
     below.plot(minutes, collision_time, label="/collision-time")
     below.set_ylabel("slowest answer to\none more client [s]")
-    below.set_xlabel("minutes of all attacks and 64 clients at once")
+    below.set_xlabel("minutes of all attacks in turn beside 64 clients")
     for axes in (middle, below):
         axes.legend(loc="upper right")
     for axes in (above, middle, below):

@@ -11,7 +11,7 @@ from app.questions.collision_time import Certificate
 from app.wire.question import Answer
 
 TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
-# What is said of a touch alone, of both by `nearest`, or of no contact.
+# Fields that speak of a touch alone, of both by `nearest`, or of no contact.
 APART_FROM_MARGINS = {
     ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
     ("LeastClearance", "distance"), ("Shown", "depth"),

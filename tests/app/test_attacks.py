@@ -12,9 +12,9 @@ from tests.app.attacks import ATTACKS, memory, tables, watching
 from tests.app.serving import serving
 from tests.depth import examples
 
-# How long an attack goes on, and the longest that another client may wait, 0.1 s on an idle machine [s].
+# Duration of an attack, and longest wait of another client, which is 0.1 s on an idle machine [s].
 SECONDS, SLOWEST = examples(1, 2), 1.0
-# What the service makes others wait it makes them wait each time; what else the machine does, it does not.
+# Tries: waits that the service causes occur each time, those that other programs cause do not.
 TIMES = 3
 
 
@@ -41,7 +41,7 @@ def test_another_client_is_answered_meanwhile(attacked: str, name: str) -> None:
     assert min(waits) < SLOWEST, waits
 
 
-# What tables of 24 MB, eight at once and three times, may leave behind after the first time [MB]; 100 to 360 where
+# Memory that tables of 24 MB, eight at once and three times, may leave behind after the first time [MB]; 100 to 360 if
 # freed memory is kept. As Arrow they take a tenth of the time that they take as CSV.
 LEFT_BEHIND = 60.0
 

@@ -435,15 +435,15 @@ def test_times_and_handles_that_cannot_be_are_refused(arguments: list[str], word
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_with_a_margin_the_command_says_nearer_than_it_and_the_gap() -> None:
+def test_with_a_margin_the_command_says_within_it_and_the_gap() -> None:
     for command in ("collision-time", "minimum-pitch", "shortest-turn"):
         said = " ".join(answer_of(command, "--benches", "40", "--margin", "0.05").split())
-        assert "nearer than 0.05 m" in said
+        assert "within 0.05 m" in said
         assert not re.search(r"touch|meet|outcome contact", said)
     said = answer_of("collision-time", "--margin", "0.2")
-    assert "nearer than 0.2 m from the start on" in said
+    assert "within 0.2 m from the start on" in said
     assert re.search(r"gap +0\.169278671 m", said)
-    assert "never nearer than 0.05 m" in answer_of("collision-time", "--pitch", "1.2", "--margin", "0.05")
+    assert "never within 0.05 m" in answer_of("collision-time", "--pitch", "1.2", "--margin", "0.05")
     assert "First contact" in answer_of("collision-time", "--benches", "20")
 
 

@@ -155,9 +155,9 @@ def test_what_is_not_decided_is_no_failure(tmp_path: Path) -> None:
 
 def test_a_margin_of_a_check_is_told_in_every_line(dance: Path) -> None:
     said = answer_of("check", str(dance))
-    assert "comes nearer than 0.9 m to 'square'" in said
-    assert "never nearer than 0.9 m" in said
-    assert "first nearer than 0.9 m" in said
+    assert "comes within 0.9 m of 'square'" in said
+    assert "never within 0.9 m" in said
+    assert "first within 0.9 m" in said
     assert "contact" not in said
 
 

@@ -7,6 +7,7 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from contextlib import closing
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -25,6 +26,12 @@ LONG_BODY = {
         "overhangs": [0.275123456] * 2000,
     },
     "path": {"kind": "turn"},
+}
+# Its plan takes a second to compute, and a minute to draw.
+LONG_PLAN = {
+    "dragon": {"benches": 2000},
+    "path": {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [8000, 0]}], "start": 4000},
+    "stop": 100,
 }
 SHORT_DEADLINE = 0.1  # [s]
 # The longest that anything may take here [s], where an answer alone would take minutes.
@@ -67,8 +74,9 @@ def soon(holds: Callable[[], bool]) -> bool:
         {"method": "POST", "url": "/check", "json": LONG_BODY},
         {"method": "GET", "url": "/pitch-scan", "params": {"samples": 401}},
         {"method": "GET", "url": "/figures/pitch-scan.svg", "params": {"samples": 401}},
+        {"method": "POST", "url": "/plan", "json": LONG_PLAN},
     ],
-    ids=["query", "body", "long-body", "scan", "figure"],
+    ids=["query", "body", "long-body", "scan", "figure", "plan"],
 )
 def test_the_answer_at_the_deadline_says_what_was_too_much_and_offers_a_job(
     hurried: str, asked: dict[str, Any]
@@ -139,3 +147,10 @@ def test_what_takes_longer_than_expected_is_answered_all_the_same(patient: str) 
         asked = client.get("/collision-time", params=dance | {"cross_check": "none"}).raise_for_status().json()
         told = client.post("/collision-time", json={"path": {"kind": "spiral"} | dance, "cross_check": "none"})
     assert asked == told.raise_for_status().json()
+
+
+def test_the_deadline_ends_a_plan_that_is_being_drawn(tmp_path: Path) -> None:
+    with serving(tmp_path / "server.log", deadline_seconds=4.0) as service:
+        answer = httpx.post(f"{service.url}/plan", json=LONG_PLAN, timeout=30.0)
+    assert answer.status_code == 422
+    assert "the plan was not drawn within 4 s" in answer.json()["detail"]

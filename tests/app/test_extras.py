@@ -21,7 +21,7 @@ from app.extras import MODULES
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-# Alone in the extra service: what the service also runs without.
+# Packages of the extra `service` without which it also runs.
 DISPENSABLE = {"uvloop"}
 # Python's search for modules, but for the ones that are hidden: they are not there, as before any extra. For each line
 # of standard input a run is forked: its arguments, its folder, and the folder for what it says.

@@ -213,7 +213,7 @@ def test_a_client_has_only_so_many_heavy_computations_and_leaves_places_to_other
         refused = client.get(held.url + HEAVY)
         answer = other.get(f"{held.url}/maximum-head-speed?benches=20")
     assert (refused.status_code, refused.headers["content-type"]) == (429, PROBLEM)
-    assert "1 of your heavy computations are running" in refused.json()["detail"]
+    assert "Your limit of 1 heavy computation at once is reached" in refused.json()["detail"]
     assert int(refused.headers["retry-after"]) >= 1
     assert answer.status_code == 200
 

@@ -96,7 +96,7 @@ EDGE = {
     "app.service.reply",
     "app.wire.question",
 }
-# What is asked about, checked and within a budget; and the search, with its claim in words.
+# The dance, its checks and the budget; and the search, with its claim in words.
 SEARCH = {
     "core.contact.first_contact",
     "core.contact.search",
@@ -104,7 +104,7 @@ SEARCH = {
     "core.errors",
     "core.paths.spiral",
 }
-# Where everyone is just before and after, and the four engines.
+# The poses just before and after, and the four engines.
 CROSS_CHECK = {
     "core.contact.cross_check",
     "core.shapes.engines",
@@ -114,7 +114,7 @@ CROSS_CHECK = {
 NEW_DRAGON = {"core.dragon"}
 # A contact so near a graze that doubles do not narrow its bracket: the pair in decimals, on the pieces of the path.
 NEAR_GRAZE = {"core.contact.near_graze", "core.paths.pieces", "core.paths.route", "core.sampling"}
-# Of these only values are made, by the constructors of dataclasses.
+# Modules that contribute only values, made by the constructors of dataclasses.
 VALUES = {"core.contact.answer", "core.contact.clearance", "core.paths.frame", "core.paths.path"}
 CROSS_CHECK_VALUES = {"core.shapes.overlaps"}
 

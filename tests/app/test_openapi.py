@@ -23,8 +23,8 @@ from tests.app.renew_examples import text
 from tests.depth import examples
 
 EXAMPLES_PER_CALL = examples(5, 25)
-# Of right values for the calls that take up to a second each, and of wrong ones for films, maps and plans: some of them
-# are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
+# Examples with right values for the calls that take up to a second each, and with wrong ones for films, maps and plans,
+# some of which are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
 SLOW = ("POST /films", "POST /maps.{format}", "POST /plan")
 EXAMPLES_OF_SLOW = examples(3, 8)
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
@@ -245,7 +245,7 @@ def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
     for (method, path), call in calls.items():
         if path.startswith(("/figures", "/films", "/grade", "/healthz", "/maps", "/places", "/plan", "/readyz")):
             continue
-        # What is told of a job is never the same.
+        # Answers about jobs are never the same.
         of_job = path.startswith(("/jobs", "/sweeps"))
         assert of_job or f"{method.upper()} {path}" in EXAMPLES
         for status in ("422", "500", "503") if of_job else ("406", "422", "500", "503"):

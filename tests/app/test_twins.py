@@ -14,7 +14,7 @@ from core.tolerance.curve import time_on_circle
 
 # Flat values of a question, and the same in a body.
 SMALL = {"benches": 30}
-# When the head of the dance of `tolerance` is on its circle [s].
+# Time at which the head of the dance of `tolerance` is on its circle [s].
 ON_CIRCLE = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
 SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "collision_time": (

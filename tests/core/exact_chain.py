@@ -57,7 +57,7 @@ def chord_squared(theta: float, delta: float) -> float:
 
 
 def first_crest(theta: float) -> float:
-    """Where chord_squared() first stops growing with delta, beyond pi."""
+    """Value of delta beyond pi at which chord_squared() first stops growing."""
 
     def grows(delta: float) -> bool:
         return delta + theta * (1.0 - math.cos(delta)) + theta * (theta + delta) * math.sin(delta) > 0.0

@@ -1,6 +1,6 @@
 """Errors of computed gaps against their bounds: random chains in doubles and to 50 digits.
 
-python -m tests.core.rounding_sweep 10000 [SEED] compares so many gaps and prints the largest and the median error, in
+python -m tests.core.rounding_sweep 10000 [SEED] compares this many gaps and prints the largest and the median error, in
 parts of its bound; exit code 1 where one exceeds its bound.
 """
 
@@ -23,7 +23,7 @@ from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral
 
 # Gaps compared in every chain, half of them of pairs behind the head.
 PAIRS = 20
-# So many chains of a hundred are as long as LINKS; the others have up to MODERATE links.
+# Chains of a hundred that are as long as LINKS; the others have up to MODERATE links.
 LONG = 2
 LINKS = 2_000
 MODERATE = 60
@@ -172,7 +172,7 @@ def _pairs(rng: np.random.Generator, benches: int, count: int) -> Iterator[tuple
 
 
 def sweep(gaps: int, seed: int) -> Errors:
-    """Errors of so many gaps, of chains on spirals and routes in turn."""
+    """Errors of a number of gaps, of chains on spirals and routes in turn."""
     rng, errors, chains = np.random.default_rng(seed), Errors(), 0
     while len(errors.gaps) < gaps:
         chains += 1

@@ -12,11 +12,11 @@ import numpy as np
 
 from tests.core.slow_search import arc_length, head_angle, next_delta, rectangles_gap
 
-# The way is sampled in such steps, in shortest chords, up to so many chords out from the circle, near which small
-# circles have two dips within a tenth of a chord; then further apart [1].
+# Steps in which the way is sampled, each up to a distance outside the circle; both in shortest chords [1]. Small
+# circles have two dips within a tenth of a chord near the circle.
 STEPS = ((0.02, 2.0), (0.2, 30.0))
 FAR_SAMPLES = 120
-# The deepest dips, and the steepest stretches, as towards a fold, are looked at again, in so many rounds of so many
+# The deepest dips, and the steepest stretches, as towards a fold, are sampled again, in ROUNDS rounds of SPLIT
 # samples.
 DIPS, STEEPEST, ROUNDS, SPLIT = 4, 3, 3, 24
 

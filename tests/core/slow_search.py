@@ -14,9 +14,9 @@ from shapely.geometry import Polygon
 
 # A root is found to its last bits [1], in six or so steps of Newton's; by bisection alone it takes 53.
 LAST_BITS, STEPS_MOST = 3e-16, 200
-# The range of delta beyond half a turn is looked at on so many points, four times around the largest value [1].
+# Points on which the range of delta beyond half a turn is sampled, and rounds of that around the largest value [1].
 CREST_POINTS, CREST_ROUNDS = 100, 4
-# Times are found in so many rounds of SPLIT instants each: 40^8 is about 7e12.
+# Rounds of SPLIT instants each in which a time is found: 40^8 is about 7e12.
 ROUNDS = 8
 # Steps of the head in the coarse pass, in shortest chords [1]; the smaller ones have SPLIT in two of these.
 STEP = 0.12
@@ -32,12 +32,12 @@ def arc_length(theta):
 
 
 def chord_squared(theta, delta):
-    """Of two points of the spiral r = theta."""
+    """Squared distance between two points of the spiral r = theta, delta apart in angle [rad]."""
     return delta**2 + 4.0 * theta * (theta + delta) * np.sin(0.5 * delta) ** 2
 
 
 def root(rising, guess, low, high):
-    """Where something that rises from low to high is zero: Newton's steps, and the middle where one leaves the bracket.
+    """Zero of a function that rises from low to high: Newton's steps, and the middle if one leaves the bracket.
 
     rising: its value and its slope; NaN where an end is NaN
     """
@@ -116,7 +116,7 @@ class SlowDance:
         return head_angle((self.way - time) / self.growth)
 
     def thetas(self, heads, benches=None):
-        """(T, n + 1) angles for (T,) head angles, of so many benches or all; NaN from where the chain folds."""
+        """(T, n + 1) angles for (T,) head angles, of the first n benches or of all; NaN from where the chain folds."""
         columns = [np.asarray(heads, dtype=float)]
         for chord in self.chords[:benches]:
             columns.append(columns[-1] + next_delta(columns[-1], chord / self.growth))
@@ -223,7 +223,7 @@ class SlowDance:
 
 
 def first_time(low, high, holds):
-    """Where something that does not hold at low, and holds at high, begins to hold, to the last bits."""
+    """Place, to the last bits, from which a condition holds that does not hold at low and holds at high."""
     for _ in range(ROUNDS):
         times = np.linspace(low, high, SPLIT + 1)
         k = max(1, int(np.argmax(holds(times))))

@@ -15,11 +15,11 @@ from core import Dragon, InvalidValue, LimitedBy, minimum_pitch
 from tests.core.slow_pitch import SlowWay
 
 # A pitch this much above the answer must be feasible, one this much below the infeasible end must not be [1], and at
-# least so much [m]: pitches are promised to 1e-9 m.
+# least the second number [m]: pitches are promised to 1e-9 m.
 BESIDE, BESIDE_LEAST = 1e-8, 2e-9
 # Rounding of a slow clearance on a way of metres [m], and of one on a wide spiral, per metre of its pitch [1].
 ROUNDING, ROUNDING_PER_PITCH = 1e-11, 1e-13
-# Of the samples above the answer, as multiples of it less one; the largest pitch looked at [m].
+# Nearest and furthest sample above the answer, as multiples of it less one [1]; the largest pitch sampled [m].
 NEAREST, FURTHEST, PITCH_MAX = 1e-5, 1e2, 1e4
 # A dragon that is refused touches, or folds, at every pitch looked at from here to the largest [m].
 WIDE = 9e3
@@ -47,7 +47,7 @@ def random_case(seed):
 
 
 def fault(seed):
-    """What the answer for one random dragon is, and what is wrong with it, '' if nothing is."""
+    """The answer for one random dragon, and its fault in words ('' for none)."""
     dragon, radius, turns, margin = random_case(seed)
 
     def least(pitch):

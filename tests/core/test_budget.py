@@ -93,7 +93,7 @@ QUESTIONS: dict[str, Question] = {
     "uncertain_tolerance": lambda budget: uncertain_tolerance(Dragon(30), 0.7, length_error=0.01, budget=budget),
     "overlaps": lambda budget: overlaps(POSES, *SIZES, budget=budget),
     "cross_check": lambda budget: cross_check(POSES, *SIZES, budget=budget),
-    "contact_check": lambda budget: contact_check(CONTACT, Dance(Dragon(), Spiral()), budget=budget),
+    "contact_check": lambda budget: contact_check(CONTACT, budget=budget),
     "pitch_check": lambda budget: pitch_check(minimum_pitch(Dragon()), Dragon(), budget=budget),
     "Route": lambda budget: Route([LANE], budget=budget).table,
 }

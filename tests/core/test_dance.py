@@ -85,8 +85,8 @@ def test_the_reference_agrees_on_every_fold() -> None:
 
 
 def sampled_fold(chord2: float) -> float | None:
-    """Where theta first stops falling along f = chord^2 as delta grows from pi, None if nowhere: two scans, the second
-    around the least slope of the first."""
+    """Value of delta, growing from pi, at which theta first stops falling along f = chord^2; None for none. Two scans,
+    the second around the least slope of the first."""
 
     def theta_and_slope(delta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         rise = 1.0 - np.cos(delta)

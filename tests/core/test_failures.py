@@ -54,8 +54,7 @@ def test_a_margin_is_missed_before_the_touch_and_the_dance_goes_on_until_then() 
     assert report.first_contact.time is not None
     assert report.first_contact.time < 412.0 < report.stop
     assert (
-        report.failures[0].message
-        == "Benches 0 and 14 come nearer than 0.05 m at 383.867583 s, with a gap of 0.050000 m."
+        report.failures[0].message == "Benches 0 and 14 come within 0.05 m at 383.867583 s, with a gap of 0.050000 m."
     )
     assert report.failures[1].message == "Benches 0 and 8 have no gap left at 412.473838 s, where the dance stops."
 
@@ -144,28 +143,28 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
     assert trajectory(Dance(Dragon(), TURN), speed.time).speed.max() > 1.5
 
 
-def test_with_a_margin_every_sentence_says_nearer_than_it_and_the_gap() -> None:
+def test_with_a_margin_every_sentence_says_within_it_and_the_gap() -> None:
     wall = venue(box("square", -30, -30, 30, 30), box("lamp", 4.95, -3, 5, -2.9))
     failures = check(Dance(Dragon(), TURN), venue=wall, margin=0.35, start=-100.0, stop=100.0).failures
     near = [failure.message for failure in failures if failure.kind in (FailureKind.CONTACT, FailureKind.VENUE)]
     assert len(near) == 2
     for message in near:
-        assert "nearer than 0.35 m" in message
+        assert "within 0.35 m" in message
         assert message.endswith(" m.")
-        assert not re.search("touch|meet|within", message)
-    assert "Benches 0 and 16 come nearer than 0.35 m at 13.630164 s, with a gap of 0.350000 m." in near
+        assert not re.search("touch|meet", message)
+    assert "Benches 0 and 16 come within 0.35 m at 13.630164 s, with a gap of 0.350000 m." in near
 
 
 def test_with_a_margin_benches_that_overlap_from_the_start_say_how_deep() -> None:
     (contact,) = check(Dance(Dragon(), Spiral(0.3)), margin=0.2).failures
-    assert contact.message == "Benches 8 and 28 come nearer than 0.2 m at 0.000000 s, and overlap by 0.114627 m."
+    assert contact.message == "Benches 8 and 28 come within 0.2 m at 0.000000 s, and overlap by 0.114627 m."
 
 
 def test_with_a_margin_a_bench_on_a_wall_from_the_start_says_how_deep() -> None:
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
     report = check(Dance(Dragon(benches=5), route), venue=venue(box("square", -70, -9, 70, 0.1)), margin=0.2, start=0.0)
     (near,) = [failure.message for failure in report.failures if failure.kind is FailureKind.VENUE]
-    assert near.endswith(" comes nearer than 0.2 m to 'square' at 0.000000 s, and overlaps it by 0.050000 m.")
+    assert near.endswith(" comes within 0.2 m of 'square' at 0.000000 s, and overlaps it by 0.050000 m.")
 
 
 def test_a_wall_at_the_margin_to_rounding_is_undecided_and_that_is_no_failure() -> None:
@@ -174,6 +173,6 @@ def test_a_wall_at_the_margin_to_rounding_is_undecided_and_that_is_no_failure() 
     report = check(Dance(Dragon(benches=5), route), venue=square, margin=0.2, start=0.0)
     assert [(failure.kind, failure.area) for failure in report.failures] == [(FailureKind.UNDECIDED, "square")]
     assert (report.verdict, report.passed) == (Judgement.UNDECIDED, False)
-    assert "nearer than 0.2 m to 'square' is not decided" in report.failures[0].message
+    assert "within 0.2 m of 'square' is not decided" in report.failures[0].message
     assert report.venue is not None
     assert report.venue.areas[0].nearest.distance == pytest.approx(0.2, abs=1e-13)

@@ -37,7 +37,7 @@ PASSAGES = [Passage(0.5, until_s=20.0), Passage(0.0, until_time=100.0), Passage(
 SPIRAL = Spiral(0.55, 16.0)
 DRAGON = Dragon(20)
 DANCE, STEADY = Dance(DRAGON, SPIRAL, 1.0, PASSAGES), Dance(DRAGON, SPIRAL)
-LATER = 60.0  # what comes after the last passage comes so much later [s]
+LATER = 60.0  # delay of everything after the last passage [s]
 PAUSE = {"start": 50.0, "stop": 80.0}
 ROOM = Venue(Area("square", (((-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)),)))
 PASSED = st.lists(
@@ -95,7 +95,7 @@ def test_a_contact_is_at_the_same_place_at_the_time_of_that_place() -> None:
     assert found.time_bracket is not None
     assert found.time_bracket[1] - found.time_bracket[0] <= 1e-9
     assert "0 m/s until 100 s" in found.certificate.method
-    judged = contact_check(found, DANCE)
+    judged = contact_check(found)
     assert judged is not None
     assert judged.agree
     assert DANCE.end.time == pytest.approx(STEADY.end.time + LATER, abs=1e-9)

@@ -41,7 +41,7 @@ def results() -> Iterator[Any]:
     """One of every public result."""
     contact = core.first_contact(DANCE)
     yield from (contact, contact.certificate, contact.certificate.least_clearance, contact.head, contact.corner)
-    yield core.contact_check(contact, DANCE)
+    yield core.contact_check(contact)
     yield DANCE.end
     yield core.trajectory(DANCE, np.arange(301.0))
     yield core.clearance_profile(DANCE, np.arange(380.0, 412.0))
@@ -110,7 +110,7 @@ def spent() -> core.Budget:
 
 @pytest.fixture(scope="module")
 def values() -> list[Any]:
-    """What is shown: results, one of each kind, and what is given."""
+    """Everything that is shown: results, one of each kind, and inputs."""
     found = {type(value): value for value in results()}
     return [*found.values(), *INPUTS, *OTHERS]
 

@@ -12,7 +12,7 @@ import pytest
 from core import Area, InvalidValue, Venue
 from core.venue import EDGES_MAX, Ring
 
-AT_ONCE = 2.0  # [s] of processor time; judging the validity of so many rings takes more than a minute
+AT_ONCE = 2.0  # [s] of processor time; judging the validity of that many rings takes more than a minute
 
 
 def box(x: float, y: float, right: float, top: float) -> Ring:

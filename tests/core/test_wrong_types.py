@@ -16,13 +16,13 @@ SQUARE = Venue(Area("square", (((-30, -30), (30, -30), (30, 30), (-30, 30), (-30
 DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
 CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
-# How each is called when all is well; the names are those of its parameters.
+# A valid call of each function; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.bench_outlines: {"dragon": DRAGON, "handles": np.zeros((6, 2)) + np.arange(6)[:, None]},
     core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
     core.check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.clearance_profile: {"dance": DANCE, "times": [0.0]},
-    core.contact_check: {"contact": CONTACT, "dance": DANCE, "margin": 0.0},
+    core.contact_check: {"contact": CONTACT},
     core.contact_probability: {
         "dance": DANCE,
         "model": core.Wobble(),
@@ -74,7 +74,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.Venue: {"square": SQUARE.square, "obstacles": ()},
     core.Waypoints: {"points": ((0, 0), (5, 5)), "start_heading": 0.0, "end_heading": 0.0},
 }
-# What the refusal calls a parameter where not by its own name: as part of the whole, or by its columns.
+# Parameters that a refusal calls by another name: as part of the whole, or by their columns.
 SPOKEN = {
     core.Arc: dict.fromkeys(CALLS[core.Arc], "arc."),
     core.Area: {"name": "venue", "rings": "venue"},

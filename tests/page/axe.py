@@ -12,7 +12,7 @@ IN_COLOURS = ["color-contrast", "link-in-text-block"]
 
 
 def serious(page: Any, place: str | None = None, *, in_colours: bool = False) -> list[tuple[str, str]]:
-    """What axe finds serious: rule, and first element that breaks it.
+    """Serious findings of axe: the rule, and the first element that breaks it.
 
     in_colours: only by rules that depend on colours
     """

@@ -16,7 +16,7 @@ from pathlib import Path
 
 # Commands that start one, in the order of preference: the one without windows opens a page for less.
 NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-# Where one is installed without being in PATH.
+# Places of browsers that are installed without being in PATH.
 PLACES = (
     "/usr/bin/chromium",
     "/usr/bin/chromium-browser",
@@ -42,7 +42,7 @@ MISSING = "no Chrome or Chromium starts here: make test installs one if it can; 
 
 
 def _downloads() -> Iterator[str]:
-    """What Playwright has downloaded, the newest first."""
+    """Browsers that Playwright has downloaded, the newest first."""
     home = Path.home()
     caches = {
         "darwin": home / "Library/Caches",

@@ -35,7 +35,7 @@ TIMEOUT = 60_000  # [ms]; no test waits this long for what is coming, however bu
 # Longest computation of one answer [s]: on a busy machine the ten seconds of the default are soon over.
 DEADLINE = 50.0
 
-# Chromium smooths the same edge now this way, now that: so many pixels of two equal pictures may differ [1].
+# Share of pixels in which two equal pictures may differ [1]: Chromium does not always smooth an edge in the same way.
 PIXELS_UNLIKE = 1e-3
 
 # From one address of the page to another as by the browser's back button; nothing moves or is drawn any more.
@@ -55,7 +55,7 @@ GO = """(query) => {
   });
 }"""
 
-# What Chromium itself writes when a request fails; only tests that make one fail may see it.
+# Chromium's own message about a failed request; only tests that make one fail may see it.
 FAILED_REQUEST = "Failed to load resource"
 # But where many tests share a machine, any request may find the service busy: the page then comes again by itself.
 BUSY = f"{FAILED_REQUEST}: the server responded with a status of 503 (Service Unavailable)"
@@ -221,7 +221,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
             tabs.left(kept.pop(key), server)
             continue
         if one.failing:
-            # What this test has asked, and is refused only now, is not the fault of the next one.
+            # A request of this test that is refused only now is not the fault of the next one.
             go(one.page, EASY, one.page.viewport_size)
         one.check()
         one.failing = False

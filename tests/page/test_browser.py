@@ -12,7 +12,7 @@ import pytest
 from tests.page.browser import NAMES, PLACES, candidates, starts
 
 ROOT = Path(__file__).parents[2]
-# As on a machine where nothing that draws a page is installed.
+# Code that hides every installed browser.
 WITHOUT = "from tests.page import browser; browser.PLACES = ()"
 LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
 
@@ -70,7 +70,7 @@ def test_what_is_missing_or_cannot_run_is_no_browser(tmp_path: Path) -> None:
 
 
 def without_browser(folder: Path, *arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
-    """What pytest does on a machine without a browser, in every process that it starts."""
+    """A run of pytest on a machine without a browser, in every process that it starts."""
     (folder / "without_browser.py").write_text(WITHOUT)
     environment = bare(folder) | {"PYTEST_PLUGINS": "without_browser", "PYTHONPATH": f"{folder}:{ROOT}"} | more
     command = [sys.executable, "-m", "pytest", "-q", *arguments]
@@ -104,7 +104,7 @@ def test_it_is_said_also_by_several_processes_and_continuous_integration_fails(
 
 
 def got(folder: Path, user: int, *, has_apt: bool = True) -> tuple[str, str, list[str]]:
-    """What getting a browser prints, what it says on standard error, and what it ran."""
+    """Output of getting a browser: standard output, standard error, and the commands that it ran."""
     # The package of the system brings /usr/bin/chromium; here it goes into the folder of the test.
     installed = "/bin/printf '#!/bin/sh\\necho Chromium 1\\n' >$HOME/chromium; /bin/chmod +x $HOME/chromium"
     script = f"""#!/bin/sh

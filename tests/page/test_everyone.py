@@ -12,7 +12,7 @@ from tests.page.pending import settled
 PHONE = {"width": 390, "height": 844}
 
 
-# Of every element that gets the focus from now on: its name, and whether an outline shows it.
+# Records, for every element that gets the focus from now on, its name, and whether an outline shows it.
 FOCUSED = """window.focused = [];
   addEventListener("focusin", ({ target: one }) =>
     focused.push([one.id || one.className || one.tagName, getComputedStyle(one).outlineStyle !== "none"]))"""

@@ -30,7 +30,7 @@ def put(page: Any, table: str) -> None:
 
 
 def contact_of(server: str, **asked: Any) -> str:
-    """When the service finds first contact, as the page writes it."""
+    """Time of first contact by the service, in the words of the page."""
     found = polite.post(f"{server}/collision-time", json={"path": SPIRAL, **asked}).raise_for_status().json()
     return f"{found['time'] if found['time'] is not None else found['end']['time']:.6f} s"
 
@@ -101,7 +101,7 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
     shown = contact_of(server, dragon={"benches": 30}, passages=PASSAGES)
     expect(page.locator("#first-contact .value")).to_contain_text(shown)
     expect(page.locator("#clock")).to_have_text(re.compile(r"^50.000000 s\s*07:30:50$"))
-    # The head rests: everybody does.
+    # The head rests, and so does everybody.
     expect(page.locator("#rows tbody td").nth(3)).to_have_text("0.000000")
     page.wait_for_url("**passages=0.5@20m_0@100s_1.5@60m*")
     page.reload()

@@ -14,7 +14,7 @@ from tests.page.pending import settled
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 SECTIONS = ("chord", "staircase", "step", "graze", "stray")
-# So many pixels move a number by a quarter of its range.
+# A drag by this many pixels moves a number by a quarter of its range.
 QUARTER = 70
 
 

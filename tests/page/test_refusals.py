@@ -17,7 +17,7 @@ ENGLISH = re.compile(
     r"(?<![A-Za-z])(?!GeoJSON|HTTP|TOML|JSON|KMZ?|DXF|DWG|ASCII|XML|name|length|width|overhang)[A-Za-z]{3,}"
 )
 QUOTED = re.compile("“[^”]*”")
-# What no person should read: names of fields, units in brackets, and words for programs.
+# Words that no person should read: names of fields, units in brackets, words for programs.
 INSIDE = re.compile(r"[a-z]_[a-z]|\[|\bgot\b|venue|csv|dragon\.\w|path\.\w|POST|header|\bNone\b")
 FIELDS = {
     "collision-time": ("pitch", "start_turns", "benches", "head_length", "overhang", "head_speed", "margin", "stray"),
@@ -126,7 +126,7 @@ def late() -> httpx.Response:
 
 
 def refusals(server: str) -> list[str]:
-    """What the service says to wrong numbers, paths, squares, tables, passages and files."""
+    """Refusals of the service: wrong numbers, paths, squares, tables, passages and files."""
     few, octets = {"dragon": {"benches": 9}}, {"Content-Type": "application/octet-stream"}
     with httpx.Client(base_url=server, timeout=60.0) as client:
         wrong = [(call, {name: text}) for call, names in FIELDS.items() for name in names for text in WRONG]

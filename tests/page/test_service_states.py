@@ -299,7 +299,8 @@ def test_the_policy_lets_the_page_load_from_its_service_alone(visit: Any, server
 
 
 def loaded(browser: Any, server: str) -> tuple[dict[str, int], float]:
-    """What goes to a browser that has nothing yet, as it counts it [bytes]; first contact on a quiet machine [ms]."""
+    """Bytes that a browser with an empty cache receives, by its own count; time of first contact on a quiet machine
+    [ms]."""
     context = browser.new_context(viewport={"width": 1440, "height": 900}, locale="en-GB")
     page = context.new_page()
     wire = context.new_cdp_session(page)

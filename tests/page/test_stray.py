@@ -14,7 +14,7 @@ from tests.page.pending import settled
 
 SURE = ("Contact at", "Nothing touches", "touch at", "meet at", "时碰撞", "无碰撞")
 CHORD, OVERHANG, WIDTH, STRAY = 1.65, 0.275, 0.3, 0.05
-# The ground of a bench that lies anywhere on the canvas: is each of these points, in the frame of the bench, on it?
+# For a bench anywhere on the canvas: whether each of these points, in the frame of the bench, is on its ground.
 ON_GROUND = """async ([stray, chord, overhang, width, points]) => {
   const { addGround } = await import("/page/dance.js");
   const pen = document.createElement("canvas").getContext("2d");
@@ -55,7 +55,7 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
         page,
         "#first-contact",
         "nothing can touch up to",
-        "each in its place, against the gap at this contact, and shapely",
+        "each in its place, by the gap at this contact; shapely",
     )
     shows(page, "#inset figcaption", "is nearest to", gap)
     shows(page, "#clearance .hint", "from then on two may touch")
@@ -73,17 +73,17 @@ def test_a_margin_and_a_stray_are_said_together_and_play_counts(visit: Any, serv
     page = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
     query = {"benches": 12, "margin": 0.03, "stray": 0.025}
     time = f"{asked(server, 'collision-time', **query)['time']:.6f} s"
-    title = "First time nearer than 0.03 m, every hole within 2.5 cm of its place"
-    shows(page, "#first-contact", title, f"May come nearer than 0.03 m from {time}")
-    shows(page, "#minimum-pitch", f"{asked(server, 'minimum-pitch', **query)['pitch']:.9f} m", "nearer than 0.03 m, at")
+    title = "First time within 0.03 m, every hole within 2.5 cm of its place"
+    shows(page, "#first-contact", title, f"May come within 0.03 m from {time}")
+    shows(page, "#minimum-pitch", f"{asked(server, 'minimum-pitch', **query)['pitch']:.9f} m", "come within 0.03 m, at")
     page.locator("[data-lang=zh]").click()
-    shows(page, "#first-contact", "首次间距小于 0.03 m（每个孔离位不超过 2.5 cm）", f"{time} 起可能间距小于 0.03 m")
+    shows(page, "#first-contact", "首次间距不超过 0.03 m（每个孔离位不超过 2.5 cm）", f"{time} 起可能间距不超过 0.03 m")
 
 
 def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: str) -> None:
     # The shortest turn takes seconds, and what follows it is not asked.
     page = open_page("?path=turn&benches=20&stray=0.03", without="**/shortest-turn*")
-    shows(page, "#first-contact[data-outcome=clear]", "Stays clear: nothing can touch", "No pair of benches can")
+    shows(page, "#first-contact[data-outcome=clear]", "Stays clear: nothing can touch", "No two benches can")
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
     free = polite.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
     shows(page, "#tolerance", f"{int(10_000 * free) / 100:.2f} cm", "In this part of the dance everybody may be")

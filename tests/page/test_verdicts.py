@@ -22,7 +22,7 @@ def tone(page: Any, name: str) -> str:
 
 
 def times_of_the_fold(page: Any) -> set[str]:
-    """How the time of the fold is written for people; a command to copy has all digits of the instant shown."""
+    """The times of the fold as written for people; a command to copy has all digits of the instant shown."""
     said = " ".join(page.locator(place).inner_text() for place in ("#answers", "#handles", "#dance", "#charts"))
     return set(re.findall(r"238\.2149\d*", said))
 
@@ -41,10 +41,10 @@ def verdict(page: Any) -> tuple[str, str, str]:
         ("?benches=40&pitch=1.2&start_turns=8", "folds", "undecided", "The dragon folds at 238.214985 s"),
         ("?benches=40&pitch=1.2&start_turns=8&margin=0.1", "folds", "undecided", "The dragon folds at 238.214985 s"),
         ("?benches=5&pitch=9&start_turns=3", "clear", "clear", "Nothing touches"),
-        ("?benches=5&pitch=9&start_turns=3&margin=0.1", "clear", "clear", "Never nearer than 0.1 m"),
+        ("?benches=5&pitch=9&start_turns=3&margin=0.1", "clear", "clear", "Never within 0.1 m"),
         ("?benches=20", "contact", "contact", "Contact at "),
-        ("?benches=20&margin=0.05", "contact", "contact", "Nearer than 0.05 m at "),
-        ("?margin=0.2", "contact_at_start", "contact", "Nearer than 0.2 m from the start on"),
+        ("?benches=20&margin=0.05", "contact", "contact", "Within 0.05 m at "),
+        ("?margin=0.2", "contact_at_start", "contact", "Within 0.2 m from the start on"),
     ],
     ids=["fold", "fold with a margin", "centre", "centre with a margin", "contact", "margin", "margin at the start"],
 )
@@ -77,7 +77,7 @@ def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(visit: Any) 
         assert times_of_the_fold(page) == {"238.214985"}
     note = "Just before the fold at 238.214985 s: towards it the speeds grow without bound."
     assert page.locator("#table-fold").inner_text() == note
-    assert "1e-6 s before the fold at 238.214985 s" in page.locator("#table-time").inner_text()
+    assert "Handles 1e-6 s before the fold at 238.214985 s" in page.locator("#table-time").inner_text()
     assert "m/s → ∞" in page.locator("#legend").inner_text()
     page.get_by_role("button", name="中文").click()
     page.locator("#table-fold", has_text="即将在 238.214985 s 折叠").wait_for()
@@ -93,10 +93,10 @@ def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(
     page.locator("#first-contact[data-outcome=contact_at_start]").wait_for()
     page.locator("#first-contact summary").click()
     said = page.locator("#first-contact").inner_text()
-    assert "They are nearer than 0.2 m at the start: no time before it is proven clear".lower() in said.lower()
+    assert "They are within 0.2 m at the start: no time before it is proven clear".lower() in said.lower()
     assert "up to 0" not in said
     page.get_by_role("button", name="中文").click()
-    page.locator("#first-contact dl", has_text="起始时刻间距已小于 0.2 m").wait_for()
+    page.locator("#first-contact dl", has_text="起始时刻间距已不超过 0.2 m").wait_for()
 
 
 @pytest.mark.parametrize(
@@ -107,11 +107,11 @@ def test_with_a_margin_no_answer_speaks_of_a_touch(visit: Any, query: str) -> No
     margin = query.rpartition("=")[2]
     page.locator("#inset figcaption", has_text="mm").wait_for()
     page.locator("#minimum-pitch .value").wait_for()
-    for language, near in (("English", f"earer than {margin} m"), ("中文", f"间距小于 {margin} m")):
+    for language, near in (("English", f"ithin {margin} m"), ("中文", f"间距不超过 {margin} m")):
         page.get_by_role("button", name=language).click()
         page.locator("#first-contact h3", has_text=near).wait_for()
         page.evaluate("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
-        # How far people may stray until benches touch is another question, which knows no margin.
+        # The stray at which benches touch is another question, which knows no margin.
         for place in (".answer:not(#tolerance, [hidden])", "#inset figcaption", "#scan", "#clearance"):
             said = " ".join(page.locator(place).all_inner_texts())
             assert not TOUCHING.search(said), TOUCHING.search(said)

@@ -150,7 +150,7 @@ def test_every_cell_is_a_number_of_six_decimals_in_a_frozen_sheet(chinese: Path,
 
 
 def differences(place: Any, speed: Any, column: int, handles: list[Any]) -> list[float]:
-    """Of the sheets of positions and speeds from reference handles at the instant of one column."""
+    """Differences of both sheets from the reference at the instant of one column [m], [m/s]."""
     return [
         abs(found - told)
         for one in handles

@@ -64,15 +64,15 @@ def test_contact_figure_at_the_start_says_so() -> None:
 
 def test_contact_figure_with_a_margin_states_it() -> None:
     near = texts(figures.contact_figure(Dance(SMALL, Spiral()), margin=0.05))
-    assert "First nearer than 0.05 m: " in near
-    assert "Nearer than 0.05 m: a gap of 0.050000 m at (" in near
+    assert "First within 0.05 m: " in near
+    assert "Within 0.05 m: a gap of 0.050000 m at (" in near
     from_start = texts(figures.contact_figure(Dance(Dragon(), Spiral()), margin=0.2))
-    assert "Nearer than 0.2 m from the start on" in from_start
+    assert "Within 0.2 m from the start on" in from_start
     assert "a gap of 0.169279 m" in from_start
     scan = texts(*scan_figures(Dragon(benches=8), "svg", margin=0.05, samples=5))
-    assert "radius of the head when two benches are first nearer than 0.05 m [m]" in scan
+    assert "radius of the head when two benches are first within 0.05 m of each other [m]" in scan
     never = texts(figures.contact_figure(Dance(Dragon(benches=5), Spiral(9.0, 3.0)), margin=0.1))
-    assert "Never nearer than 0.1 m: the run ends clear at the centre" in never
+    assert "Never within 0.1 m: the run ends clear at the centre" in never
     for words in (near, from_start, scan, never):
         assert not re.search("contact|touch|meet|overlap", words, re.IGNORECASE)
 

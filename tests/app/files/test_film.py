@@ -18,7 +18,7 @@ from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, 
 from tests.app.command import run
 from tests.depth import some
 
-# Of the head and of the body, as drawn; video keeps colours to within a few parts of 255.
+# Colours of the head and of the body; video keeps them to within a few parts of 255.
 HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60
 SMALL = {"dragon": {"benches": 12}, "seconds": 1, "rate": 6, "height": 360, "stop": 60}
 
@@ -86,7 +86,7 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_pat
 
 
 def test_the_contest_s_turn_is_filmed_by_its_name(tmp_path: Path) -> None:
-    """As `trajectory --path turn` tables it: with the pitch of the turn, not of the spiral."""
+    """It has the pitch of the turn, not of the spiral, as in the table of `trajectory --path turn`."""
     file = tmp_path / "turn.mp4"
     times = ("--start", "-20", "--stop", "40", "--seconds", "1", "--rate", "4")
     done = run("film", "--path", "turn", "--benches", "30", *times, "--output", str(file))

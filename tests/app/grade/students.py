@@ -104,7 +104,7 @@ def gradient() -> Results:
 
 
 def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
-    """Where excess changes its sign between low and high, for each instant, to 1e-11 of what is between."""
+    """Place between low and high at which excess changes its sign, for each instant, to 1e-11 of the range."""
     sign = np.sign(excess(low))
     for _ in range(37):
         middle = 0.5 * (low + high)

@@ -43,7 +43,7 @@ def by_openpyxl(sheets: Sheets) -> bytes:
 
 
 def by_pandas(sheets: Sheets) -> bytes:
-    """As a script writes tables whose columns have names: bold heads with borders, labels as the index."""
+    """Tables by pandas, whose columns have names: bold heads with borders, labels as the index."""
     sink = io.BytesIO()
     with pandas.ExcelWriter(sink) as book:
         for title, [[_, *heads], *rows] in sheets.items():
@@ -63,7 +63,7 @@ def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheet
 
 @pytest.mark.parametrize("writer", [by_openpyxl, by_pandas])
 def test_a_few_instants_of_other_tools_are_right(writer: Callable[[Sheets], bytes]) -> None:
-    """By `make deep` all."""
+    """`make deep` takes all instants."""
     contact, turned = three()[1], rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
     found = [grade(writer(sheets), "upload") for sheets in (few(), contact, turned)]
     assert [file.workbook for file in found] == ["result1", "result2", "result4"]
@@ -144,7 +144,7 @@ def filled(element: bytes, times: int) -> bytes:
 
 
 def strict() -> bytes:
-    """As Excel writes Strict Open XML."""
+    """A workbook in Excel's Strict Open XML."""
     old, new = b"http://schemas.openxmlformats.org/spreadsheetml/2006", b"http://purl.oclc.org/ooxml/spreadsheetml"
     return repacked(small(), lambda part, content: content.replace(old, new))
 
@@ -183,7 +183,7 @@ def test_a_file_that_cannot_be_graded_gets_a_clear_word(name: str) -> None:
 
 
 def prefixed(part: str, content: bytes) -> bytes:
-    """As some libraries name elements: x:row, x:c, x:v."""
+    """The names of elements that some libraries write: x:row, x:c, x:v."""
     return re.sub(rb"<(/?)(?=\w)", rb"<\1x:", content.replace(b"xmlns=", b"xmlns:x=")) if part in SHEETS else content
 
 
@@ -192,7 +192,7 @@ def without_places(part: str, content: bytes) -> bytes:
 
 
 def pronounced(part: str, content: bytes) -> bytes:
-    """As Excel keeps how a word was typed."""
+    """Text with the reading of a word as it was typed, which Excel keeps."""
     spoken = b'</t><rPh sb="0" eb="1"><t>head 9</t></rPh></si>'
     return content.replace(b"</t></si>", spoken) if part == "xl/sharedStrings.xml" else content
 
@@ -231,7 +231,7 @@ def test_macros_are_told_and_not_run() -> None:
 def test_formulas_count_with_the_value_stored_with_them() -> None:
     found = grade(repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v>')))
     # One in each sheet.
-    assert found.notes == 2 * ["1 cells hold formulas, the first is C2: the values stored with them were read."]
+    assert found.notes == 2 * ["Cells with formulas: 1, the first is C2. The values stored with them were read."]
     assert found.sheets[0].right == 4 * 448
 
 
@@ -239,7 +239,7 @@ def test_a_formula_without_a_stored_value_is_told() -> None:
     found = grade(
         repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v></v></c><c r="Z2"><v>'))
     )
-    assert found.notes[0].startswith("1 cells hold formulas without a stored value, the first is C2: open and save")
+    assert found.notes[0].startswith("Cells with formulas but no stored value: 1, the first is C2. Open and save")
     assert found.sheets[0].right == 4 * 448 - 1
 
 
@@ -258,7 +258,7 @@ def test_a_fault_in_one_file_is_told_and_raises_nothing() -> None:
 
 def test_merged_cells_are_told() -> None:
     found = grade(small(lambda book: book["位置"].merge_cells("C2:E2")))
-    assert found.notes == ["1 ranges of cells are merged, the first is C2:E2: only its first cell has a value."]
+    assert found.notes == ["Merged ranges of cells: 1, the first is C2:E2. Only the first cell of each has a value."]
     assert found.sheets[0].right == 4 * 448 - 2
 
 

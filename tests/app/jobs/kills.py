@@ -71,9 +71,9 @@ def kill_one(service: Service, chance: random.Random) -> str:
 
 
 def survive(service: Service, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
-    """Kills so many processes; then all jobs must be done, with the bytes of the direct calls.
+    """Kill a number of processes; then all jobs must be done, with the bytes of the direct calls.
 
-    returns: how many processes of each role were killed
+    returns: number of processes killed, by role
     """
     chance, done, store = random.Random(seed), dict.fromkeys(ROLES, 0), Store(service.folder)
     asked: dict[str, Any] = {}

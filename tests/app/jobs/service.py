@@ -132,7 +132,7 @@ class Service:
 
 
 def _has_job(pid: int) -> bool:
-    """Does a process for jobs have one? It opens the store only then."""
+    """True if a process for jobs has a job: it opens the store only then."""
     return any("jobs.sqlite" in os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir())
 
 

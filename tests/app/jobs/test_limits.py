@@ -80,7 +80,7 @@ def test_a_client_has_only_so_many_unfinished_jobs_and_the_service_only_so_many_
     addresses.append(strict.post(ENDLESS))
     refused = strict.client.post("/jobs", json=SHORT)
     assert refused.status_code == 429
-    assert "2 of your jobs are unfinished" in refused.json()["detail"]
+    assert "Your limit of 2 unfinished jobs is reached" in refused.json()["detail"]
     assert int(refused.headers["retry-after"]) > 0
     assert strict.status(addresses[2])["status"] == "accepted"  # one runs at once, the other waits
     assert strict.client.delete(addresses[2]).json()["status"] == "dismissed"
@@ -88,7 +88,7 @@ def test_a_client_has_only_so_many_unfinished_jobs_and_the_service_only_so_many_
     assert strict.client.delete(addresses[3]).json()["status"] == "dismissed"
     refused = strict.client.post("/jobs", json=SHORT)
     assert refused.status_code == 503
-    assert "4 jobs are kept" in refused.json()["detail"]
+    assert "The limit of 4 kept jobs is reached" in refused.json()["detail"]
     assert int(refused.headers["retry-after"]) > 0
     for address in addresses:
         remove(strict, address)

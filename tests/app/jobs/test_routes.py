@@ -28,7 +28,7 @@ ANSWERED = [
 
 # The byte of jobs.sqlite-shm that SQLite locks while it copies the log (https://sqlite.org/walformat.html).
 CHECKPOINT_LOCK = 121
-# How long another process writes to the store, twice this, less than a change of it may wait [s].
+# Half of the time for which another process writes to the store [s]; a change of it may wait longer.
 HELD = 1.0
 
 
@@ -245,7 +245,7 @@ def test_a_service_that_ends_tells_its_listeners_so(tmp_path: Path) -> None:
             for _ in lines:
                 pass
         service.process.wait(PATIENCE)
-        # What waited for a job, or is just being started for it, ends when it sees that its parent has.
+        # A process that waited for a job, or is just starting, ends when it sees that its parent has ended.
         wait_for(lambda: not service.processes(), started + 10.0 - time.monotonic())
 
 

@@ -36,7 +36,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 @pytest.fixture(scope="module")
 def scan(service: Service) -> bytes:
-    """What the call itself answers, which takes it as long as the job."""
+    """The direct answer of the call, which takes as long as the job."""
     return direct(service.client, SCAN).content
 
 

@@ -82,7 +82,7 @@ def metric(service: Service, name: str) -> float:
 
 
 def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: Service, tmp_path: Path) -> None:
-    """As Parquet the test of killed sweeps has it, and that of the cluster."""
+    """The tests of killed sweeps and of the cluster compare Parquet."""
     expected = undisturbed(tmp_path / "a", SPEC)
     expected.to_csv(tmp_path / "a.csv")
     rows = expected.table().to_pylist()

@@ -62,7 +62,7 @@ def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, pat
     assert [name for name, _ in came] == [one["properties"]["name"] for one in VILLAGE["features"]]
     for (_, found), one in zip(came, VILLAGE["features"], strict=True):
         assert np.abs(np.array(found) - np.array(one["geometry"]["coordinates"])).max() < ROUNDING
-    # What came in can be asked again, and knows where it is.
+    # The answer can be sent back, and knows where it is.
     again = {"dragon": {"benches": 2}, "path": got["path"], "venue": got["venue"]}
     assert client.post("/maps.kml", json=again).raise_for_status().content.startswith(b"<?xml")
 
@@ -170,7 +170,7 @@ def test_a_map_drawn_on_a_phone_is_understood() -> None:
         assert found.path["points"][0] == pytest.approx([-0.0001 * 96_486, 0.00005 * 110_852], rel=1e-2)
         assert found.origin is not None
         assert (found.origin.longitude, found.origin.latitude) == pytest.approx((120.0002, 30.00015))
-        assert "Left out: GroundOverlay, 1 times." in found.notes
+        assert "Left out: 1 GroundOverlay." in found.notes
 
 
 def drawing() -> bytes:
@@ -204,7 +204,7 @@ def test_a_foreign_drawing_is_understood() -> None:
     assert np.ptp(well[:, 0]) == pytest.approx(3.0, rel=0.02)  # as far as the polygon of a circle may exceed it
     assert np.ptp(wall, axis=0) == pytest.approx([4.2, 0.2], rel=GROWTH_MOST - 1.0)
     assert found.path == {"kind": "waypoints", "points": [[5.0, 5.0], [30.0, 5.0]]}
-    assert "Left out: 3DFACE, 1 times." in found.notes
+    assert "Left out: 1 3DFACE." in found.notes
 
 
 @pytest.mark.parametrize("version", ["R12", "R2010"])
@@ -237,7 +237,7 @@ def test_points_alone_get_a_square_around_them_and_a_radius_that_is_said() -> No
     assert found.venue is not None
     assert rings(found)[0].min(axis=0).tolist() == [-20.0, -20.0]
     assert [area.name for area in found.venue.obstacles] == ["obstacle 1", "obstacle 2"]
-    assert any("2 things without a radius, taken as 0.5 m" in note for note in found.notes)
+    assert any("2 things without a radius; 0.5 m is assumed" in note for note in found.notes)
     # They stay points with a radius, for a request and for whoever moves them.
     assert found.geometry is not None
     thing = found.geometry["features"][2]
@@ -312,7 +312,7 @@ def test_the_command_takes_a_map_for_a_dance_and_gives_one(tmp_path: Path) -> No
     checked = run("check", str(dance), "--json")
     assert checked.returncode == 0, checked.stderr
     assert json.loads(checked.stdout)["origin"] == pytest.approx({"longitude": 120.0002, "latitude": 30.00015})
-    assert "temple.kml: Longitude and latitude became metres" in checked.stderr
+    assert "temple.kml: Longitude and latitude were converted to metres" in checked.stderr
     done = run("maps", str(dance), "--output", str(tmp_path / "dance.dxf"))
     assert (done.returncode, done.stdout) == (0, "")
     back = run("places", str(tmp_path / "dance.dxf"), "--output", str(tmp_path / "again.json"))

@@ -100,7 +100,7 @@ class Cluster:
 
 
 def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> Counter[str]:
-    """Run a sweep with the command on a cluster, and kill so many processes on the way; how many of which kind.
+    """Run a sweep with the command on a cluster, and kill a number of processes on the way; their number by kind.
 
     raises: TimeoutError, with the last words of the client
     """
@@ -131,7 +131,7 @@ def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> C
                 victim = {"client": client, "scheduler": cluster.scheduler, "worker": chance.choice(cluster.workers)}
                 family = victim[kind].family()
                 if family:
-                    # Of a worker also its nanny, or the process that answers.
+                    # For a worker, its nanny or the process that answers.
                     chance.choice(family if kind == "worker" else family[:1]).kill()
                     killed[kind] += 1
     finally:

@@ -13,7 +13,7 @@ from core import InvalidValue
 
 
 class Place(BaseModel, extra="forbid"):
-    """Where one looks."""
+    """A place."""
 
     x: float = Field(0.0, le=100.0)
     y: float = 0.0
@@ -22,7 +22,7 @@ class Place(BaseModel, extra="forbid"):
 
 
 class Height(BaseModel):
-    """How high it is there."""
+    """The height of a place."""
 
     height: float
     side: str | None
@@ -58,14 +58,14 @@ def interrupted_height(asked: Place) -> Height:
 
 
 class Unanswerable:
-    """Cannot be had in another process."""
+    """A question that no other process can unpack."""
 
     def __call__(self, asked: Place) -> Height:
-        """As the others."""
+        """The height."""
         return height(asked)
 
     def __reduce__(self) -> tuple[object, tuple[str]]:
-        """What fails when a worker unpacks it."""
+        """A recipe that fails when a worker unpacks it."""
         return _missing, ("no such module",)
 
 

@@ -35,7 +35,7 @@ def test_a_local_cluster_answers_as_this_process_does_and_leaves_no_worker(tmp_p
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    """Of a cluster that gives up a design as soon as it ends a worker."""
+    """Address of a cluster that gives up a design as soon as it ends a worker."""
     given: dict[str, Any] = {
         "dashboard_address": None,
         "silence_logs": logging.ERROR,

@@ -15,7 +15,7 @@ from app.sweeps.spec import Spec
 # All included: the request checked, the dance made, the answer, its row, the file; to a loop over the library, which
 # makes each dance and searches it [1].
 COST_MAX = 1.25
-# Rounds at most: on a busy machine the first ones may tell more of the others that compute.
+# Largest number of rounds: on a busy machine the first ones may measure other programs.
 ROUNDS = 20
 
 
@@ -32,7 +32,7 @@ def test_a_design_costs_little_more_than_its_search(tmp_path: Path) -> None:
         write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, spec.asks, 0).answered()])
         bare.append(searched - begun)
         all_included.append(time.thread_time() - searched)
-        # The least of each: what other processes take of the caches only adds to a time.
+        # The least of each: other processes only add to a time.
         if len(bare) > 2 and min(all_included) <= COST_MAX * min(bare):
             return
     pytest.fail(f"{min(all_included):.3f} s against {min(bare):.3f} s for the search alone")

@@ -53,7 +53,7 @@ def test_an_incomplete_sweep_is_shown_but_not_compacted(folder: Path) -> None:
     sweep = Sweep(folder, SPEC)
     assert sweep.table().num_rows == 33
     for refused in (sweep.compact, lambda: sweep.to_csv(folder / "a.csv")):
-        with pytest.raises(InvalidValue, match="is not complete, 1 of 6 shards are missing: run the sweep again"):
+        with pytest.raises(InvalidValue, match="lacks 1 of 6 shards: run the sweep again"):
             refused()
     assert len(shards.parts(folder)) == 5
 

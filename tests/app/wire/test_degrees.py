@@ -37,7 +37,7 @@ def ring(left: float, low: float, right: float, high: float) -> list[list[float]
 
 
 def around(half: float, longitude: float = LONGITUDE, latitude: float = LATITUDE) -> dict[str, Any]:
-    """A square of so many metres to each side of its middle, in degrees."""
+    """A square in degrees. half: distance from its middle to each side [m]"""
     east = half / (ALONG_PARALLEL / math.cos(PHI) * math.cos(math.radians(latitude)))
     north = half / ALONG_MERIDIAN
     box = ring(longitude - east, latitude - north, longitude + east, latitude + north)

@@ -54,7 +54,7 @@ FLAT = [
     Asked("minimum-pitch", {"start_turns": 1e-5}, "start_turns", "must be at least 0.00045 turns"),
     Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "must be larger, got 8 m: a turn that"),
     Asked("shortest-turn", {"turning_diameter": 8}, "turning_diameter", "got 8 m"),
-    Asked("shortest-turn", {"margin": 0.4}, "turning_diameter", "come nearer than 0.4 m"),
+    Asked("shortest-turn", {"margin": 0.4}, "turning_diameter", "come within 0.4 m"),
     Asked("shortest-turn", {"pitch": 0.8}, "turning_diameter", "benches 0 and 15 touch 13.286258 s after the entry"),
     Asked(
         "shortest-turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, the radius of the turning"

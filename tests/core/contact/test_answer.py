@@ -50,9 +50,9 @@ def test_without_a_contact_there_is_nothing_to_enlarge(axes: Axes) -> None:
     ("spiral", "asked", "title"),
     [
         (Spiral(0.3), {}, "First contact: already at the start"),
-        (Spiral(0.3), {"margin": 0.2}, "Nearer than 0.2 m from the start on"),
+        (Spiral(0.3), {"margin": 0.2}, "Within 0.2 m from the start on"),
         (Spiral(), {"stop": 100.0}, "No contact: the run ends clear at the stop, 100.000000 s"),
-        (Spiral(), {"margin": 0.05}, "First nearer than 0.05 m: 383.867583 s, head at radius 3.200607 m"),
+        (Spiral(), {"margin": 0.05}, "First within 0.05 m: 383.867583 s, head at radius 3.200607 m"),
     ],
     ids=["at the start", "margin at the start", "clear", "margin"],
 )

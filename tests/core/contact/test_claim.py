@@ -30,9 +30,9 @@ NEAR = (
 )
 STOPPED = (
     "3 benches given one by one on a route from s = {begin} m to {end} m (coil, arc, arc, coil), the head at 1 m/s: "
-    "from 0 s to 20 s no two benches that share no handle touch, where the search was to stop."
+    "from 0 s to 20 s no two benches that share no handle touch; the search was to stop there."
 )
-FOLDED = "no two benches that share no handle touch, where a bench folds and the run ends."
+FOLDED = "no two benches that share no handle touch; there a bench folds, and the run ends."
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_one_or_two_benches_have_no_pair_and_no_proof_in_steps() -> None:
     )
     assert two.startswith("2 benches (head 3.41 m, body 2.2 m, width 0.3 m, overhang 0.275 m) on a spiral")
     for method in (one, two):
-        assert method.endswith("where a bench folds and the run ends. " + NO_PAIR)
+        assert method.endswith("there a bench folds, and the run ends. " + NO_PAIR)
         assert PROVEN not in method
     assert PROVEN in three
 

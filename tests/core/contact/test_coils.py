@@ -33,7 +33,7 @@ def poses_on(coil: Spiral, turned: float, count: int, radius: float) -> np.ndarr
     return shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
 
 
-# Where the growth exceeds the chord, the foot of the perpendicular from the centre lies in front of the inner handle,
+# If the growth exceeds the chord, the foot of the perpendicular from the centre lies in front of the inner handle,
 # and an overhang on that side reaches centimetres further in than the chord does.
 @pytest.mark.parametrize("radius", [3.0, 8.0, 20.0])
 @pytest.mark.parametrize(

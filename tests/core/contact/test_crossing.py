@@ -22,7 +22,7 @@ def test_the_head_of_a_long_dragon_meets_its_body_on_the_crossing() -> None:
     assert found.benches == (0, 21)
     assert found.head is not None
     assert found.head.radius < 1.0  # the crossing is at the origin
-    judged = contact_check(found, dance)
+    judged = contact_check(found)
     assert judged is not None
     assert judged.agree
     assert found.time is not None

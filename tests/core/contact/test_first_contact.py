@@ -209,7 +209,7 @@ JUMPS = [
     (Dragon(40), 10.0, 0.50, 0.51, 0.05),
     (Dragon(40), 10.0, 0.679, 0.680, 0.05),
 ]
-# How far from the jump on both sides [m]; and the least jump of the head's way that counts [m].
+# Distance from the jump on both sides, and least jump of the head's way that counts [m].
 BESIDE = 1e-7
 JUMP = 0.2
 

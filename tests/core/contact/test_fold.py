@@ -39,7 +39,7 @@ def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spi
     assert SlowDance.of(dragon, spiral).clearance(found.end.time - left[:-1])[0].min() > 0.0
 
 
-# So much of the travel may be left where the bound is tried [1].
+# Parts of the travel that are left where the bound is tried [1].
 LEFT = (1e-3, 1e-5, 1e-7)
 
 

@@ -37,7 +37,7 @@ ACCURACY = 1e-9
 BESIDE = 1e-8
 # The largest pitch there is [m].
 WIDEST = 1e4
-# Where a clearance changes by less than 1e-6 m per metre of pitch, a bracket is no wider than this part of it [1].
+# Widest bracket, relative to the pitch, if a clearance changes by less than 1e-6 m per metre of pitch [1].
 WIDE_BRACKET = 2e-6
 # Its head bench of 1.97 m stretches far across a circle of 0.85 m radius, and folds on it.
 FOLDING = Dragon(14, 2.21, 1.47, 0.06, 0.12)
@@ -113,7 +113,7 @@ def test_below_the_answer_only_the_islands_are_feasible(case: dict[str, Any], an
 @pytest.mark.parametrize("radius", [2.5, 3.3, 4.1, 5.2])
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 def test_the_least_separation_at_the_answer_is_the_margin(radius: float, margin: float) -> None:
-    """Of a slow dance near where the head is said to be, distances by shapely."""
+    """Checked with a slow dance near the stated place of the head, and distances by shapely."""
     found = minimum_pitch(Dragon(60), turning_radius=radius, margin=margin, start_turns=14.0)
     assert found.head_radius is not None
     dance = SlowDance.of(Dragon(60), Spiral(found.pitch, 14.0))
@@ -164,7 +164,7 @@ def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one(changed
 
 
 def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lower_pitches() -> None:
-    """At once around less than a turn, with benches nearly as wide as the circle, so that no ring bound holds."""
+    """It goes around less than once, with benches nearly as wide as the circle, so that no ring bound holds."""
     dragon = Dragon(6, 1.21, 0.93, 0.61, 0.0)
     found = minimum_pitch(dragon, turning_radius=1.32, start_turns=10.0, margin=0.29)
     assert found.pitch == 1.32 / 10.0

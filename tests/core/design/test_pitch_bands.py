@@ -143,7 +143,7 @@ def test_a_band_from_an_island_to_the_minimum_is_not_proven() -> None:
 
 @pytest.mark.parametrize("seed", range(30))
 def test_benches_of_a_short_dragon_are_no_closer_than_the_ring_bound(seed: int) -> None:
-    """Of dragons that go around less than once, also at pitches below the width of a bench."""
+    """The dragons go around less than once, also at pitches below the width of a bench."""
     rng = np.random.default_rng(seed)
     dragon = Dragon(int(rng.integers(3, 12)), 2.2, rng.uniform(1.4, 2.2), rng.uniform(0.1, 0.5), rng.uniform(0.0, 0.3))
     bands = Bands(Search(dragon, Spiral(0.3, 16.0), 0.0), 3.0, 16.0, 0.0)

@@ -166,7 +166,7 @@ def test_one_bench_is_limited_by_the_bend_alone() -> None:
         ),
         ({}, {"pitch": 0.8}, r"benches 0 and 15 touch 13\.286258 s after the entry"),
         ({}, {"pitch": 0.5, "start_turns": 30, "turning_radius": 4.2}, r"bends to a radius"),
-        ({}, {"margin": 0.4}, r"come nearer than 0\.4 m .* s after the entry"),
+        ({}, {"margin": 0.4}, r"come within 0\.4 m .* s after the entry"),
         ({"width": 1.8}, {"start_turns": 30}, r"touch .* s before the entry at 1 m/s"),
     ],
     ids=["bend", "contact", "bend first", "margin", "on the coil"],

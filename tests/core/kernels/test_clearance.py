@@ -8,7 +8,7 @@ import pytest
 from core import Dragon, Spiral, Turn, kernels
 from core.contact.search import Search
 
-# Difference quotients take such steps [m], which leaves so much of a rate [1].
+# Step of difference quotients [m], and the error that it leaves in a rate [1].
 STEP, QUOTIENT = 1e-5, 1e-6
 PATHS = {"spiral": (Spiral(), 395.0), "turn": (Turn(1.7), 20.0)}
 

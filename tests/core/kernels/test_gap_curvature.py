@@ -42,7 +42,7 @@ AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)
 
 
 def bend(centres: np.ndarray, along: np.ndarray, half: np.ndarray, pair: tuple[int, int], apart: int) -> float:
-    """Largest second difference, over so many instants, of a corner of the second bench along axes of the first [m]."""
+    """Largest second difference, over these instants, of a corner of the second bench along axes of the first [m]."""
     i, j = pair
     left = np.stack([-along[..., 1], along[..., 0]], axis=-1)
     most = 0.0

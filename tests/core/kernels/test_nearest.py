@@ -14,7 +14,7 @@ from core.design.pitch_bands import Bands
 from core.kernels import Ended
 from core.shapes.rectangles import corners
 
-# Samples of a way, and so much [m] a dip between two of them can lie lower.
+# Samples of a way [1], and the depth of a dip between two of them below both [m].
 SAMPLES, BETWEEN = 400, 1e-4
 # A margin above the least sample by this is met there [m].
 ABOVE = 1e-9

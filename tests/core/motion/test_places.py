@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Spiral, Turn, trajectory
+from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, trajectory
 from core.motion.places import Passing, handle_places
 from core.passages import Passage
 
@@ -16,6 +19,12 @@ DANCES = {
     "spiral elsewhere, counter-clockwise": Dance(Dragon(12), Spiral(0.9, 8, (5.0, -2.0), 1.0, False)),
     "turn": Dance(Dragon(30), Turn(1.7, 4.5)),
 }
+
+
+@pytest.mark.parametrize("ask", [partial(handle_places, times=[0.0]), partial(Passing, start=0.0, stop=9.0)])
+def test_the_end_of_the_budget_is_told(ask: Callable[..., object]) -> None:
+    with pytest.raises(TooMuchWork, match="the places of the handles were not found within 1 steps of work"):
+        ask(DANCES["turn"], budget=Budget(1.0))
 
 
 @pytest.mark.parametrize("dance", DANCES.values(), ids=DANCES)

@@ -130,8 +130,8 @@ def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float
     assert found.speed_bracket[1] <= found.speed * (1.0 + 1e-7)
 
 
-# A peak is proven in so many intervals [1]; a search follows so many links, see LINKS_BUDGET, and an interval counts as
-# so many of them at least [1].
+# Most intervals in which a peak is proven [1]; most links that a search follows, see LINKS_BUDGET; and the least number
+# of links for which an interval counts [1].
 FEW = 5_000
 LINKS_MOST = 12 * core.motion.speed.LINKS_BUDGET
 INTERVAL_LINKS = 20
@@ -140,7 +140,7 @@ UNSEEN = 1e-6
 
 
 def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> int:
-    """How many intervals the proof of the highest speed takes, the head at 1 m/s."""
+    """Number of intervals in the proof of the highest speed, the head at 1 m/s."""
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
     return core.motion.speed.peak_over(search, start, stop).intervals

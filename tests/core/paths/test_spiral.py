@@ -17,7 +17,7 @@ from core.paths.spiral import START_TURNS_MAX
 pytestmark = pytest.mark.uncompiled
 
 SPIRALS = st.builds(Spiral, pitch=st.floats(0.01, 10.0), start_turns=st.floats(0.5, 50.0))
-# Of positions, relative to the radius of the start: a few ulp of the arc length, which is the longer [1].
+# Rounding of positions relative to the radius of the start: a few ulp of the arc length, which is longer [1].
 ROUNDING = 1e-12
 # Step of difference quotients, relative to the way [1]; their error is about its square.
 STEP = 1e-5

@@ -29,7 +29,7 @@ CONTACTS = {
 }
 # Chains in doubles, as trajectory() has them, are this near to the true ones [m].
 DOUBLES = 1e-11
-# A time that is so much off a contact is refused [s], and a margin so much off the least clearance [m].
+# Differences that are refused: of a time from a contact [s], and of a margin from the least clearance [m].
 OFF = 1e-8
 MARGIN_OFF = 1e-6
 # Half of what a run may last beyond the stop of a claim that includes its end [s].
@@ -225,7 +225,7 @@ def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyon
 
 
 def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:
-    """By `make deep` with all of its benches."""
+    """`make deep` takes all benches."""
     dance = Dance(Dragon(benches=examples(20, 223)), Turn(1.7))
     certificate = through_json(prove_clear(dance, 100.0, start=-100.0))
     assert "no two benches except neighbours touch from -100 s to 100 s" in verify(certificate).statement

@@ -32,7 +32,7 @@ STEP, MORE_THAN_STEP = 1e-6, 1.1e-6
 # Dense samples of a delta miss no root by more than this [rad].
 SAMPLES, SAMPLED = 200_001, 1e-4
 # One bench, chord 2 m: from this pitch on [m] the head passes to the centre (CREST_DELTA of core/kernels/fold.py), and
-# so much above [m] the balls still decide.
+# at this much above it [m] the balls still decide.
 VANISHED, DECIDED = 2.1727687945055, 3e-7
 
 

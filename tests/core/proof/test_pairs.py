@@ -11,7 +11,7 @@ from core.proof.pairs import Benches, Size, stays_positive
 
 # Distances in doubles are this near to the true ones [m].
 DOUBLES = 1e-11
-# A margin so much off the distance is on a certain side of it [m].
+# A margin that differs from the distance by this is on a certain side of it [m].
 MARGIN_OFF = 1e-6
 
 

@@ -21,7 +21,7 @@ PATHS: dict[str, tuple[Spiral | Route, str]] = {
         Route([Line((0.0, 0.0), (30.0, 0.0)), BEND], 7.0),
         "2 pieces (line, arc), joined exactly, its s = 0 at 7",
     ),
-    "coil": (Route([Coil(0.9, 3.0, 9.0, (1.0, 2.0), 0.5)]), "the route of 1 pieces (coil)"),
+    "coil": (Route([Coil(0.9, 3.0, 9.0, (1.0, 2.0), 0.5)]), "the route of 1 piece (coil)"),
 }
 
 

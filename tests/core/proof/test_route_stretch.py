@@ -15,7 +15,7 @@ from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch, half_angle
 from tests.core.proof.test_route import DOUBLES, ROUTES, SMALL
 
-# An integral over so many samples is this near to the true one [m], [rad].
+# Samples of an integral [1], and its error with them [m], [rad].
 SAMPLES, SAMPLED = 4001, 1e-5
 
 

@@ -22,7 +22,7 @@ from tests.core.forgeries import put_at as at
 
 DANCE = Dance(Dragon(12), Spiral(0.7, 5.0))
 STOP = time_on_circle(DANCE, 1.5)
-# How near poses rebuilt in doubles are to those in balls [m].
+# Largest difference of poses rebuilt in doubles from those in balls [m].
 REBUILT = 1e-12
 
 

@@ -9,7 +9,7 @@ from core.proof.words import RUNS_SHOWN, apart_words, contact_words, dragon_word
 
 
 def mixed(kinds: int) -> Dragon:
-    """A dragon of two benches of each of so many lengths."""
+    """A dragon with two benches of each of these lengths."""
     lengths = [2.0 + 0.1 * (k // 2) for k in range(2 * kinds)]
     return Dragon.of(lengths, [0.3] * len(lengths), [0.2] * len(lengths))
 

@@ -25,7 +25,7 @@ Scene = tuple[Floats, Floats, Floats]
 
 # Within this of the margin the engines may differ, for each rounds its own corners [m].
 UNDECIDED = 1e-9
-# How close to the margin most random pairs are put: where engines could err without being undecided [m].
+# Distance from the margin at which most random pairs are put: there engines could err without being undecided [m].
 NEAR = 1e-8
 # First contact of the default dragon, computed in 256-bit ball arithmetic [s].
 CONTACT_TIME = 412.473837682

@@ -21,19 +21,19 @@ from core.values import Floats
 from tests.core.tolerance.places import random_strays, strays_of
 
 CIRCLE = 4.5  # radius of the turning circle [m]
-# Poses of a place drawn at random, how many of them go downhill, how many of those are varied, how often each [1].
+# Poses drawn at random for a place; those of them that go downhill; those of these that are varied, and how often [1].
 DRAWS, DOWNHILL, VARIED, VARIANTS = 80_000, 1_000, 100, 50
-# Steps downhill and rounds of variants; the first of each has this part of the stray, each one less than the last [1].
+# Steps downhill and rounds of variants; size of the first as a part of the stray, and factor from each to the next [1].
 STEPS, ROUNDS, FIRST, SHRINK = 10, 16, 0.3, 0.6
 # Step of a difference quotient [m].
 QUOTIENT = 1e-7
-# Poses of the two benches that are the nearest, at each of so many random times [1].
+# Random times, and poses of the two nearest benches at each of them [1].
 ANY_TIMES, ANY_DRAWS = 30, 1_000
 
 
 @dataclass
 class Sought:
-    """What a search found: poses tried, the least gap of them [m]."""
+    """Result of a search: poses tried, and their least gap [m]."""
 
     poses: int = 0
     nearest: float = math.inf
@@ -53,7 +53,7 @@ def to_circle(pitch: float) -> tuple[Dance, float]:
 
 @dataclass
 class Place:
-    """Two benches of a dance at a time, whose holes stray by at most so much [m]."""
+    """Two benches of a dance at a time. stray: largest distance of their holes from their places [m]"""
 
     dance: Dance
     time: float

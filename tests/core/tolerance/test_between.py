@@ -28,8 +28,8 @@ def held(dragon: Dragon, radius: float) -> float:
 
 
 def strayed_threes(rng: np.random.Generator, chords: Floats, places: Floats, stray: float, count: int) -> list[Floats]:
-    """Of every three benches with chords (R, 3) and places (R, 4, 2) the handles (N, 4, 2) of poses within the stray,
-    many of them at its edge [m]."""
+    """Handles (N, 4, 2) of poses within the stray, many of them at its edge, for every three benches with chords (R, 3)
+    and places (R, 4, 2); all in [m]."""
     seek, chords = places.mean(axis=1)[:, None, None], chords[:, None]
     found: list[list[Floats]] = [[] for _ in places]
     moved = np.repeat(places[:, None], count, axis=1)
@@ -120,7 +120,7 @@ def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
 
 
 def test_a_pose_on_a_line_strays_little_more_than_must_be() -> None:
-    """By another search (SLSQP from 30 starts, 2026-11-22): 1.4326 m on a line, 1.0939 m on an arc of 1.45 m."""
+    """Another search (SLSQP from 30 starts, 2026-11-22) found 1.4326 m on a line, 1.0939 m on an arc of 1.45 m."""
     three = np.array([[1.65, 2.2, 0.3]] * 3)
     turn = 2.0 * math.asin(0.825 / 1.45)
     arc = 1.45 * np.array([[-math.sin(k * turn), 1.0 - math.cos(k * turn)] for k in range(4)])

@@ -13,7 +13,7 @@ from tests.core.tolerance.test_tolerance import BRACKET
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.
 KNOWN = [(0.5, 0.02321, 0.02325), (0.55, 0.04654, 0.04668), (0.7, 0.11662, 0.11749), (1.0, 0.24298, 0.26305)]
 ROUNDED = 2e-5
-# By the simple bound at these pitches [m], and by how much less of it the hulls may know [1].
+# Stray by the simple bound at each pitch [m], and the part of it by which that of the hulls may be smaller [1].
 SIMPLE = {0.5: 0.01931, 0.55: 0.03874, 0.7: 0.09735, 1.0: 0.21590}
 SIMPLE_SHORT = 1e-3
 
