@@ -311,7 +311,7 @@ ON_SPIRALS = {
     "app.command.trajectory": 1,  # times before the start
 }
 # Arrays whose columns core/kernels/constants.py names.
-TABLES = {"table", "pieces", "frame", "chain", "motion"}
+TABLES = {"table", "pieces", "frame", "chain", "motion", "placed", "probed", "probed_later", "opening"}
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
 # Engines of continuous collision detection, only for comparison.

@@ -71,14 +71,20 @@ def own_file(module: Path) -> Path:
     return module.with_name(f"test_{module.name}")
 
 
+def has_tests(file: Path) -> bool:
+    """True for a file of tests that holds at least one."""
+    name = file.relative_to(ROOT).as_posix()
+    return any(isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in trees().get(name, []))
+
+
 @pytest.mark.parametrize("module", modules_of("core"), ids=str)
 def test_every_module_of_core_has_its_file_of_tests(module: Path) -> None:
-    assert (TESTS / "core" / own_file(module)).is_file()
+    assert has_tests(TESTS / "core" / own_file(module))
 
 
 @pytest.mark.parametrize("module", modules_of("app"), ids=str)
 def test_every_module_of_app_has_a_file_of_tests_and_one_alone(module: Path) -> None:
-    assert (TESTS / "app" / SHARED.get(module, own_file(module))).is_file()
+    assert has_tests(TESTS / "app" / SHARED.get(module, own_file(module)))
     assert not (module in SHARED and (TESTS / "app" / own_file(module)).is_file())
 
 
@@ -121,21 +127,48 @@ def test_no_test_uses_a_private_name() -> None:
 
 
 # Arrays of the kernels, and the axis of their columns.
-COLUMNS = {"table": 1, "row": 0, "sizes": 1, "motion": 1, "chain": 1, "chains": 2, "shifts": 1}
+CHAINS = dict.fromkeys(("placed", "tried", "probed", "probed_later", "opening"), 1)  # of a Search
+COLUMNS = {"chain": 1, "chains": 2, "table": 1, "row": 0, "sizes": 1, "motion": 1, "shifts": 1}
+
+
+def axis_of_columns(node: ast.expr) -> int | None:
+    """Axis of the columns of an array, or of a part of one; None for anything else."""
+    if isinstance(node, ast.Subscript):
+        axis = axis_of_columns(node.value)
+        return None if axis is None else axis - sum(not isinstance(one, ast.Slice) for one in indices(node)[:axis])
+    if isinstance(node, ast.Attribute):
+        return (COLUMNS | CHAINS if ast.unparse(node.value) == "search" else COLUMNS).get(node.attr)
+    return COLUMNS.get(node.id) if isinstance(node, ast.Name) else None
+
+
+def indices(node: ast.Subscript) -> list[ast.expr]:
+    return node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+
+
+def is_number(part: ast.expr | None) -> bool:
+    part = part.operand if isinstance(part, ast.UnaryOp) else part
+    return isinstance(part, ast.Constant) and type(part.value) is int
 
 
 def numeric_columns(nodes: list[ast.AST]) -> list[str]:
     """Columns of the kernels' arrays that are written as numbers."""
     found = []
     for node in nodes:
-        if not isinstance(node, ast.Subscript) or not isinstance(node.value, ast.Attribute | ast.Name):
+        axis = axis_of_columns(node.value) if isinstance(node, ast.Subscript) else None
+        if axis is None or not 0 <= axis < len(indices(node)):
             continue
-        axis = COLUMNS.get(node.value.attr if isinstance(node.value, ast.Attribute) else node.value.id)
-        index = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
-        column = index[axis] if axis is not None and axis < len(index) else None
+        column = indices(node)[axis]
         parts = [column.lower, column.upper] if isinstance(column, ast.Slice) else [column]
-        found += [ast.unparse(node) for part in parts if isinstance(part, ast.Constant) and type(part.value) is int]
+        found += [ast.unparse(node)] if any(map(is_number, parts)) else []
     return found
+
+
+@pytest.mark.parametrize(
+    "code", ["table[:, 3]", "table[:, -1]", "table[0][3]", "search.placed[2:5, 6:10]", "search.chains[0][:, 6]"]
+)
+def test_a_column_written_as_a_number_is_noticed(code: str) -> None:
+    assert numeric_columns(list(ast.walk(ast.parse(code)))) == [code]
+    assert numeric_columns(list(ast.walk(ast.parse("search.chains[0, 3, THETA] + table[2:9, X0 : X3 + 1]")))) == []
 
 
 def test_columns_of_the_kernels_are_named() -> None:

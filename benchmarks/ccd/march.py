@@ -82,7 +82,7 @@ class March:
         bend = bends[self.pair.index(self.query.edge_bench)]
         if bend >= FREE:
             return None
-        before, after, motion = search.rows[2], search.rows[3], search.motion
+        before, after, motion = search.probed, search.probed_later, search.motion
         apart = math.hypot(before[a, MX] - before[b, MX], before[a, MY] - before[b, MY])
         apart += h * float(motion[a, CENTRE_SPEED] + motion[b, CENTRE_SPEED])
         rounding = kernels.pair_rounding(a, b, apart, search.sizes, before, after)

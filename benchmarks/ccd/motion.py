@@ -61,7 +61,7 @@ class Stage:
     def __init__(self, record: Record) -> None:
         self.dance = dance_of(record)
         self.search = Search(self.dance.dragon, self.dance.path, 0.0)
-        self.sizes, self.chain = self.search.sizes, self.search.rows[4]
+        self.sizes, self.chain = self.search.sizes, self.search.opening
 
     def lay(self, place: float, last: int) -> Floats:
         """Rows of the handles up to the last with the head at a place."""
@@ -123,7 +123,7 @@ class Motion:
             if not search.probe.lay_out(self.query.place - start * self.query.span, h, self.last):
                 self._bounded = (math.nan, math.nan)
                 return math.inf
-        rounding = float(max(search.rows[2][bench, ERROR], search.rows[3][bench, ERROR]))
+        rounding = float(max(search.probed[bench, ERROR], search.probed_later[bench, ERROR]))
         pull = float(search.motion[bench, CENTRE_PULL] + search.motion[bench, OMEGA_PULL] * reach)
         return pull * h * h / 8.0 + 4.0 * rounding
 

@@ -200,10 +200,10 @@ def _touching_features(
 ) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)
-    met = kernels.bench_separation(*pair, search.own_sizes, search.rows[0])
+    met = kernels.bench_separation(*pair, search.own_sizes, search.placed)
     corner, edge = None, None
     for bench, feature in zip(pair, (met.feature_a, met.feature_b), strict=True):
-        x, y, ux, uy = search.rows[0, bench, MX : UY + 1].tolist()
+        x, y, ux, uy = search.placed[bench, MX : UY + 1].tolist()
         centre_on_left = int(y * ux < x * uy)
         if feature >= FRONT:
             edge = Feature(bench, EDGES[centre_on_left][feature - FRONT])

@@ -142,15 +142,15 @@ def least_left(search: Search, travel: float, theta: float) -> float:
     """Lower bound of all gaps from a travel until the head is at theta, or the margin if they exceed it [m].
 
     It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
-    sizes; NO_BOUND if a bench without a place in rows[0] could come near one that leads a pair.
+    sizes; NO_BOUND if a bench without a place in `placed` could come near one that leads a pair.
     """
     search.spend(STRETCH_WORK + FOLD_WORK * search.room)
     gap, _ = search.clearance(travel)
     arcs, moved = moved_until(search, theta)
     reached = 2.0 * float(moved.max())
     rounding = gap_rounding(search, travel, min(gap, FREE) + reached)
-    arcs += search.rows[0, search.room - 1, ERROR]
-    radii = search.growth * search.rows[0, : search.room + 1, THETA]
+    arcs += search.placed[search.room - 1, ERROR]
+    radii = search.growth * search.placed[: search.room + 1, THETA]
     outside = np.flatnonzero(radii[:-1] - arcs[:-1] >= search.clear_radius)
     leaders = int(outside[0]) if outside.size else search.room
     if search.room < search.dragon.benches:
@@ -160,17 +160,17 @@ def least_left(search: Search, travel: float, theta: float) -> float:
             return NO_BOUND
     least = gap - reached
     if least <= search.margin:
-        least = kernels.clearance_left(search.scene, leaders, search.room, search.rows[0], moved)
+        least = kernels.clearance_left(search.scene, leaders, search.room, search.placed, moved)
         search.budget.look()
     return float(least) - rounding
 
 
 def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
-    """Bounds on the motion of each handle in rows[0], and any point of each bench, until the head is at theta [m]."""
+    """Bounds on the motion of each handle in `placed`, and any point of each bench, until the head is at theta [m]."""
     growth, benches = search.growth, search.room
     chords = search.sizes[:benches, CHORD]
     longest_behind = np.maximum.accumulate(chords[::-1])[::-1].tolist()
-    low, high = theta * (1.0 - THETA_ROUNDING), float(search.rows[0, 0, THETA]) * (1.0 + THETA_ROUNDING)
+    low, high = theta * (1.0 - THETA_ROUNDING), float(search.placed[0, THETA]) * (1.0 + THETA_ROUNDING)
     arcs, curvatures = np.empty(benches + 1), np.full(benches, FREE)
     for k in range(benches + 1):
         search.budget.look()
@@ -204,7 +204,7 @@ def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float
 def gap_rounding(search: Search, travel: float, within: float) -> float:
     """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""
     search.place_leaders(travel, search.room)
-    kernels.chain_rounding(search.curve, search.room, search.sizes, search.rows[0])
-    error, sway = search.rows[0, : search.room, kernels.ERROR].max(), search.rows[0, : search.room, kernels.SWAY].max()
+    kernels.chain_rounding(search.curve, search.room, search.sizes, search.placed)
+    error, sway = search.placed[: search.room, kernels.ERROR].max(), search.placed[: search.room, kernels.SWAY].max()
     reach = 4.0 * search.rings.all_radius + within
     return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))

@@ -130,7 +130,7 @@ class ExactPair:
         """The two benches with the head at a travel [m]."""
         search = self.search
         search.place_leaders(float(travel), self.pair[1] + 1)
-        rows, path = search.rows[0], search.path
+        rows, path = search.placed, search.path
         s, points = travel, [self._point(path.piece_at(rows[0]), travel)]
         for k in range(self.pair[1] + 1):
             chord, piece = Decimal(float(search.sizes[k, CHORD])), path.piece_at(rows[k + 1])

@@ -47,6 +47,8 @@ class Search:
         of edges at rest [m], on routes only. With edges, every pair is a bench and an edge: edge e has the bench number
         room + 1 + e
     scene: the same benches on the current path; probe: an interval of it to examine single pairs
+    placed: chain (rows, CHAIN_COLUMNS) that clearance() and place_leaders() fill; tried, probed: chains that single
+        calls fill. A march writes over them, and over two more of its own: chains holds all five
     clear_radius: on a spiral no pair whose inner bench leads at this radius [m], or further out, is within the margin
     rings.clear_place, rings.end_place: see clear_places(); if they are known, there is room only for the leading
         benches, as on a spiral
@@ -127,23 +129,23 @@ class Search:
         self.sizes = self._sizes(self.dragon, benches)
         self.own_sizes = self._sizes(self.nominal, benches) if self.kinds.some else self.sizes
         # A chain writes every entry before its first use, except the speed of handle 1, which march() reads first.
-        self.rows = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
-        self.rows[:, :2] = 0.0
+        chains = self.chains = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        chains[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
         if len(edges):
             along = edges[:, 2:4] - edges[:, 0:2]
             half = 0.5 * np.hypot(along[:, 0], along[:, 1])
             self.sizes[benches + 1 :, kernels.HALF_LENGTH] = self.sizes[benches + 1 :, kernels.RADIUS] = half
-            self.rows[:, benches + 1 :] = 0.0
-            self.rows[:, benches + 1 :, kernels.MX : kernels.MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
-            self.rows[:, benches + 1 :, kernels.UX : kernels.UY + 1] = along / (2.0 * half)[:, None]
+            chains[:, benches + 1 :] = 0.0
+            chains[:, benches + 1 :, kernels.MX : kernels.MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+            chains[:, benches + 1 :, kernels.UX : kernels.UY + 1] = along / (2.0 * half)[:, None]
         self.room = benches
         self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, self.dragon.benches, len(edges))
         self._set_scene()
-        before, after, probe_before, probe_after, opening = self.rows
-        self.interval = kernels.Interval(self.scene, before, after, self.motion)
-        self.probe = kernels.Interval(self.scene, probe_before, probe_after, self.motion)
-        self._march = kernels.March(self.interval, self.probe, opening)
+        self.placed, self.tried, self.probed, self.probed_later, self.opening = chains
+        self.interval = kernels.Interval(self.scene, self.placed, self.tried, self.motion)
+        self.probe = kernels.Interval(self.scene, self.probed, self.probed_later, self.motion)
+        self._march = kernels.March(self.interval, self.probe, self.opening)
 
     def _sizes(self, dragon: Dragon, benches: int) -> Floats:
         """Rows for a number of leading benches of a dragon, and empty ones for the edges at rest."""
@@ -256,7 +258,7 @@ class Search:
         return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
 
     def place_leaders(self, travel: float, leaders: int) -> None:
-        """Fill rows[0] with a number of leading benches after a travel [m], without pairs."""
+        """Fill `placed` with a number of leading benches after a travel [m], without pairs."""
         self._clearance(travel, leaders, 0)
 
     def clearance(self, travel: float, leaders: int | None = None) -> tuple[float, tuple[int, int]]:
@@ -269,7 +271,7 @@ class Search:
         return self._clearance(travel, benches, leaders)
 
     def _clearance(self, travel: float, benches: int, leaders: int) -> tuple[float, tuple[int, int]]:
-        gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.rows[0], self.motion)
+        gap, a, b = kernels.clearance_at(self.scene, self.place - travel, benches, leaders, self.placed, self.motion)
         self.budget.look()
         return float(gap), (a, b)
 
@@ -285,16 +287,16 @@ class Search:
     def rates(self, travel: float) -> Floats:
         """Speed of every handle along the path over the head's after a travel [1]; negative for one that moves back."""
         self.clearance(travel)
-        return self.rows[0, : self.room + 1, kernels.RATE].copy()
+        return self.placed[: self.room + 1, kernels.RATE].copy()
 
     def gap_rate(self, travel: float, pair: tuple[int, int]) -> float:
         """Rate at which a pair parts after a travel, per metre of head travel [1]."""
         self.budget.look()
-        return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.rows[1]))
+        return float(kernels.gap_rate_at(self.scene, self.place - travel, *pair, self.tried))
 
     def bottom(self, low: float, high: float, pair: tuple[int, int], width: float) -> float:
         """Travel in [low, high] at which a pair stops approaching [m]."""
-        travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.rows[1]))
+        travel = float(kernels.bottom_between(self.scene, low, high, *pair, width, self.tried))
         self.budget.look()
         return travel
 

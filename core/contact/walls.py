@@ -180,7 +180,7 @@ def is_clear_beyond(
     search.resize(dragon.benches)
     search.place_leaders(clock.travel(seen), dragon.benches)
     arcs, _ = moved_until(search, dance.end.theta or 0.0)
-    rates = np.hypot(1.0, search.rows[0, : dragon.benches + 1, kernels.THETA])
+    rates = np.hypot(1.0, search.placed[: dragon.benches + 1, kernels.THETA])
     outwards = arcs / rates  # radii grow by this part of an arc
     if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
         return False
@@ -224,7 +224,7 @@ def _area_clearance(
 def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple[Point, Point, float]:
     """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
-    kernels.meet(search.scene, *pair, search.rows[0])
+    kernels.meet(search.scene, *pair, search.placed)
     met = search.scene.met
     return frame.point(float(met.ax), float(met.ay)), frame.point(float(met.bx), float(met.by)), float(met.separation)
 

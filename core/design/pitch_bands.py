@@ -221,5 +221,5 @@ class Bands:
                 break
             travel, stride = ahead, 2.0 * stride
         search.budget.look()
-        gap = kernels.gap_at(search.scene, search.place - travel, *pair, search.rows[1])
+        gap = kernels.gap_at(search.scene, search.place - travel, *pair, search.tried)
         return float(gap), growth * search.theta_at(travel)

@@ -112,7 +112,7 @@ class Ways:
         place, curve = growth * kernels.spiral_arc(radius / growth), kernels.spiral_curve(growth)
         scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
         scene.kinds = search.kinds
-        return float(kernels.gap_at(scene, place, a, b, search.rows[0])) <= self.margin
+        return float(kernels.gap_at(scene, place, a, b, search.placed)) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:
         """Begin the march at the radius beyond which the bound for wide spirals excludes a contact.

@@ -140,7 +140,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
     rounding = search.travel_rounding(begin, until)
     samples = max(SAMPLES_MIN, SAMPLED_LINKS // (benches + 1))
     step = max(SAMPLE_STEP * float(search.rings.all_chord), (until - begin) / samples)
-    peak = kernels.Peak(search.interval, search.rows[2], _calm(search), alike, begin, until, rounding)
+    peak = kernels.Peak(search.interval, search.probed, _calm(search), alike, begin, until, rounding)
     peak.sample(step)
     search.budget.afford()
     peak.prove(step, RATE_TOLERANCE, LOOSEST_TOLERANCE, LINKS_BUDGET)

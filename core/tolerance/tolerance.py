@@ -161,7 +161,7 @@ def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhib
     else:
         search = field.search(0.0)
         search.place_leaders(field.dance.clock.travel(time), a + 1)
-        x, y, ux, uy = (float(search.rows[0, b, column]) for column in (MX, MY, UX, UY))
+        x, y, ux, uy = (float(search.placed[b, column]) for column in (MX, MY, UX, UY))
         edge = Body(x, y, math.atan2(uy, ux), 0.0, float(search.sizes[b, HALF_LENGTH]), 0.0)
         other = frames(np.array([[x, y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
     normal = frames_separation(frames(pose[a : a + 1], size[a : a + 1]), other).normal[0]

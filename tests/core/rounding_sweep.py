@@ -127,7 +127,7 @@ def compare(errors: Errors, search: Search, head: float, rng: np.random.Generato
     """Adds the errors of one chain, its head at theta on a spiral, at s on a route."""
     dragon, growth = search.dragon, search.growth
     search.resize(dragon.benches)
-    sizes, chain = search.sizes, search.rows[0]
+    sizes, chain = search.sizes, search.placed
     if isinstance(search.path, Spiral):
         kernels.start_chain(head, chain)
         assert kernels.extend_chain(growth, 0, dragon.benches, kernels.FREE, sizes, chain) == dragon.benches

@@ -76,13 +76,13 @@ def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claime
         errors = Errors()
         compare(errors, search, theta, np.random.default_rng(0))
         assert max(errors.gaps + errors.points + errors.directions) <= 1.0
-        bounds.append(float(search.rows[0, 0, ERROR]))
+        bounds.append(float(search.placed[0, ERROR]))
     assert bounds == sorted(bounds)
     assert bounds[-1] > 100.0 * bounds[0]
-    kernels.start_chain(fold, search.rows[0])
-    if kernels.extend_chain(search.growth, 0, 1, kernels.FREE, search.sizes, search.rows[0]) == 1:
-        kernels.chain_rounding(search.curve, 1, search.sizes, search.rows[0])
-        assert search.rows[0, 0, ERROR] > bounds[-1]
+    kernels.start_chain(fold, search.placed)
+    if kernels.extend_chain(search.growth, 0, 1, kernels.FREE, search.sizes, search.placed) == 1:
+        kernels.chain_rounding(search.curve, 1, search.sizes, search.placed)
+        assert search.placed[0, ERROR] > bounds[-1]
 
 
 def exact_theta(spiral: Spiral, time: float, head_speed: float = 1.0) -> arb:
@@ -163,7 +163,7 @@ def test_what_is_within_a_margin_for_certain_stays_so_over_the_interval(seed: in
     h, place = 10 ** rng.uniform(-12.0, -2.0), search.place - rng.uniform(0.0, 6.0)
     most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
     gaps = [
-        kernels.gap_at(search.scene, place - part * h, a, b, search.rows[0]) for part in np.linspace(0.0, 1.0, INSTANTS)
+        kernels.gap_at(search.scene, place - part * h, a, b, search.placed) for part in np.linspace(0.0, 1.0, INSTANTS)
     ]
     assert max(gaps) <= max(most, 0.0)
 
@@ -181,8 +181,8 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
     assert route.slide >= abs(x)
     search = Search(Dragon(3), route, 0.0)
     search.clearance(30.5)
-    kernels.chain_rounding(search.curve, 3, search.sizes, search.rows[0])
-    assert search.rows[0, 0, ERROR] >= abs(y)
+    kernels.chain_rounding(search.curve, 3, search.sizes, search.placed)
+    assert search.placed[0, ERROR] >= abs(y)
 
 
 @pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
@@ -191,7 +191,7 @@ def test_what_a_chain_does_not_write_is_never_read(path: Spiral | Route) -> None
     found = []
     for value in (math.nan, 0.0):
         search = Search(Dragon(40), path, 0.05)
-        search.rows[:, 2:] = value
+        search.chains[:, 2:] = value
         found.append(search.march(90.0 if isinstance(path, Route) else 400.0, 1e-10, start=-20.0))
     assert found[0] == found[1]
 
@@ -231,7 +231,7 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
     spiral = Spiral(rng.uniform(0.5, 1.2), 4.0)
     theta = (Dance(dragon, spiral).end.theta or 0.0) + beyond
     search = Search(dragon, spiral, 0.0)
-    chain, growth = search.rows[0], spiral.growth
+    chain, growth = search.placed, spiral.growth
     kernels.start_chain(theta, chain)
     assert kernels.extend_chain(growth, 0, 9, kernels.FREE, search.sizes, chain) == 9
     kernels.climbs(search.curve, 9, search.sizes, chain)

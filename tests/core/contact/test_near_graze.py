@@ -45,7 +45,7 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
             assert abs(bench.along[0] ** 2 + bench.along[1] ** 2 - 1) < PRECISE
         distance = precise_separation(*benches)[0]
     model.search.clearance(travel)
-    rows, sizes = model.search.rows[0, list(pair)], model.search.sizes[list(pair)]
+    rows, sizes = model.search.placed[list(pair)], model.search.sizes[list(pair)]
     poses = np.column_stack([rows[:, [MX, MY]], np.arctan2(rows[:, UY], rows[:, UX])])
     size = 2.0 * sizes[:, [HALF_LENGTH, HALF_WIDTH]]
     found = separation(poses[0], size[0], poses[1], size[1]).separation

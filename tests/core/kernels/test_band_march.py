@@ -34,7 +34,7 @@ def test_a_band_too_narrow_for_its_benches_touches() -> None:
     found = band.result()
     assert found.touching is not None
     travel = search.travel_at(found.touching / search.growth)
-    assert kernels.gap_at(search.scene, search.place - travel, *found.benches, search.rows[0]) <= 0.0
+    assert kernels.gap_at(search.scene, search.place - travel, *found.benches, search.placed) <= 0.0
 
 
 def test_without_work_a_band_is_stuck_and_more_leaders_than_rows_do_not_fit() -> None:

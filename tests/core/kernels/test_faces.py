@@ -26,7 +26,7 @@ def test_what_may_touch_for_certain_stays_so_over_the_interval() -> None:
         h, place = 10 ** rng.uniform(-9.0, -1.0), search.place - rng.uniform(0.0, 6.0)
         most = kernels.pair_most(search.scene, search.probe, place, h, a, b)
         places = place - np.linspace(0.0, 1.0, 9) * h
-        gaps = [kernels.gap_at(search.scene, at, a, b, search.rows[0]) for at in places.tolist()]
+        gaps = [kernels.gap_at(search.scene, at, a, b, search.placed) for at in places.tolist()]
         assert max(gaps) <= max(most, 0.0)
         touching += most <= 0.0
     assert 5 < touching < 55
@@ -40,13 +40,13 @@ def test_no_two_benches_that_stray_are_nearer_over_the_interval_than_their_bound
         h, place = 10 ** rng.uniform(-6.0, -1.0), search.place - rng.uniform(0.0, 6.0)
         if not search.probe.lay_out(place, h, b + 1):
             continue
-        before = search.rows[2]  # of the probe
+        before = search.probed  # of the probe
         distance = (
             np.hypot(*(before[b, [MX, MY]] - before[a, [MX, MY]])) + h * search.motion[[a, b], CENTRE_SPEED].sum()
         )
         least, _ = kernels.pair_least(search.scene, search.probe, a, b, FREE, float(distance))
         places = place - np.linspace(0.0, 1.0, 9) * h
-        gaps = [kernels.gap_at(search.scene, at, a, b, search.rows[0]) for at in places.tolist()]
+        gaps = [kernels.gap_at(search.scene, at, a, b, search.placed) for at in places.tolist()]
         assert least <= max(min(gaps), 0.0) + ROUNDING
         proven += least > 0.9 * min(gaps) > 0.0
     assert proven > 15

@@ -148,7 +148,7 @@ def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move() -> None:
     search = Search(Dragon(12), Spiral(), 0.0)
     place, h, (a, b) = search.place - 400.0, 0.25, (0, 9)
     found = kernels.pair_curvatures(search.scene, search.probe, place, h, a, b)
-    centres, motion = search.rows[2][:, [MX, MY]], search.motion
+    centres, motion = search.probed[:, [MX, MY]], search.motion
     distance = np.linalg.norm(centres[b] - centres[a]) + h * motion[[a, b], CENTRE_SPEED].sum()
     for pair, bound in zip(((a, b), (b, a)), found, strict=True):
         assert bound == pytest.approx(

@@ -15,7 +15,7 @@ CONTACT = 412.4738376822
 
 
 def march_of(search: Search) -> kernels.March:
-    return kernels.March(search.interval, search.probe, search.rows[4])
+    return kernels.March(search.interval, search.probe, search.opening)
 
 
 def ended(march: kernels.March, start: float, stop: float, tolerance: float = TOLERANCE, budget: float = WORK) -> Ended:
@@ -39,8 +39,8 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     assert found.proven <= CONTACT <= found.touching <= found.proven + 3.0 * TOLERANCE
     assert found.benches == (0, 8)
     place = search.place - found.proven + 1e-6
-    assert kernels.gap_at(search.scene, place, 0, 8, search.rows[2]) > 0.0
-    assert kernels.gap_at(search.scene, search.place - found.touching, 0, 8, search.rows[2]) <= 0.0
+    assert kernels.gap_at(search.scene, place, 0, 8, search.probed) > 0.0
+    assert kernels.gap_at(search.scene, search.place - found.touching, 0, 8, search.probed) <= 0.0
     # the dip before it, seen on the way
     assert found.graze is not None
     assert 0.0 < found.graze.gap < 0.001

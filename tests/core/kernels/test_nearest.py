@@ -58,7 +58,7 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
     search, ended = Search(Dragon(600), Spiral(), 0.0), set()
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)
-        march = kernels.March(search.interval, search.probe, search.rows[4])
+        march = kernels.March(search.interval, search.probe, search.opening)
         ended.add(march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7))
         found = march.result()
         assert found.proven < CONTACT

@@ -11,7 +11,7 @@ from core.contact.search import Search
 def test_slopes_of_rates_are_their_difference_quotients() -> None:
     search, step = Search(Dragon(6), Turn(1.7), 0.0), 1e-5
     travel = 12.0
-    kernels.place_chain(search.curve, search.place - travel, 6, search.sizes, search.rows[1])
-    kernels.climbs(search.curve, 6, search.sizes, search.rows[1])
+    kernels.place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)
+    kernels.climbs(search.curve, 6, search.sizes, search.tried)
     quotient = (search.rates(travel + step) - search.rates(travel - step)) / (2.0 * step)
-    assert search.rows[1, :7, kernels.CLIMB] == pytest.approx(quotient, abs=1e-6)
+    assert search.tried[:7, kernels.CLIMB] == pytest.approx(quotient, abs=1e-6)

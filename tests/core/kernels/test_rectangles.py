@@ -16,10 +16,10 @@ def test_witnesses_lie_the_gap_apart_along_the_normal(travel: float) -> None:
     search = Search(Dragon(40), Spiral(), 0.0)
     search.clearance(travel)
     for b in range(2, 40):
-        met = kernels.bench_separation(0, b, search.sizes, search.rows[0])
+        met = kernels.bench_separation(0, b, search.sizes, search.placed)
         apart = np.array([met.bx - met.ax, met.by - met.ay])
         assert np.hypot(met.nx, met.ny) == pytest.approx(1.0, abs=ROUNDING)
         assert apart == pytest.approx(met.separation * np.array([met.nx, met.ny]), abs=ROUNDING)
         assert met.separation == pytest.approx(
-            kernels.gap_at(search.scene, search.place - travel, 0, b, search.rows[1]), abs=ROUNDING
+            kernels.gap_at(search.scene, search.place - travel, 0, b, search.tried), abs=ROUNDING
         )

@@ -28,7 +28,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
 
     def place(handle: int, time: float) -> float:
         search.place_leaders(time, 40)
-        return float(search.rows[0, handle, THETA])
+        return float(search.placed[handle, THETA])
 
     for time in rng.uniform(20.0, 100.0, 8):
         i = int(rng.integers(first + 1, 30))

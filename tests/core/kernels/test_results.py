@@ -34,7 +34,7 @@ def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
     graze = march.result().graze
     assert graze is not None
     gaps = [
-        kernels.gap_at(search.scene, search.place - graze.travel - shift, *graze.benches, search.rows[0])
+        kernels.gap_at(search.scene, search.place - graze.travel - shift, *graze.benches, search.placed)
         for shift in (-1e-2, 0.0, 1e-2)
     ]
     assert gaps[1] == pytest.approx(graze.gap, abs=GAP)

@@ -16,7 +16,7 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
     dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
     search = Search(dragon, spiral, 0.0)
     search.clearance(rng.uniform(0.0, 100.0))
-    rows = search.rows[0]
+    rows = search.placed
     poses = np.column_stack(
         [rows[:40, kernels.MX], rows[:40, kernels.MY], np.arctan2(rows[:40, kernels.UY], rows[:40, kernels.UX])]
     )

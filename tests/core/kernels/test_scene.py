@@ -19,7 +19,7 @@ def test_no_handle_within_an_interval_is_faster_than_its_bound(path: Spiral | Ro
     assert search.interval.lay_out(place, h, 30)
     most = search.motion[1:31, kernels.RATE_HIGH]
     for part in np.linspace(0.0, 1.0, 11):
-        kernels.place_chain(search.curve, place - part * h, 30, search.sizes, chain := np.zeros_like(search.rows[0]))
+        kernels.place_chain(search.curve, place - part * h, 30, search.sizes, chain := np.zeros_like(search.placed))
         assert (np.abs(chain[1:31, kernels.RATE]) <= most + ROUNDING).all()
 
 

@@ -21,7 +21,7 @@ def peak_of(
     path: Spiral | Route, start: float, stop: float, alike: int = 1, benches: int = 6
 ) -> tuple[Search, kernels.Peak]:
     search = Search(Dragon(benches), path, 0.0)  # no handle is left out as calm
-    return search, kernels.Peak(search.interval, search.rows[2], kernels.FREE, alike, start, stop, 1e-12)
+    return search, kernels.Peak(search.interval, search.probed, kernels.FREE, alike, start, stop, 1e-12)
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -24,7 +24,7 @@ def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: fl
 def test_every_bench_of_a_chain_is_as_long_as_its_chord() -> None:
     dragon, spiral = Dragon(60), Spiral()
     search = Search(dragon, spiral, 0.0)
-    chain = search.rows[0]
+    chain = search.placed
     kernels.start_chain(spiral.start_theta, chain)
     assert kernels.extend_chain(spiral.growth, 0, 60, kernels.FREE, search.sizes, chain) == 60
     places = spiral.growth * chain[:, [kernels.THETA]] * chain[:, kernels.COS : kernels.SIN + 1]

@@ -21,7 +21,7 @@ DANCES = {
 }
 
 
-@pytest.mark.parametrize("ask", [partial(handle_places, times=[0.0]), partial(Passing, start=0.0, stop=9.0)])
+@pytest.mark.parametrize("ask", [partial(handle_places, times=[0.0, 1.0]), partial(Passing, start=0.0, stop=9.0)])
 def test_the_end_of_the_budget_is_told(ask: Callable[..., object]) -> None:
     with pytest.raises(TooMuchWork, match="the places of the handles were not found within 1 steps of work"):
         ask(DANCES["turn"], budget=Budget(1.0))
