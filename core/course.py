@@ -11,7 +11,7 @@ from core.errors import checked_type
 from core.paths.following import tightest_bend
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.shown import Shown, counted, worded
+from core.shown import Shown, WithArrays, counted, worded
 from core.values import Floats
 
 # Distance between drawn points [m], and their largest number: a path longer than 750 m is drawn more coarsely.
@@ -41,8 +41,8 @@ class TightBend(Shown):
         return f"radius {worded(self.radius, 'm')} from s = {worded(self.start)} to {worded(self.end, 'm')}"
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Course(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Course(WithArrays):
     """The points of a path for a drawing.
 
     s: (P,) [m]; points: (P, 2) x, y [m]; length: of the path [m]

@@ -15,6 +15,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from core import kernels
 from core.dragon import Dragon
@@ -227,7 +228,7 @@ class Dance(Shown):
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("end", self.end._line())]
 
-    def times(self, given: Floats | Sequence[float] | float) -> Floats:
+    def times(self, given: ArrayLike) -> Floats:
         """The given instants, as a (T,) or () array of finite numbers within the run [s].
 
         raises: InvalidValue (times); OutsideRun (times) after the end of the run, or before the whole dragon is on

@@ -23,7 +23,7 @@ DECIMALS = 15
 def _column(name: str, values: object, benches: int | None) -> Floats:
     try:
         column = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InvalidValue(name, "must be numbers in metres, one for each bench") from error
     if column.ndim != 1 or column.size == 0:
         raise InvalidValue(name, "must be a list with one number for each bench")

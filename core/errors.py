@@ -234,17 +234,19 @@ def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]
         def asked(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 checked_type(name, args[0] if args else kwargs[name], kind)
+            if (budget := kwargs.get("budget")) is not None:
+                checked_type("budget", budget, Budget)
             try:
                 return question(*args, **kwargs)
             except Halted as halted:
                 if not found:
                     raise
-                budget, given = halted.budget, signature(question).bind(*args, **kwargs).arguments
+                spent, given = halted.budget, signature(question).bind(*args, **kwargs).arguments
             dance = given.get("dance")
             if dragon := given.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
-                raise too_much(budget, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches, "")
-            raise too_much(budget, "benches", f"must be fewer: {found} {{then}}", len(given["poses"]), "")
+                raise too_much(spent, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches, "")
+            raise too_much(spent, "benches", f"must be fewer: {found} {{then}}", len(given["poses"]), "")
 
         return asked
 

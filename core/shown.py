@@ -70,6 +70,19 @@ class Shown:
         return [(name.replace("_", " "), value, units.get(name, "")) for name, value in told if value is not None]
 
 
+class WithArrays(Shown):
+    """Base of results with arrays: equal if all fields are, and not hashable."""
+
+    __slots__ = ()
+    __hash__ = None  # type: ignore[assignment]
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        names = [field.name for field in fields(self) if field.compare]  # type: ignore[arg-type]
+        return all(_equal(getattr(self, name), getattr(other, name)) for name in names)
+
+
 def units_of(kind: type) -> dict[str, str]:
     """Units by field name: those of the class itself, else those of all fields of this name."""
     return UNITS | getattr(kind, "_units", {})
@@ -107,6 +120,14 @@ def counted(count: int, noun: str) -> str:
     ('1 pair', '0 grazes')
     """
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _equal(one: object, other: object) -> bool:
+    if isinstance(one, (tuple, list)) and isinstance(other, (tuple, list)):
+        return len(one) == len(other) and all(map(_equal, one, other))
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=np.asarray(one).dtype.kind == "f")  # type: ignore[arg-type]
+    return bool(one == other)
 
 
 def _alike(name: str, value: object) -> bool:

@@ -177,4 +177,4 @@ kinder
 
 # %% [markdown]
 # That is a dance for a village. From here: `check(dance, venue=...)` asks about the square and its trees, `Turn` and
-# `Route` are other paths, and `help(core)` lists everything else.
+# `Route` are other paths, and `import core; help(core)` lists everything else.

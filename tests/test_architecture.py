@@ -451,6 +451,7 @@ def test_importing_core_loads_nothing_heavy() -> None:
 
 def test_public_names_are_sorted_and_exist() -> None:
     assert core.__all__ == sorted(core.__all__)
+    assert set(dir(core)) == {*core.__all__, "__version__", "proof"}
     assert all(hasattr(core, name) for name in core.__all__)
     stub = ast.parse((ROOT / "core" / "__init__.pyi").read_text())
     imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]

@@ -39,6 +39,9 @@ class Feature(Shown):
     bench: int
     name: str
 
+    def __str__(self) -> str:
+        return f"{self.name} of bench {self.bench}"
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Evidence(Shown):

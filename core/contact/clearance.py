@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from core import plots
 from core.contact.fold import least_to_fold
@@ -20,7 +19,7 @@ from core.errors import InvalidValue, asked_of
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.motion.trajectory import instants
 from core.sampling import dips
-from core.shown import Shown, counted, worded
+from core.shown import Shown, WithArrays, counted, worded
 from core.tables import data_frame, data_set
 from core.values import Floats
 
@@ -54,8 +53,8 @@ class Graze(Shown):
     benches: tuple[int, int]
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class ClearanceProfile(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class ClearanceProfile(WithArrays):
     """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
 
     ... is (T,) for a list of times and empty for one time.
@@ -122,9 +121,7 @@ class LeastClearance(Shown):
 
 
 @asked_of("dance", Dance, "the clearance over time was not found")
-def clearance_profile(
-    dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None
-) -> ClearanceProfile:
+def clearance_profile(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> ClearanceProfile:
     """Exact clearance and its pair at every time, and its local minima refined.
 
     times: (T,) or one [s]

@@ -16,7 +16,7 @@ from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import asked_of, checked_number, checked_type
+from core.errors import InvalidValue, asked_of, checked_number, checked_type
 from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
@@ -134,14 +134,18 @@ def pitch_check(
     The head is where the pair meets just below that pitch, or at the start if the start limits the pitch.
     whole: True judges the whole dragon, False only the reported pair; with a stray shapely always judges the ground
         that benches may cover
+    dragon, margin, stray: those of the search
     returns: None if no pair limits the pitch
-    raises: InvalidValue
+    raises: InvalidValue; TooMuchWork
     """
     checked_type("dragon", dragon, Dragon)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     strayed = checked_stray(stray, dragon)
     if found.benches is None or found.head_radius is None:
         return None
+    if found.benches[1] >= dragon.benches:
+        rule = f"must be that of the search, with bench {found.benches[1]}"
+        raise InvalidValue("dragon", f"{rule}, got one of {dragon.benches} benches")
     poses = []
     for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
         # On a spiral that starts at this radius, the head is there at time 0.

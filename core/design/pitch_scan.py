@@ -18,7 +18,7 @@ from core.dragon import Dragon
 from core.errors import SIZE_MIN, InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, too_much
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import Spiral
-from core.shown import Shown, counted, extent
+from core.shown import WithArrays, counted, extent
 from core.tables import data_frame
 from core.values import Floats
 
@@ -38,8 +38,8 @@ SCAN_WORK = 4e7
 SCAN_FROM, SCAN_TO = 0.8, 1.35
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class PitchScan(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class PitchScan(WithArrays):
     """Head radius at first contact against pitch.
 
     pitch, radius: (N,) [m], ascending; a run without contact has no entry

@@ -53,7 +53,7 @@ from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shapes.rectangles import bench_outlines
-from core.shown import Shown, counted
+from core.shown import Shown, WithArrays, counted
 from core.values import Floats
 
 # Least and largest excess that a question may ask for [m].
@@ -83,8 +83,8 @@ class SweepProof(Shown):
     cells: int
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Envelope(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Envelope(WithArrays):
     """The ground that benches sweep.
 
     polygons: for each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]

@@ -11,6 +11,7 @@ class Budget:
         its docstring names; math.inf: no limit
     brief: True ends a search before work that takes a tenth of a second, such as exact decimals near a graze
     left: remaining work [1]; stopped: True if the budget was stopped
+    raises: ValueError for a work that is no number or below zero
     A question whose budget is spent or stopped ends with TooMuchWork. A spent budget does not interrupt a step, but
     refuses the next one. Every loop notices a stopped budget within milliseconds, and ends like one that gave up: its
     caller looks at the budget too, and uses nothing that a stopped loop found.
@@ -33,6 +34,8 @@ class Budget:
         self.brief = brief
         self.limited = work is not None
         self.work = self.left = math.inf if work is None else float(work)
+        if not self.work >= 0.0:
+            raise ValueError(f"work must be zero or more, got {self.work:g}")
         self.stopped = False
         self.part = None
         self.then = f"within {self.work:g} steps of work, each a bench placed or a pair of benches tried"

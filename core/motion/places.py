@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from core.dance import Dance
 from core.errors import asked_of
@@ -17,7 +16,7 @@ STEP, ROWS_MAX = 0.25, 2_000
 
 
 @asked_of("dance", Dance)
-def handle_places(dance: Dance, times: Floats | Sequence[float], *, budget: Budget | None = None) -> Floats:
+def handle_places(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Floats:
     """Arc length s of every handle along the path.
 
     times: (T,) [s]; returns (T, n + 1) [m]

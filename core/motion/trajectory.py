@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from core import plots
 from core.dance import Dance
@@ -14,7 +14,7 @@ from core.errors import asked_of
 from core.kernels import Budget
 from core.paths.frame import WORLD
 from core.shapes.rectangles import bench_outlines
-from core.shown import Shown, extent, worded
+from core.shown import WithArrays, extent, worded
 from core.tables import data_frame, data_set
 from core.values import Floats
 
@@ -30,8 +30,8 @@ BATCH_WORK = 100_000
 AXES = ("x", "y")
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Trajectory(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Trajectory(WithArrays):
     """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
 
     ... is (T,) for a list of times and empty for one time. dance: the dance itself; without it plot() has no benches
@@ -106,7 +106,7 @@ class Trajectory(Shown):
 
 
 @asked_of("dance", Dance, "the trajectory was not computed")
-def trajectory(dance: Dance, times: Floats | Sequence[float] | float, *, budget: Budget | None = None) -> Trajectory:
+def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on

@@ -14,7 +14,7 @@ from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, asked_of, checked_numb
 from core.kernels import Budget
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
-from core.shown import Shown, counted, worded
+from core.shown import Shown, WithArrays, counted, worded
 from core.values import Floats
 
 # Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
@@ -32,8 +32,8 @@ POSE = ("x", "y", "heading")
 SIZE = ("length", "width")
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Overlaps(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Overlaps(WithArrays):
     """pairs (P, 2), a < b, sorted; contact: exact separation, witnesses and normal of each pair (P, ...)."""
 
     pairs: Pairs
@@ -235,7 +235,7 @@ def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) ->
     """
     try:
         array = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InvalidValue(name, f"must be numbers of shape {shape}") from error
     if (array.ndim != 1) if last is None else (array.shape[-1:] != (last,)):
         raise InvalidValue(name, f"must have shape {shape}, got {array.shape}")

@@ -18,7 +18,7 @@ from core import kernels
 from core.dragon import Dragon
 from core.errors import InvalidValue, TooLarge, asked_of, said
 from core.kernels import Budget
-from core.shown import Shown, worded
+from core.shown import WithArrays, worded
 from core.values import Floats
 
 Pairs = NDArray[np.int64]
@@ -55,8 +55,8 @@ SUM_ROUNDING = 1e-13
 PAPER_SIDES = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Separation(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Separation(WithArrays):
     """separation (...) [m]: > 0 apart, 0 touching, < 0 minus the penetration depth;
     witness_a, witness_b (..., 2) [m]; normal (..., 2) from a to b.
 

@@ -23,7 +23,7 @@ from core.dance import Dance
 from core.errors import InvalidValue, asked_of, checked_type, said, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
-from core.shown import Shown, counted, worded
+from core.shown import WithArrays, counted, worded
 from core.tolerance.reach import gains
 from core.tolerance.safe import safe_words
 from core.tolerance.tolerance import tolerance
@@ -46,8 +46,8 @@ SAFE_PART = 0.25
 CONFIDENCE = 0.95
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class ContactProbability(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class ContactProbability(WithArrays):
     """Probability that two benches touch at one of some instants when people wobble.
 
     probability: share of the samples with a contact; limits: Clopper and Pearson's, between which the probability of

@@ -14,7 +14,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, TooMuchWork, asked_of, checked_size, said, too_much
 from core.kernels import Budget
 from core.paths.spiral import Spiral
-from core.shown import Shown, extent
+from core.shown import WithArrays, extent
 from core.tables import data_frame
 from core.tolerance.tolerance import Tolerance, tolerance
 from core.values import Floats
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 CURVE_MOST = 10_000
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class ToleranceCurve(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class ToleranceCurve(WithArrays):
     """Stray that is safe at each of some pitches of a spiral, on the way to a turning circle.
 
     pitch: (N,) [m], as given; stray: (N,) [m], proven safe; tolerances: the whole answers
@@ -82,7 +82,7 @@ def tolerance_curve(
     rule = f"must be a list of 1 to {CURVE_MOST} numbers in metres"
     try:
         column = np.asarray(pitches, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InvalidValue("pitches", f"{rule}, got {pitches!r:.60}") from error
     if column.ndim != 1 or not 1 <= column.size <= CURVE_MOST:
         raise InvalidValue("pitches", f"{rule}, got an array of shape {column.shape}")

@@ -25,7 +25,7 @@ import numpy as np
 
 from core.dragon import Dragon
 from core.shapes.rectangles import bench_poses, frames, frames_separation
-from core.shown import Shown, worded
+from core.shown import WithArrays, worded
 from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats
 
@@ -42,8 +42,8 @@ TRIED_TO, TRIED_STEPS = 1.5, (0.001, 0.01)
 THREES_TRIED = 4
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class Exhibit(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Exhibit(WithArrays):
     """A pose of the whole dragon in which two benches overlap.
 
     time: [s]; handles: (n + 1, 2) [m], every chord as long as it should be to rounding; benches: the pair, the second

@@ -7,7 +7,7 @@ import math
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -18,6 +18,7 @@ from core import (
     Budget,
     Dance,
     Dragon,
+    InvalidValue,
     Line,
     Route,
     Spiral,
@@ -120,6 +121,19 @@ def test_a_question_whose_work_is_spent_ends_and_says_how_much_that_was(name: st
         QUESTIONS[name](budget)
     assert not caught.value.stopped
     assert not caught.value.named("renamed").stopped
+
+
+@pytest.mark.parametrize("name", [name for name in QUESTIONS if name != "Route"])
+def test_a_number_is_no_budget(name: str) -> None:
+    with pytest.raises(InvalidValue, match=r"budget must be a Budget, got 1000000\.0"):
+        QUESTIONS[name](cast(Budget, 1e6))
+
+
+@pytest.mark.parametrize("work", [-1.0, math.nan])
+def test_work_is_zero_or_more(work: float) -> None:
+    with pytest.raises(ValueError, match=f"work must be zero or more, got {work:g}"):
+        Budget(work)
+    assert Budget(0.0).left == 0.0
 
 
 @ALL

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 import typing
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
@@ -27,7 +28,7 @@ from core import (
     Waypoints,
 )
 from core.errors import BenchDragonError
-from core.shown import Shown, extent, units_of, worded
+from core.shown import Shown, WithArrays, extent, units_of, worded
 
 # A line of a console and a half: nothing public is longer [characters].
 LINE_MOST = 220
@@ -158,6 +159,20 @@ def test_every_number_of_a_public_result_has_its_unit(kind: type) -> None:
 def test_a_number_of_a_bench_or_a_count_has_no_unit(kind: type) -> None:
     whole = {name for name, hint in hints(kind).items() if int in inside(hint) and float not in inside(hint)}
     assert {name: units_of(kind)[name] for name in whole if units_of(kind).get(name)} == {}
+
+
+def test_results_with_the_same_numbers_are_equal(values: list[Any]) -> None:
+    with_arrays = [value for value in values if isinstance(value, WithArrays)]
+    assert len(with_arrays) == 10
+    for value in with_arrays:
+        again = pickle.loads(pickle.dumps(value))
+        assert again == value
+        assert again is not value
+        assert value != 3
+        with pytest.raises(TypeError, match="unhashable"):
+            hash(value)
+    assert core.trajectory(DANCE, [0.0, 1.0]) != core.trajectory(DANCE, [0.0, 2.0])
+    assert core.trajectory(DANCE, [0.0]) != core.trajectory(DANCE, [0.0, 0.0])
 
 
 def test_a_repr_is_one_short_line(values: list[Any]) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core import Arc, Dance, Line, Route, clearance_profile
+from core import Arc, Dance, InvalidValue, Line, Route, clearance_profile
 from core.contact.answer import FirstContact, Outcome
 from core.contact.cross_check import (
     CHECK_TRAVEL,
@@ -260,6 +260,11 @@ def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
     found = minimum_pitch(Dragon(3), turning_radius=4.5, start_turns=3.0)
     assert found.benches is None
     assert pitch_check(found, Dragon(3)) is None
+
+
+def test_a_minimum_pitch_of_a_longer_dragon_is_refused() -> None:
+    with pytest.raises(InvalidValue, match="must be that of the search, with bench 19, got one of 5 benches"):
+        pitch_check(minimum_pitch(Dragon()), Dragon(5))
 
 
 def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> None:
