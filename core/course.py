@@ -11,7 +11,7 @@ from core.errors import checked_type
 from core.paths.following import tightest_bend
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.shown import Shown, WithArrays, counted, worded
+from core.shown import WithArrays, counted, worded
 from core.values import Floats
 
 # Distance between drawn points [m], and their largest number: a path longer than 750 m is drawn more coarsely.
@@ -20,8 +20,8 @@ STEP, POINTS_MAX = 0.25, 3_000
 BEND_POINTS = 24
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class TightBend(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class TightBend(WithArrays):
     """A part of a path that curves too tightly for the longest bench; for angles of benches see SharpestBend.
 
     start, end: s of its ends [m]; points: along it, (P, 2) [m]

@@ -123,6 +123,8 @@ def counted(count: int, noun: str) -> str:
 
 
 def _equal(one: object, other: object) -> bool:
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_equal(value, other[name]) for name, value in one.items())
     if isinstance(one, (tuple, list)) and isinstance(other, (tuple, list)):
         return len(one) == len(other) and all(map(_equal, one, other))
     if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):

@@ -21,6 +21,7 @@ from typer.core import TyperGroup
 import core
 from app.command.usage import Misuse, told
 from core.errors import BenchDragonError
+from core.kernels import COMPILED
 
 # The commands in the order of the help, each with its module. A module is imported when its command is called.
 ROOMS = {
@@ -119,7 +120,7 @@ app = typer.Typer(
 
 def _print_version(asked: bool) -> None:
     if asked:
-        print(f"bench-dragon {core.__version__}")
+        print(f"bench-dragon {core.__version__}{'' if COMPILED else ', not compiled: many times slower'}")
         raise typer.Exit
 
 

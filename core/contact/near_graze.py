@@ -287,10 +287,10 @@ def _cos_sin(angle: Decimal) -> Vector:
     return cos, sin
 
 
-# From `proven` on the gap of the pair falls until it touches. The first instant t within the margin is bisected between
-# an instant apart and one within. The interval before t is proven as in the kernels: along an axis fixed in one of the
-# benches, with its sign, the gap is below its chord by at most K x (h - x) / 2, with the kernels' K, in as many
-# intervals as necessary. All other pairs are marched over the same interval in doubles.
+# From `proven` on the gap of the pair falls until it touches. The first instant t within the margin is found, by the
+# false position, between an instant apart and one within. The interval before t is proven as in the kernels: along an
+# axis fixed in one of the benches, with its sign, the gap is below its chord by at most K x (h - x) / 2, with the
+# kernels' K, in as many intervals as necessary. All other pairs are marched over the same interval in doubles.
 #
 # The claims are about times, which are travels divided by the head speed in doubles: the pair is within the margin at
 # the true travel of the later time, and apart until a little beyond that of the earlier one.

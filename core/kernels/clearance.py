@@ -208,6 +208,7 @@ def bottom_between(scene, low, high, a, b, width, chain):
 def crossing(scene, low, high, pair, width, of_rate, chain):
     """Travel at which the gap of a pair less the margin, or (of_rate) the rate at which it closes, falls to 0 [m].
 
+    Within `width`, unless 100 rounds do not suffice or the budget is stopped.
     Method: the Illinois form of the false position, with a bisection now and then.
     """
     above = 1.0

@@ -42,7 +42,7 @@ cdef enum:
     COIL_GROWTH = 7, COIL_ROTATION = 8, COIL_ARC = 10
     X0 = 5, X1 = 6, X2 = 7, X3 = 8, Y0 = 9, Y1 = 10, Y2 = 11, Y3 = 12, T_END = 13
     POINT_CURVATURE = 4, MISS_ACROSS = 0, MISS_ALONG = 1, MISS_KINK = 2, MISS_STEP = 3
-    LINE = 0, ARC = 1, SPIRAL = 2, CREST = 4
+    LINE = 0, ARC = 1, SPIRAL = 2, CUBIC = 3, CREST = 4
     SHIFT_CENTRE = 0, SHIFT_CORNER = 1, SHIFT_PULL = 2, SHIFT_OMEGA = 3
 
 cdef enum Ended:

@@ -137,8 +137,7 @@ BLEND = 1.0
 LOOSE = 16  # largest distance of the piece from the path, whose tangent is continuous at the joints [m]
 CURVATURE_SLACK = 17  # largest difference between its curvature and that of the path [1/m]
 PIECE_COLUMNS = 18
-LINE, ARC, SPIRAL = range(3)
-CREST = 4
+LINE, ARC, SPIRAL, CUBIC, CREST = range(5)
 PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
 
 # Column of a point of a route after PX to TY: its curvature [1/m].
@@ -163,7 +162,7 @@ class Ended(IntEnum):
 
 
 class Step(IntEnum):
-    """Result of one step: proven; to be tried again, shorter; or the last one."""
+    """Result of one step: proven; to be tried again, shorter or with more benches; or the last one."""
 
     ADVANCED = 0
     REFUSED = 1

@@ -161,7 +161,7 @@ class March(Found):
         return LEAST_STEP * self.tolerance if self.tolerance != NO_BRACKET else LEAST_WAY
 
     def open(self, scene):
-        """Lay out the chain at the start; returns ADVANCED if no pair is within the margin, else ENDED."""
+        """Lay out the chain at the start; returns ADVANCED, or ENDED for a contact, a fold or too few rows there."""
         self.followers = scene.room if self.at_start else min(self.leaders, scene.room)
         self.opens = self.at_start and scene.curve.is_spiral
         self.allowance = CLEAR_SPARE * scene.rings.clear_radius
@@ -208,7 +208,7 @@ class March(Found):
         return Step.REFUSED
 
     def try_step(self, scene, interval):
-        """Try one step; returns ADVANCED if it is proven, REFUSED if it must be shorter, else ENDED."""
+        """Try one step; returns ADVANCED if it is proven, ENDED at the end of the march, else REFUSED: try again."""
         outer = scene.curve.growth * interval.before[1, THETA] if scene.curve.is_spiral else 0.0
         allowance = ALLOWANCE * drift(fabs(interval.before[1, RATE]) + 1.0, self.h, scene.curve.growth, outer)
         place = scene.place - self.travel - self.h

@@ -35,7 +35,8 @@ CUBIC_SHORT = 1e-5
 # 2026-11-21).
 CUBICS_MAX = 100_000
 
-CUBIC, CREST = (float(kernels.PIECE_KINDS.index(kind)) for kind in ("cubic", "crest"))
+# In place of the kind of a cubic that must be divided.
+DIVIDED = -1.0
 
 
 def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats:
@@ -54,7 +55,7 @@ def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats
         halves = np.stack([coefficients, _shifted(coefficients, half)], axis=1)
         arcs = _arcs(halves.reshape(-1, 4, 2), np.repeat(half, 2)).reshape(-1, 2)
         kinds, bounds, slopes = _curvatures(coefficients, ends)
-        whole = (np.abs(lengths - arcs.sum(axis=1)) <= CUBIC_ARC * lengths) & (kinds >= 0.0)
+        whole = (np.abs(lengths - arcs.sum(axis=1)) <= CUBIC_ARC * lengths) & (kinds != DIVIDED)
         rows = _rows(coefficients[whole], ends[whole])
         rows[:, PIECE_KIND], rows[:, S_END], rows[:, K_SLOPE] = kinds[whole], lengths[whole], slopes[whole]
         rows[:, K_START : K_END + 1] = bounds[whole]
@@ -121,9 +122,9 @@ def _curvatures(coefficients: Floats, ends: Floats) -> tuple[Floats, Floats, Flo
     low = np.where(monotonic, k0, (most * k0 - least * k1 + least * most) / span)
     excess = np.maximum(high - np.maximum(k0, k1), np.minimum(k0, k1) - low)
     near = monotonic | (excess <= CREST_EXCESS * np.maximum(1.0, np.maximum(np.abs(k0), np.abs(k1))))
-    kinds = np.where(monotonic, CUBIC, CREST)
+    kinds = np.where(monotonic, kernels.CUBIC, kernels.CREST)
     slopes = np.maximum(most, -least) / np.sqrt(slowest)
-    return np.where(moves & near, kinds, -1.0), np.stack([low, high], axis=1), slopes
+    return np.where(moves & near, kinds, DIVIDED), np.stack([low, high], axis=1), slopes
 
 
 # Own code for all cubics at once: numpy's polymul takes one pair at a time, 45 times as long for 1,000 pairs, and

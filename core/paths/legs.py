@@ -115,7 +115,9 @@ class Legs(Route):
                 found += self._between(k, piece.points[1:-1])
             if not isinstance(piece, Arc) and not isinstance(next(iter(self.pieces[k + 1 :]), None), Arc):
                 found.append(end)
-        return np.array(found)
+        knots = np.array(found)
+        knots.flags.writeable = False
+        return knots
 
     def _between(self, k: int, points: tuple[Point, ...]) -> list[float]:
         """s of the inner points of the curve in piece k [m], which are ends of cubics."""

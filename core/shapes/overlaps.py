@@ -43,8 +43,8 @@ class Overlaps(WithArrays):
         return f"{counted(len(self.pairs), 'pair')}, separation {worded(self.contact.separation, 'm')}"
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class CrossCheck(Shown):
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class CrossCheck(WithArrays):
     """pairs: found by each engine; agree: True if all are equal; only: for each engine its pairs that not all engines
     found; missing: for each engine the pairs that another engine found and this one did not
     left_out: engines that cannot judge this margin; they appear in no other field
