@@ -257,10 +257,10 @@ def least_over(
 def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
     """The first touch if benches certainly touch; if the search gives up, the touch that is already known."""
     search.use(search.path, 0.0)
-    state, found, tolerance = search.approach(begin, until, head_speed)
+    state, found, half_bracket = search.approach(begin, until, head_speed)
     if state not in TOUCHES or found.touching is None:
         return (0.0, *touching[1:]), 0.0
-    return (0.0, found.touching - (tolerance if state is Ended.TOUCHED else 0.0), found.benches), 0.0
+    return (0.0, found.touching - (half_bracket if state is Ended.TOUCHED else 0.0), found.benches), 0.0
 
 
 class ClearanceSamples(NamedTuple):

@@ -122,23 +122,23 @@ def contact_within(
     first, last = clock.travel(begin), clock.travel(until)
     to_fold = dance.nears_fold(until)
     stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
-    state, found, tolerance = search.approach(first, stops[0][0], head_speed)
+    state, found, half_bracket = search.approach(first, stops[0][0], head_speed)
     if to_fold and state not in TOUCHES:
-        state, found, tolerance = approach_fold(search, first, stops, head_speed, end, (state, found, tolerance))
+        state, found, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, found, half_bracket))
     narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
     if (
         not (strayed or dance.passages)
         and state is Ended.TOUCHED
-        and tolerance > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0)
+        and half_bracket > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0)
     ):
         narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
-            found, tolerance = narrower, narrow
+            found, half_bracket = narrower, narrow
     if state is Ended.STUCK:
         until = _known_overlap(search, found.proven, stops[-1][0], clock, until)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
-    return _result(dance, search, state, found, end, (begin, until), tolerance)
+    return _result(dance, search, state, found, end, (begin, until), half_bracket)
 
 
 def _known_overlap(search: Search, proven: float, last: float, clock: Clock, until: float) -> float:
@@ -148,7 +148,13 @@ def _known_overlap(search: Search, proven: float, last: float, clock: Clock, unt
 
 
 def _result(
-    dance: Dance, search: Search, state: Ended, found: Marched, end: RunEnd, span: tuple[float, float], tolerance: float
+    dance: Dance,
+    search: Search,
+    state: Ended,
+    found: Marched,
+    end: RunEnd,
+    span: tuple[float, float],
+    half_bracket: float,
 ) -> FirstContact:
     graze, clock = None, dance.clock
     if found.graze is not None:
@@ -166,7 +172,7 @@ def _result(
         return FirstContact(outcome, None, bracket, None, None, None, None, None, None, certificate, **asked)
     at_start = outcome is Outcome.CONTACT_AT_START
     assert found.touching is not None
-    travel = found.touching if at_start else found.touching - tolerance
+    travel = found.touching if at_start else found.touching - half_bracket
     pair = found.benches
     corner, edge, point, gap = _touching_features(search, travel, pair)
     time = span[0] if at_start else clock.time(travel)

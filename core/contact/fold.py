@@ -44,24 +44,24 @@ def approach_fold(
     """
     assert end.theta is not None
     start, opening, passed = begin, True, Marched(begin)
-    state, found, tolerance = marched
+    state, found, half_bracket = marched
     (stop, way), *further = stops
     last = stops[-1][0]
     rings_reach = search.travel_at(search.clear_radius / search.growth) > begin
     while further:
         found = joined(passed, found)
         if state in TOUCHES or (state is Ended.REACHED and _leaves(search, stop, last, found, end.theta)):
-            return state, found, tolerance
+            return state, found, half_bracket
         if state is Ended.REACHED and rings_reach:
             start, opening, passed = stop - way, False, found
         else:
             further = further[-1:]
         (stop, way), *further = further
-        state, found, tolerance = search.approach(start, stop, head_speed, opening=opening)
+        state, found, half_bracket = search.approach(start, stop, head_speed, opening=opening)
     found = joined(passed, found)
     if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
-    return state, found, tolerance
+    return state, found, half_bracket
 
 
 def _leaves(search: Search, early: float, last: float, found: Marched, theta: float) -> bool:

@@ -176,12 +176,12 @@ class Search:
         return float(kernels.spiral_theta((self.place - travel) / self.growth))
 
     def march(
-        self, stop: float, tolerance: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
+        self, stop: float, half_bracket: float, *, start: float = 0.0, opening: bool = True, dips: bool = False
     ) -> tuple[Ended, Marched]:
         """March from start, or from the end of the ring bound, to stop [m of travel]; returns its end and its result.
 
-        tolerance: half width of the bracket around a contact [m], NO_BRACKET: any instant of it is enough; dips: True
-            finds grazes also then
+        half_bracket: half the width of the bracket around a contact [m], NO_BRACKET: any instant of it is enough; dips:
+            True finds grazes also then
         opening: True if nothing before the start is proven clear, so all pairs are followed until the body repeats
         The march begins earlier and ends later by the rounding of travels, so that its claims on computed travels and
         times hold for the true ones.
@@ -197,10 +197,10 @@ class Search:
         if nothing or (start >= stop and not opening):
             return Ended.REACHED, Marched(asked[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
-        grazes = dips or tolerance != kernels.NO_BRACKET
+        grazes = dips or half_bracket != kernels.NO_BRACKET
         while True:
             most_work = max(min(self.work, self.budget.left), 1.0)
-            ended = self._march.run(start, stop, leaders, opening, tolerance, grazes, rounding, most_work)
+            ended = self._march.run(start, stop, leaders, opening, half_bracket, grazes, rounding, most_work)
             self.spend(float(self._march.work))
             self.budget.look()
             if ended is not Ended.CAPACITY:
@@ -217,23 +217,23 @@ class Search:
 
     def approach(self, begin: float, until: float, head_speed: float, *, opening: bool = True) -> Approached:
         """march() between two travels [m] with a bracketed contact; the third value is the half width of it [m]."""
-        tolerance = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
-        state, found = self.march(until, tolerance, start=begin, opening=opening)
+        half_bracket = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
+        state, found = self.march(until, half_bracket, start=begin, opening=opening)
         if state is not Ended.STUCK or found.touching is None:
-            return state, found, tolerance
+            return state, found, half_bracket
         for wider in sorted({*BRACKETS_GRAZING, *(wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING)}):
             if state is not Ended.STUCK or found.touching is None:
                 break
-            if wider > tolerance:
-                tolerance = wider
+            if wider > half_bracket:
+                half_bracket = wider
                 if self.kinds.some:  # one step of hulls costs more than laying out all benches anew
-                    state, further = self.march(until, tolerance, start=found.proven)
+                    state, further = self.march(until, half_bracket, start=found.proven)
                     found = joined(found, further)
                 else:
                     proven = found.proven
-                    state, found = self.march(until, tolerance, start=begin, opening=opening)
+                    state, found = self.march(until, half_bracket, start=begin, opening=opening)
                     found = found._replace(proven=max(proven, found.proven))
-        return state, found, tolerance
+        return state, found, half_bracket
 
     def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
         """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].

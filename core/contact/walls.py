@@ -199,14 +199,14 @@ def _area_clearance(
     """The benches and one area between two times [s]. frame: of the search"""
     (begin, until), slowest = span, clock.slowest
     first, last, search.timing = clock.travel(begin), clock.travel(until), clock.rounding(until)
-    state, found, tolerance = search.approach(first, last, slowest)
+    state, found, half_bracket = search.approach(first, last, slowest)
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     if state is Ended.STUCK:
         outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
     elif state is not Ended.REACHED:
         at_start = state is Ended.TOUCHED_AT_START
         assert found.touching is not None
-        travel = found.touching - (0.0 if at_start else tolerance)
+        travel = found.touching - (0.0 if at_start else half_bracket)
         outcome = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT
         time = begin if at_start else clock.time(travel)
         bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))

@@ -114,15 +114,15 @@ class Stops:
             self.search.work = WORK_BUDGET
         search, to_fold = self.search, end.reason is EndReason.FOLD
         last = before_fold(end.time) if to_fold else end.time
-        tolerance = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
-        state, found = search.march(last, tolerance)
+        half_bracket = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
+        state, found = search.march(last, half_bracket)
         if state is Ended.STUCK and found.touching is not None:
-            state, found, tolerance = search.approach(0.0, last, 1.0)
+            state, found, half_bracket = search.approach(0.0, last, 1.0)
         if state in (Ended.REACHED, Ended.STUCK) and found.touching is None and to_fold:
             state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
         if state is Ended.REACHED:
             return None
-        travel = {Ended.TOUCHED: (found.touching or 0.0) - tolerance, Ended.STUCK: found.proven}.get(state, 0.0)
+        travel = {Ended.TOUCHED: (found.touching or 0.0) - half_bracket, Ended.STUCK: found.proven}.get(state, 0.0)
         return search.growth * search.theta_at(travel)
 
 

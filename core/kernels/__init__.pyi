@@ -218,7 +218,7 @@ class March(Found):
         stop: float,
         leaders: int,
         at_start: bool,
-        tolerance: float,
+        half_bracket: float,
         grazes: bool,
         rounding: float,
         most_work: float,
@@ -239,7 +239,7 @@ class Peak:
         self, interval: Interval, spare: Floats, calm: float, alike: int, start: float, stop: float, rounding: float
     ) -> None: ...
     def sample(self, step: float) -> None: ...
-    def prove(self, step: float, tolerance: float, loosest: float, most_links: int) -> None: ...
+    def prove(self, step: float, slack: float, loosest: float, most_links: int) -> None: ...
 
 class Excess:
     proven: float

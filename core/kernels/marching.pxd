@@ -18,7 +18,7 @@ cdef class March(Found):
     cdef double start, stop
     cdef Py_ssize_t leaders
     cdef bint at_start
-    cdef double tolerance, rounding, most_work
+    cdef double half_bracket, rounding, most_work
     cdef Py_ssize_t followers, active, placed, opened
     cdef bint opens, grazes, reversing
     cdef double travel, h
@@ -31,7 +31,7 @@ cdef class March(Found):
     cdef Py_ssize_t graze_first, graze_second
 
     cpdef object run(
-        self, double start, double stop, Py_ssize_t leaders, bint at_start, double tolerance, bint grazes,
+        self, double start, double stop, Py_ssize_t leaders, bint at_start, double half_bracket, bint grazes,
         double rounding, double most_work
     )
 

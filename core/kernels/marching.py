@@ -20,7 +20,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # March.
 #
 # Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; the pairs that must be
-# followed (leaders, at_start); and the half width of the bracket around a contact (tolerance).
+# followed (leaders, at_start); and half the width of the bracket around a contact (half_bracket).
 # State. `travel`; the interval with the chains at travel and at travel + h, up to the last handle that matters there;
 # h, the step to try; `aims`, whether this step stops short of a contact, and `target`, the travel of that contact;
 # `opening`, the chain at the start.
@@ -57,11 +57,12 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 # REACHED: travel >= stop, so the invariant is the claim.
 # TOUCHED: the pair with the least bound is within the margin at the far end of a refused step. crossing() finds a
 # `target` before that end (or, where steps are short already, at most PEEK beyond it) where the gap of this pair falls
-# to the margin. The next step ends at target - tolerance. If it is proven for all pairs, and the pair is within the
-# margin for certain around target + tolerance, for all true travels within `rounding` of it (pair_most()), the first
-# contact of all lies between: proven = travel, touching = target + tolerance. If travel is beyond target - tolerance
-# already, the second condition suffices. An earlier crossing, of this pair or another, makes the step fail and is found
-# instead. Without a bracket (NO_BRACKET) touching is the far end itself, if the contact there is certain.
+# to the margin. The next step ends at target - half_bracket. If it is proven for all pairs, and the pair is within the
+# margin for certain around target + half_bracket, for all true travels within `rounding` of it (pair_most()), the first
+# contact of all lies between: proven = travel, touching = target + half_bracket. If travel is beyond
+# target - half_bracket already, the second condition suffices. An earlier crossing, of this pair or another, makes the
+# step fail and is found instead. Without a bracket (NO_BRACKET) touching is the far end itself, if the contact there is
+# certain.
 # TOUCHED_AT_START: the nearest pair is within the margin at the start, for certain. Where rounding hides that: STUCK.
 # STUCK: h is too short to help (LEAST_STEP of the bracket, or rounding), most_work is done, the scene's budget is
 # stopped, or the chain folds at the start. proven = travel still holds. touching is then a crossing of a pair that
@@ -98,7 +99,7 @@ class March(Found):
         self.interval = interval
         self.probe = probe
         self.opening = opening
-        self.start = self.stop = self.tolerance = self.rounding = self.most_work = 0.0
+        self.start = self.stop = self.half_bracket = self.rounding = self.most_work = 0.0
         self.leaders = self.followers = self.active = self.placed = self.opened = 0
         self.at_start = self.opens = self.reversing = self.grazes = self.grazed = self.aims = False
         self.travel = self.h = self.target = self.allowance = 0.0
@@ -107,19 +108,19 @@ class March(Found):
         self.gap_curvature = self.graze_gap = self.graze_travel = 0.0
         self.graze_first = self.graze_second = 0
 
-    def run(self, start, stop, leaders, at_start, tolerance, grazes, rounding, most_work):
+    def run(self, start, stop, leaders, at_start, half_bracket, grazes, rounding, most_work):
         """Advance the head from `start` to `stop` [m of travel]; returns how it ended.
 
         leaders: number of benches whose pairs must be followed; at_start: follow all pairs until every bench has passed
             the start of the one before it
-        tolerance: half width of the bracket around a contact [m], or NO_BRACKET; grazes: note the least graze
+        half_bracket: half the width of the bracket around a contact [m], or NO_BRACKET; grazes: note the least graze
         rounding: largest error of a travel [m]; most_work: work after which the march gives up
         """
         self.start = start
         self.stop = stop
         self.leaders = leaders
         self.at_start = at_start
-        self.tolerance = tolerance
+        self.half_bracket = half_bracket
         self.grazes = grazes
         self.rounding = rounding
         self.most_work = most_work
@@ -158,7 +159,7 @@ class March(Found):
 
     def least_step(self):
         """Shortest useful step [m]."""
-        return LEAST_STEP * self.tolerance if self.tolerance != NO_BRACKET else LEAST_WAY
+        return LEAST_STEP * self.half_bracket if self.half_bracket != NO_BRACKET else LEAST_WAY
 
     def open(self, scene):
         """Lay out the chain at the start; returns ADVANCED, or ENDED for a contact, a fold or too few rows there."""
@@ -239,9 +240,9 @@ class March(Found):
         interval.swap()
         if self.active > 0:
             self.gap_curvature = max(self.gap_curvature, nearest.gap_curvature)
-        if self.aims and self.surely_within(scene, scene.place - self.target - self.tolerance):
+        if self.aims and self.surely_within(scene, scene.place - self.target - self.half_bracket):
             self.proven = self.travel
-            self.meet(self.target + self.tolerance)
+            self.meet(self.target + self.half_bracket)
             return self.end(Ended.TOUCHED)
         self.aims = False
         self.note_graze(scene, interval, nearest.least)
@@ -280,36 +281,36 @@ class March(Found):
         if row_gap(scene, nearest.first, nearest.second, interval.after) > scene.margin:
             width = 0.95 * nearest.width
             self.refuse(0.5 if width < 0.5 * self.h or width >= self.h else width / self.h)
-            if self.h >= self.tolerance:
+            if self.h >= self.half_bracket:
                 return Step.REFUSED
             end = self.peek(scene, nearest.first, nearest.second)
             if end > self.stop:
                 return Step.REFUSED
         self.first = nearest.first
         self.second = nearest.second
-        if self.tolerance == NO_BRACKET:
+        if self.half_bracket == NO_BRACKET:
             if not self.surely_within(scene, scene.place - self.travel - self.h):
                 self.h *= 0.5
                 return Step.REFUSED
             self.meet(self.travel + self.h)
             return self.end(Ended.TOUCHED)
-        width = CROSSING_WIDTH * self.tolerance
+        width = CROSSING_WIDTH * self.half_bracket
         self.target = contact_between(scene, self.travel, end, self.first, self.second, width, self.probe.before)
         self.aims = self.target > 0.0  # a contact before travel 0 is bracketed by the step after it
         self.meet(self.target)
-        way = self.target - self.tolerance - self.travel
+        way = self.target - self.half_bracket - self.travel
         if way > self.rounding and way < self.h:
             self.h = way
             return Step.REFUSED
-        if self.target - self.tolerance <= self.travel:
-            if self.surely_within(scene, scene.place - self.target - self.tolerance):
-                self.meet(self.target + self.tolerance)
+        if self.target - self.half_bracket <= self.travel:
+            if self.surely_within(scene, scene.place - self.target - self.half_bracket):
+                self.meet(self.target + self.half_bracket)
                 return self.end(Ended.TOUCHED)
         return self.refuse(0.5)
 
     def peek(self, scene, a, b):
         """A travel a little ahead at which a pair is within the margin, else FREE: rounding hides a slow contact."""
-        width = 2.0 * self.tolerance
+        width = 2.0 * self.half_bracket
         while width <= PEEK:
             if gap_at(scene, scene.place - self.travel - width, a, b, self.probe.before) <= scene.margin:
                 return self.travel + width

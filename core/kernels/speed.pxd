@@ -28,8 +28,8 @@ cdef class Peak:
     @cython.locals(scene=Scene)
     cpdef void sample(self, double step) noexcept
     @cython.locals(scene=Scene, links=cython.Py_ssize_t)
-    cpdef void prove(self, double step, double tolerance, double loosest, Py_ssize_t most_links) noexcept
-    cdef bint leaves(self, Scene scene, double upper, double tolerance) noexcept nogil
+    cpdef void prove(self, double step, double slack, double loosest, Py_ssize_t most_links) noexcept
+    cdef bint leaves(self, Scene scene, double upper, double slack) noexcept nogil
     cdef bint gone(self, Scene scene) noexcept nogil
     cdef double top_rate(self, Scene scene, double travel) noexcept nogil
     cdef void refine(self, Scene scene, double low, double high, double noise) noexcept nogil

@@ -72,7 +72,7 @@ def way_out(pieces, alike, sizes, chain):
 # Input:  a run from start to stop.
 # State:  `rate`, the largest |rate| seen, and its `travel`. While sampling: the samples before and after that one.
 #         While proving: the travel up to which `upper` bounds every |rate|; h, the step to try; the chains at both of
-#         its ends; `links`, the number followed since the tolerance grew; E = `ratio` from the place `left` = q on,
+#         its ends; `links`, the number followed since the slack grew; E = `ratio` from the place `left` = q on,
 #         FREE while no such place is known; `most` = U since then; `tried`, the E of the last try.
 # Output: see Peak.
 class Peak:
@@ -130,10 +130,10 @@ class Peak:
                 travel = travel + h if travel + h < self.stop and not self.gone(scene) else self.stop
             self.refine(scene, low, high, 0.0)
 
-    def prove(self, step, tolerance, loosest, most_links):
-        """Prove that no rate exceeds that of sample() by more than the tolerance, or find a larger one.
+    def prove(self, step, slack, loosest, most_links):
+        """Prove that no rate exceeds that of sample() by more than the slack, or find a larger one.
 
-        The tolerance grows fourfold after every `most_links` links followed (an interval counts as INTERVAL_LINKS
+        The slack grows fourfold after every `most_links` links followed (an interval counts as INTERVAL_LINKS
         more), until the proof ends or is given up at `loosest`. step: the first one tried [m]
         """
         scene = self.interval.scene
@@ -168,11 +168,11 @@ class Peak:
                 links += max(handles, 0) + INTERVAL_LINKS
                 if links > most_links:
                     links = 0
-                    tolerance *= 4.0
-                    if tolerance > loosest:
+                    slack *= 4.0
+                    if slack > loosest:
                         self.upper = FREE
                         break
-                enough = self.rate + tolerance
+                enough = self.rate + slack
                 if self.ratio < FREE and h > LEAVING_STEP * scene.sizes[self.alike, CHORD]:
                     enough /= self.ratio
                 if upper > enough and h > PEAK_WIDTH:
@@ -183,7 +183,7 @@ class Peak:
                     placed, handles, self.interval.before, self.interval.after
                 ):
                     self.refine(scene, travel, travel + h, NOISE)
-                if not scene.curve.is_spiral and handles > self.alike and self.leaves(scene, upper, tolerance):
+                if not scene.curve.is_spiral and handles > self.alike and self.leaves(scene, upper, slack):
                     break
                 travel += h
                 placed = handles
@@ -191,10 +191,10 @@ class Peak:
                 h *= 1.5
             self.upper = max(self.upper, self.rate)
 
-    def leaves(self, scene, upper, tolerance):
+    def leaves(self, scene, upper, slack):
         """Whether `upper` bounds the rates on all of the way to come, by those of the last steps ("way out" above)."""
         after = self.interval.after
-        enough = self.rate + tolerance
+        enough = self.rate + slack
         self.most = max(self.most, upper)
         if self.ratio * self.most > enough:
             ratio = way_out(scene.curve.pieces, self.alike, scene.sizes, after)

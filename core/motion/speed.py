@@ -22,12 +22,12 @@ SAMPLE_STEP = 0.5
 # ... and, on ways of many kilometres with fewer steps, their largest number of links of chains together [1].
 SAMPLED_LINKS = 1_000_000
 SAMPLES_MIN = 16
-# Number of links of chains after which the tolerance grows fourfold [1]; they take 15 to 250 ms. So nearly equal peaks
+# Number of links of chains after which the slack grows fourfold [1]; they take 15 to 250 ms. So nearly equal peaks
 # of many handles give a wider bracket, not a long search; the contest's turn takes about 30,000 over 200 s. An interval
-# counts as at least twenty links (core/kernels/speed.py), and the tolerance grows at most twelve times, so every search
+# counts as at least twenty links (core/kernels/speed.py), and the slack grows at most twelve times, so every search
 # is bounded.
 LINKS_BUDGET = 250_000
-# Largest tolerance before the proof is given up [1]: hundreds of benches on kilometres of winding curve exceed it.
+# Largest slack before the proof is given up [1]: hundreds of benches on kilometres of winding curve exceed it.
 LOOSEST_TOLERANCE = 1e-2
 # Largest difference of rates that count as equal, so that several handles share the highest one [1].
 TIED = 1e-9

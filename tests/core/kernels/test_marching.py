@@ -8,7 +8,7 @@ from core import Dragon, Spiral, kernels
 from core.contact.search import Search
 from core.kernels import Ended
 
-TOLERANCE, WORK, ROUNDING = 1e-10, 1e7, 1e-12
+HALF_BRACKET, WORK, ROUNDING = 1e-10, 1e7, 1e-12
 DRAGON, SPIRAL = Dragon(40), Spiral()
 # The default dance first touches here [m of head travel].
 CONTACT = 412.4738376822
@@ -18,8 +18,10 @@ def march_of(search: Search) -> kernels.March:
     return kernels.March(search.interval, search.probe, search.opening)
 
 
-def ended(march: kernels.March, start: float, stop: float, tolerance: float = TOLERANCE, budget: float = WORK) -> Ended:
-    return march.run(start, stop, 2, True, tolerance, True, ROUNDING, budget)
+def ended(
+    march: kernels.March, start: float, stop: float, half_bracket: float = HALF_BRACKET, budget: float = WORK
+) -> Ended:
+    return march.run(start, stop, 2, True, half_bracket, True, ROUNDING, budget)
 
 
 def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
@@ -36,7 +38,7 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     assert ended(march, 380.0, 420.0) is Ended.TOUCHED
     found = march.result()
     assert found.touching is not None
-    assert found.proven <= CONTACT <= found.touching <= found.proven + 3.0 * TOLERANCE
+    assert found.proven <= CONTACT <= found.touching <= found.proven + 3.0 * HALF_BRACKET
     assert found.benches == (0, 8)
     place = search.place - found.proven + 1e-6
     assert kernels.gap_at(search.scene, place, 0, 8, search.probed) > 0.0
