@@ -8,8 +8,9 @@ Bisections share halved() of fold.py. clear_radius(), Peak.refine(), crossing() 
 own, because their tests take more than two numbers and keep a state between the halvings: clear_radius() through
 bisected() of core/sampling.py takes 3.8 us instead of 0.7 us (measured 2026-11-23).
 
-Some functions take seven or eight parameters, because arrays go to them one by one. Scene and Interval, which
-hold these arrays, import the modules up to hulls, which therefore cannot take them; and records are structs in C, which cannot hold an array.
+Some functions take seven or eight parameters, because arrays go to them one by one. Scene and Interval, which hold
+these arrays, import the modules up to hulls, which therefore cannot take them; and records are structs in C, which
+cannot hold an array.
 
 Angles are in radians, lengths on a spiral in units of its growth unless a name says otherwise; no function allocates.
 
