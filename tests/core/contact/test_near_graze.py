@@ -10,12 +10,14 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+import core.contact.near_graze
 from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_contact, minimum_pitch, separation
 from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, exact_gap, narrowed
 from core.contact.near_graze import exact_separation as precise_separation
 from core.contact.search import Search
 from core.kernels import Ended
 from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
+from core.kernels.results import Marched
 
 # Positions of the kernels [m]: on a route a kilometre long an arc length is good to 2e-13 m.
 DOUBLE = 1e-12
@@ -117,13 +119,50 @@ def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, belo
     assert at[0] > 0 >= at[1]
 
 
-def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
-    spiral = Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9)
-    search = Search(Dragon(60), spiral, 0.0)
+def grazing() -> tuple[Search, Marched]:
+    """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
+    search = Search(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9), 0.0)
     state, found, half = search.approach(0.0, 300.0, 1.0)
     assert (state, half > 0.5 * BRACKET) == (Ended.TOUCHED, True)
+    return search, found
+
+
+def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
+    search, found = grazing()
     assert narrowed(search, found, 0.4 * BRACKET) is not None
     assert narrowed(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
+
+
+@pytest.mark.parametrize(("margin", "alone"), [(0.0, True), (1e-3, False)])
+def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin: float, alone: bool) -> None:
+    """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
+    search = Search(Dragon(60), Spiral(), margin)
+    found = Marched(409.0, 412.48, (0, 8))
+    assert (narrowed(search, found, BRACKET) is not None) == alone
+
+
+def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gaps_at_both() -> None:
+    search, found = grazing()
+    pair, (before, after) = ExactPair(search, found.benches), (found.proven - 0.01, found.proven + 0.01)
+    with localcontext() as context:
+        context.prec = DIGITS
+        assert min(pair.gap(Decimal(before)), pair.gap(Decimal(after))) > 0
+        assert not pair.stays_apart(before, after)
+        assert pair.stays_apart(before, found.proven - 0.005)
+
+
+def test_where_the_way_before_a_contact_takes_too_many_intervals_the_bracket_stays(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    search, found = grazing()
+    monkeypatch.setattr(core.contact.near_graze, "INTERVALS_MAX", 2)
+    assert narrowed(search, found._replace(proven=found.proven - 1.0), 0.4 * BRACKET) is None
+
+
+@pytest.mark.parametrize(("half", "within"), [(1e-3, True), (1e-2, False)])
+def test_no_bracket_ends_where_the_benches_are_apart_again(half: float, within: bool) -> None:
+    search, found = grazing()
+    assert (narrowed(search, found, half) is not None) == within
 
 
 def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
