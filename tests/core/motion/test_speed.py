@@ -20,11 +20,13 @@ from core import (
     FailureKind,
     InvalidValue,
     Line,
+    Passage,
     Route,
     Spiral,
     Turn,
     Waypoints,
     check,
+    first_excess,
     highest_speed,
     maximum_head_speed,
     trajectory,
@@ -195,6 +197,29 @@ def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest
     monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
     report = check(Dance(Dragon(), TURN), speed_limit=2.0, **span)
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
+
+
+def test_a_proof_given_up_before_a_pause_is_unknown_for_the_whole_dance(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pause itself is proven: there every speed is 0."""
+    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 20)
+    dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(0.0, until_time=30.0)])
+    found = highest_speed(dance, start=0.0, stop=30.0)
+    assert found.speed_bracket == (found.speed, None)
+
+
+@pytest.mark.parametrize(
+    ("then", "excess"), [(5.0, 12.0), (0.0, None)], ids=["too fast in the next passage", "a pause"]
+)
+def test_the_bracket_of_an_excess_begins_where_a_proof_was_given_up_and_ends_with_an_excess_or_the_interval(
+    monkeypatch: pytest.MonkeyPatch, then: float, excess: float | None
+) -> None:
+    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
+    dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(then, until_time=15.0)])
+    found = first_excess(dance, 2.0, start=0.0, stop=15.0)
+    assert found is not None
+    proven, until = found.time_bracket
+    assert 0.0 < proven < 12.0
+    assert (found.time, until) == (excess, 15.0 if excess is None else excess)
 
 
 def test_a_run_to_a_fold_without_a_stop_asks_for_one() -> None:
