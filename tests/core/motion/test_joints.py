@@ -12,6 +12,7 @@ from core import (
     Dance,
     Dragon,
     Line,
+    Passage,
     Route,
     Spiral,
     Turn,
@@ -21,6 +22,7 @@ from core import (
 
 ANGLE_ERROR = 1e-12  # [rad]
 ONSET_ERROR = 1e-5  # [s]: the root of the error of the angle, some times over
+ROUNDING = 1e-12  # [s]
 TURN = Turn(1.7)
 
 
@@ -55,10 +57,11 @@ def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.n
         (Dragon(), TURN, -100.0, 100.0),
         (Dragon(benches=50), TURN, 30.0, 34.0),
         (Dragon(benches=50), TURN, 60.0, 60.9),
+        (Dragon(benches=12, head_length=1.6), TURN, 0.0, 30.0),
         (Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN, 0.0, 40.0),
         (Dragon(benches=40), Spiral(), 0.0, 400.0),
     ],
-    ids=["turn", "turn behind the head", "a moment", "benches of many sizes", "spiral"],
+    ids=["turn", "turn behind the head", "a moment", "a short head", "benches of many sizes", "spiral"],
 )
 def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> None:
     found = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
@@ -67,3 +70,16 @@ def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route
     assert found.angle >= dense.max() - ANGLE_ERROR
     there = dense_bends(dragon, path, np.array([found.time]))[0]
     assert there[found.benches[0]] == pytest.approx(found.angle, abs=ANGLE_ERROR)
+
+
+def test_in_a_dance_with_passages_the_same_bend_comes_at_its_own_time() -> None:
+    steady = Dance(Dragon(12), TURN)
+    with_passages = Dance(Dragon(12), TURN, passages=[Passage(2.0, until_s=8.0), Passage(0.0, until_time=10.0)])
+    found = sharpest_bend(with_passages, start=0.0, stop=26.0)
+    expected = sharpest_bend(steady, start=0.0, stop=24.0)
+    assert found is not None
+    assert expected is not None
+    assert (found.angle, found.benches) == (expected.angle, expected.benches)
+    assert expected.time > 8.0
+    # 8 m at 2 m/s and the pause are over after 10 s instead of 8 s
+    assert found.time == pytest.approx(expected.time + 2.0, rel=0, abs=ROUNDING)
