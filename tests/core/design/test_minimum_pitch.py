@@ -35,6 +35,8 @@ CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.jso
 ACCURACY = 1e-9
 # Within this of its minimum a pitch is neither surely feasible nor surely not [m].
 BESIDE = 1e-8
+# The same where single pitches are bisected and rounding hides nothing [m].
+CLOSELY = 2e-12
 # The largest pitch there is [m].
 WIDEST = 1e4
 # Widest bracket, relative to the pitch, if a clearance changes by less than 1e-6 m per metre of pitch [1].
@@ -108,6 +110,14 @@ def test_below_the_answer_only_the_islands_are_feasible(case: dict[str, Any], an
         near = any(low - BESIDE <= pitch <= high + BESIDE for low, high in islands)
         feasible = is_feasible(dragon, pitch, radius, turns, case.get("margin", 0.0))
         assert inside <= feasible <= near
+
+
+def test_an_island_has_both_its_ends_between_pitches_that_touch() -> None:
+    found = minimum_pitch(Dragon(30), turning_radius=6.3)
+    [(low, high)] = found.other_feasible_intervals
+    assert 6.3 / 16.0 < low < high < found.pitch
+    for pitch, inside in ((low - CLOSELY, False), (low, True), (high, True), (high + CLOSELY, False)):
+        assert is_feasible(Dragon(30), pitch, 6.3, 16.0, 0.0) == inside
 
 
 @pytest.mark.parametrize("radius", [2.5, 3.3, 4.1, 5.2])
@@ -384,6 +394,15 @@ def test_work_that_ends_before_the_minimum_pitch_is_found_is_an_error(monkeypatc
     assert "400000 steps of work" in caught.value.message
     assert "the shortest of 223 chords is 0.001 m long" in caught.value.message
     assert "must be larger, or benches fewer, got 0.001 m: " in caught.value.message
+
+
+def test_just_above_the_infeasible_end_of_a_bracket_a_pitch_is_feasible() -> None:
+    """The proven bands end 9e-12 m above it."""
+    dragon, radius, turns, margin = random_case(382)
+    low, high = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin).pitch_bracket
+    assert low + CLOSELY < high
+    assert not is_feasible(dragon, low, radius, turns, margin)
+    assert is_feasible(dragon, low + CLOSELY, radius, turns, margin)
 
 
 @pytest.mark.parametrize("seed", [27, 62])

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import core.design.pitch_scan
-from core import Dance, Dragon, InvalidValue, Spiral, TooMuchWork, first_contact, minimum_pitch
+from core import Dance, Dragon, InvalidValue, Outcome, Spiral, TooMuchWork, first_contact, minimum_pitch
 from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum
+from tests.core.contact.test_fold import TO_THE_FOLD
 from tests.depth import some
 
 SMALL = Dragon(benches=30)
@@ -53,6 +54,24 @@ def test_scan_leaves_out_pitches_without_contact_and_reports_progress() -> None:
     scan = pitch_scan(SMALL, np.array([0.55, 0.8]), progress=shares.append)
     assert shares == [0.5, 1.0]
     assert scan.pitch.max() < 0.8
+
+
+def test_a_pitch_without_contact_between_two_others_separates_two_pieces() -> None:
+    dragon = Dragon.of([0.33, 0.43, 1.15, 1.02], [0.05, 0.07, 0.04, 0.06], [0.02, 0.04, 0.13, 0.16])
+    pitches = [0.26, 0.28, 0.3, 0.32, 0.34]
+    scan = pitch_scan(dragon, pitches, start_turns=7.0, margin=0.1, locate=False)
+    assert scan.pitch.tolist() == [0.26, 0.28, 0.32, 0.34]
+    assert scan.pieces == ((0, 2), (2, 4))
+    assert scan.jumps == ()
+
+
+def test_a_run_that_is_undecided_just_before_its_fold_stops_there() -> None:
+    """In the last nanometre of travel the clearance falls from 0.27395 to 0.27289 mm."""
+    dragon, spiral = TO_THE_FOLD["30 micrometres apart"]
+    dance, margin = Dance(dragon, spiral), 2.734e-4
+    assert first_contact(dance, margin=margin).outcome is Outcome.UNDECIDED
+    at_fold = dance.path.head(dance.end.time).radius
+    assert Stops(dragon, margin).radius(spiral) == pytest.approx(at_fold, rel=0.0, abs=RADIUS_WIDTH)
 
 
 def test_radii_are_those_of_first_contact_also_beside_jumps() -> None:
