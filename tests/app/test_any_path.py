@@ -17,6 +17,7 @@ import core
 REFERENCE = Path(__file__).parent.parent / "reference"
 REFERENCE_TOLERANCE = 1e-9  # [m], [rad], [s] and [m/s]
 SAME_PATH_TOLERANCE = 1e-10  # [m] and [m/s]
+BEGIN_TOLERANCE = 1e-7  # [s]: the first place with room for the whole dragon is bisected
 TURN = {"kind": "turn", "pitch": 1.7, "turning_diameter": 9, "ratio": 2}
 TURN_QUERY = "pitch=1.7&turning_diameter=9&ratio=2"
 LANE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
@@ -186,6 +187,16 @@ def test_a_start_or_stop_that_is_given_is_refused_outside_the_run(
 ) -> None:
     answer = client.post("/trajectory", json={"dragon": SHORT, "path": route(LANE), "times": told})
     assert (answer.status_code, answer.json()["detail"]) == (422, words)
+
+
+@pytest.mark.parametrize("start", [0, 9], ids=["late", "past"])
+def test_without_a_start_a_search_begins_when_the_whole_dragon_is_on_the_path(
+    client: httpx.Client, start: float
+) -> None:
+    path = route(LANE, start=start)
+    got = posted(client, "/collision-time", dragon=SHORT, path=path, margin=1.2, cross_check="none")
+    assert got["outcome"] == "contact_at_start"
+    assert got["time"] == pytest.approx(7.81 - start, rel=0, abs=BEGIN_TOLERANCE)
 
 
 @pytest.mark.parametrize("call", ["/figures/trajectory.svg", "/figures/contact.svg", "/check"])
