@@ -122,5 +122,14 @@ def test_a_limit_on_defaults_points_to_the_value_to_give() -> None:
     assert answer.json()["errors"][0]["pointer"] == "/dragon/benches"
 
 
+@pytest.mark.parametrize(
+    ("query", "more"),
+    [("pitch=x", ""), ("pitch=x&width=x", " (and 1 more)"), ("pitch=x&width=x&overhang=x", " (and 2 more)")],
+)
+def test_a_problem_counts_the_faults_after_the_first(query: str, more: str) -> None:
+    problem = ask(create_app(Settings()), f"/collision-time?{query}").json()
+    assert problem["detail"] == problem["errors"][0]["detail"] + more
+
+
 def test_readiness_waits_for_the_self_test() -> None:
     assert ask(create_app(Settings()), "/readyz").status_code == 503

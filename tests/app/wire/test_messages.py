@@ -65,6 +65,32 @@ def test_a_body_is_told_of_names_of_its_own_place(
     assert item == {"pointer": pointer, "detail": f'"{pointer.split("/")[-1]}" is unknown here: {words}'}
 
 
+@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
+def test_a_number_that_is_not_finite_is_shown_as_it_was_written(client: httpx.Client, number: str) -> None:
+    body, headers = f'{{"path": {{"pitch": {number}}}}}', {"Content-Type": "application/json"}
+    answer = client.post("/trajectory", content=body, headers=headers)
+    assert answer.status_code == 422
+    detail = f"pitch must be a finite number [m], got {number}"
+    assert answer.json()["errors"] == [{"pointer": "/path/pitch", "detail": detail}]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("pitch", "55cm", '[m], got "55cm": lengths are in metres, and 55 cm is 0.55 m'),
+        ("width", "27.5 cm", '[m], got "27.5 cm": lengths are in metres, and 27.5 cm is 0.275 m'),
+        ("head_speed", "55cm", '[m/s], got "55cm"'),
+        ("pitch", "55in", '[m], got "55in"'),
+    ],
+)
+def test_a_length_written_in_centimetres_is_told_in_metres(
+    client: httpx.Client, name: str, text: str, words: str
+) -> None:
+    answer = client.get("/collision-time", params={name: text})
+    assert answer.status_code == 422
+    assert answer.json()["errors"] == [{"name": name, "detail": f"{name} must be a number {words}"}]
+
+
 def test_the_names_of_a_place_are_those_of_its_type() -> None:
     assert names_at(CollisionQuery, ()) == list(CollisionQuery.model_fields)
     assert "entry_radius" in names_at(CheckRequest, ("path", "turn"))

@@ -67,6 +67,7 @@ FLAT = [
     Asked("maximum-head-speed", {"turning_diameter": 4}, "turning_diameter", "the turn bends to a radius of 0.6727"),
     Asked("maximum-head-speed", {"entry_radius": 2}, "entry_radius", "must be larger than 2 m: the turn bends"),
     Asked("maximum-head-speed", {"ratio": 20}, "ratio", "must be nearer to 1 than 20: the turn bends to a radius of 0"),
+    Asked("maximum-head-speed", {"entry_radius": 4.4, "ratio": 2.1}, "entry_radius", "must be larger than 4.4 m: the"),
     Asked("maximum-head-speed", {"turning_diameter": 8}, "turning_diameter", "must be larger than 8 m: the turn bends"),
     Asked("maximum-head-speed", {"turning_diameter": 4, "entry_radius": 2, "ratio": 3}, "turning_diameter", "than 4 m"),
     Asked("maximum-head-speed", {"pitch": 0.55, "turning_diameter": 8.58}, "pitch", "must be larger than 0.55 m"),
