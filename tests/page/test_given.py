@@ -114,6 +114,27 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
     expect(page.locator("#passages .error")).to_contain_text("“until, in seconds” must be given.")
 
 
+def test_faster_passages_end_earlier_and_at_the_same_places(visit: Any) -> None:
+    quickened = "passages => import('/page/pace.js').then(({ quickened }) => quickened(passages, 2))"
+    assert visit().evaluate(quickened, PASSAGES) == [
+        {"speed": 1, "until_s": 20}, {"speed": 0, "until_time": 50}, {"speed": 3, "until_s": 60},
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("time", "clock", "shown"),
+    [
+        (50.9, "07:30", "07:30:50"),
+        (3600, "23:30", "00:30:00"),
+        (-1, "00:00", "23:59:59"),
+        (1e5, "23:59:59", "03:46:39"),
+    ],
+)
+def test_the_time_of_day_begins_anew_at_midnight(visit: Any, time: float, clock: str, shown: str) -> None:
+    told = "([time, clock]) => import('/page/pace.js').then(({ timeOfDay }) => timeOfDay(time, clock))"
+    assert visit().evaluate(told, [time, clock]) == shown
+
+
 def test_a_pause_lies_at_the_instant_shown(visit: Any) -> None:
     page = visit("?benches=30&time=50")
     page.locator("#passages summary").click()

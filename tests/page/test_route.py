@@ -178,6 +178,22 @@ def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
     page.locator(".failures li", has_text="touches well").wait_for(state="detached")
 
 
+@pytest.mark.parametrize(
+    ("things", "words"),
+    [
+        ("a.court..-9,-9_30,-9_30,9_-9,9", "starts outside court."),
+        ("a.court..-30,-9_30,-9_30,9_-30,9~c.elm.2.-18,0", "starts inside elm."),
+    ],
+    ids=["square", "obstacle"],
+)
+def test_a_dragon_that_starts_in_the_wrong_place_is_outside_the_square_or_inside_a_thing(
+    visit: Any, things: str, words: str
+) -> None:
+    page = visit(f"?path=route&benches=3&route=*-20,0_20,0&things={things}")
+    verdict(page, "Cannot be danced")
+    expect(page.locator(".failures li").first).to_contain_text(words)
+
+
 def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) -> None:
     page = visit("?path=route&benches=24&route=0,0_90,0")
     verdict(page, "Can be danced")
