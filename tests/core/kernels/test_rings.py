@@ -29,11 +29,25 @@ def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_thei
         assert (far[1:][outside[1:]] >= radius).all()
 
 
+# When these stray far, their ends are wider than their middles, and come nearest to the benches inside them.
+SLIM = Dragon(60, 2.2, 2.2, 0.1, 0.24)
+
+
 @pytest.mark.parametrize(
-    ("pitch", "stray"), [(0.45, 0.0), (0.6, 0.0), (1.0, 0.0), (0.5, 0.01), (0.6, 0.03), (1.0, 0.15)]
+    ("dragon", "pitch", "stray"),
+    [
+        (Dragon(60), 0.45, 0.0),
+        (Dragon(60), 0.6, 0.0),
+        (Dragon(60), 1.0, 0.0),
+        (Dragon(60), 5.0, 0.0),  # the nearest benches have one bench between them
+        (Dragon(60), 0.5, 0.01),
+        (Dragon(60), 0.6, 0.03),
+        (Dragon(60), 1.0, 0.15),
+        (SLIM, 1.0, 0.3),
+    ],
 )
-def test_no_clearance_falls_below_the_ring_bound_further_out(pitch: float, stray: float) -> None:
-    search = Search(Dragon(60), Spiral(pitch), 0.0, stray=stray)
+def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pitch: float, stray: float) -> None:
+    search = Search(dragon, Spiral(pitch), 0.0, stray=stray)
     for travel in np.linspace(0.0, 60.0, 7):
         radius = search.growth * search.theta_at(travel)
         least = kernels.ring_least(search.growth, search.growth, radius, search.rings)
