@@ -47,9 +47,10 @@ def test_another_middle_is_where_the_claim_is_asked() -> None:
     assert asked == [4.0, 8.0, math.sqrt(8.0 * 16.0)]
 
 
+@pytest.mark.parametrize("accuracy", ["1e-20", "0.25"])
 @pytest.mark.parametrize("zero", ["0.1", "0.5", "0.99"])
-def test_a_function_is_followed_to_where_it_is_0(zero: str) -> None:
-    where, width = Decimal(zero), Decimal("1e-20")
+def test_a_function_is_followed_to_where_it_is_0(zero: str, accuracy: str) -> None:
+    where, width = Decimal(zero), Decimal(accuracy)
 
     def value(x: Decimal) -> Decimal:
         return (where - x) * (1 + x * x)

@@ -20,6 +20,7 @@ from core import (
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "turn.json").read_text())
 TURN = Turn(1.7, 4.5, 2.0)
+BARELY_OUTSIDE = 4.5 / 1.7 * (1 + 1e-12)  # [turns]: from there to the circle a coil is shorter than any piece may be
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference values
 
 
@@ -27,7 +28,7 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference value
     ("asked", "field", "got"),
     [
         ({"pitch": 1.7, "start_turns": 2.0}, "start_turns", 2.0),
-        ({"pitch": 1.7, "turning_radius": 4.5, "start_turns": 4.5 / 1.7 * (1 + 1e-12)}, "start_turns", None),
+        ({"pitch": 1.7, "turning_radius": 4.5, "start_turns": BARELY_OUTSIDE}, "start_turns", None),
         (
             {"pitch": 1e-3, "turning_radius": 0.1, "start_turns": 200, "entry_radius": 3e-3, "ratio": 0.01},
             "ratio",
@@ -46,6 +47,20 @@ def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict,
     assert got is None or refused.value.got == got
     assert refused.value.message.startswith(f"{field} must ")
     assert "path" not in refused.value.message
+
+
+@pytest.mark.uncompiled
+def test_a_start_barely_outside_the_circle_is_refused_as_one_inside_it() -> None:
+    with pytest.raises(InvalidValue, match=r"start_turns must be more than 2\.64706 turns, the radius of the turning"):
+        Turn(1.7, 4.5, start_turns=BARELY_OUTSIDE)
+
+
+@pytest.mark.uncompiled
+def test_turns_with_the_same_pieces_differ_by_their_turning_circles() -> None:
+    one, same, wider = (Turn(1.7, radius, entry_radius=4.0) for radius in (4.5, 4.5, 5.0))
+    assert one == same
+    assert one.pieces == wider.pieces
+    assert one != wider
 
 
 @pytest.mark.uncompiled
