@@ -44,10 +44,11 @@ def test_the_head_is_on_the_circle_then() -> None:
             {"start_turns": 5.0},
             "turning_radius must be smaller, got 4.5 m: at a pitch of 0.5 m the dance starts inside that circle",
         ),
+        ([0.5], {"start_turns": 9.0}, "the dance starts on that circle"),
         ([0.5], {"turning_radius": 0.3}, "turning_radius must be larger, got 0.3 m: bench 0 folds at"),
         ([-0.5], {}, "pitch must be positive, got -0.5 m"),
     ],
-    ids=["none", "a table", "a start inside the circle", "a fold before the circle", "a negative pitch"],
+    ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
 )
 def test_curves_that_cannot_be_are_refused(pitches: list[float], given: dict[str, float], message: str) -> None:
     with pytest.raises(InvalidValue, match=message):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from core import Dance, Dragon, Line, Route, Spiral, first_contact, tolerance
-from core.tolerance.safe import safe_words
+from core import Dance, Dragon, Line, Outcome, Route, Spiral, first_contact, minimum_pitch, tolerance
+from core.tolerance.curve import time_on_circle
+from core.tolerance.safe import STRAY_MIN, safe_words
 from core.tolerance.tolerance import Limit
 from tests.core.tolerance.adversaries import CIRCLE, to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
@@ -67,6 +68,23 @@ def test_where_benches_touch_as_they_are_nothing_is_called_safe() -> None:
     assert (found.stray, found.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
     assert "no stray is known to be safe: a bench touches another with everybody in place." in found.certificate.method
     assert repr(found).startswith("<Tolerance: no stray is known to be safe")
+
+
+@pytest.mark.parametrize(("above", "known"), [(1e-9, False), (3e-9, True)], ids=["1 nm", "3 nm"])
+def test_a_stray_of_less_than_a_nanometre_counts_as_none(above: float, known: bool) -> None:
+    """The stray is about half of what the pitch exceeds the least one by."""
+    dragon = Dragon(20)
+    dance = Dance(dragon, Spiral(minimum_pitch(dragon, turning_radius=3.0, start_turns=8.0).pitch + above, 8.0))
+    stray = tolerance(dance, stop=time_on_circle(dance, 3.0)).stray
+    assert stray > STRAY_MIN if known else stray == 0.0
+
+
+def test_on_the_way_to_a_fold_a_stray_that_is_safe_has_no_contact_either() -> None:
+    """Benches 0 and 2 are nearest at the fold itself, and approach by 0.08 mm in the last micrometre of travel."""
+    dance = Dance(Dragon(3, 1.54, 1.54, 0.14, 0.0), Spiral(0.445, 2.4))
+    stray = tolerance(dance).stray
+    assert stray > 0.0
+    assert first_contact(dance, stray=stray).outcome is Outcome.CLEAR
 
 
 @pytest.mark.parametrize("stray", [0.04654398712345678, 1.0 / 3.0, 0.1 + 0.2, 2.0**-20, 0.825])
