@@ -309,7 +309,7 @@ def test_a_dance_is_back_after_a_look_at_an_empty_square(
 @pytest.mark.parametrize(
     ("query", "text"),
     [
-        ("?pitch=0.5&benches=100&margin=0.02&time=100", "Nearer than 0.02 m at"),
+        ("?pitch=0.5&benches=100&margin=0.02&time=100", "Within 0.02 m at"),
         ("?path=turn&turning_diameter=10&benches=40", "Nothing touches"),
     ],
     ids=["spiral", "turn"],
