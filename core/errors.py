@@ -242,7 +242,7 @@ def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]
                 if not found:
                     raise
                 spent, given = halted.budget, signature(question).bind(*args, **kwargs).arguments
-            dance = given.get("dance")
+            dance = given.get("dance") or getattr(given.get("contact"), "dance", None)
             if dragon := given.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
                 raise too_much(spent, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches, "")

@@ -82,7 +82,7 @@ def test_the_first_view_shows_the_contact_its_certificate_and_the_four_engines(v
     text_of(page, "#first-contact dl", f"nothing touches up to {low} s, rounded down")
     text_of(page, "#first-contact dl", f"{answer['certificate']['steps']} proven steps")
     assert page.locator("#first-contact tbody tr").count() == len(answer["cross_check"]["engines"])
-    text_of(page, "#first-contact caption", "on all 223 benches. They agree.")
+    text_of(page, "#first-contact caption", "judged all 223 benches. They agree.")
     text_of(page, "#inset figcaption", "gap 0.000 mm")
     text_of(page, "#inset figcaption", "front outer corner of the head meets inner edge of body 8")
 
@@ -105,7 +105,7 @@ def test_every_answer_stands_with_how_it_is_known(visit: Any, server: str) -> No
     )
     assert (
         page.locator("#minimum-pitch dt").last.inner_text()
-        == "Computed ways to the circle, for single pitches and for bands of pitches"
+        == "Runs to the circle that were computed, for single pitches and for bands of pitches"
     )
     assert page.locator("#minimum-pitch dd").last.inner_text() == str(least["evaluations"])
     assert page.locator(".answer:not([hidden]) details").count() == page.locator(".answer:not([hidden])").count() == 5
@@ -125,7 +125,7 @@ def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when
     page = visit("?benches=40&time=end")
     page.locator("#minimum-pitch summary").click()
     page.locator("#first-contact summary").click()
-    text_of(page, "#minimum-pitch caption", "on all 40 benches. They agree.")
+    text_of(page, "#minimum-pitch caption", "judged all 40 benches. They agree.")
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
     page.evaluate(HELD)
@@ -133,8 +133,8 @@ def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when
     text_of(page, "#minimum-pitch caption", "alone. They agree.")
     text_of(page, "#first-contact caption", "alone. They agree.")
     page.evaluate("rest()")
-    text_of(page, "#first-contact caption", "on all 40 benches")
-    text_of(page, "#minimum-pitch caption", "on all 40 benches. They agree.")
+    text_of(page, "#first-contact caption", "judged all 40 benches")
+    text_of(page, "#minimum-pitch caption", "judged all 40 benches. They agree.")
     contacts = [url for url in asked if "/collision-time" in url]
     assert contacts
     assert all("cross_check=pair" in url for url in contacts)
@@ -266,7 +266,7 @@ def test_benches_that_overlap_are_said_to_overlap_by_what_the_service_answers(
 
 def test_two_benches_cannot_touch_and_the_chart_says_so_in_the_services_words(visit: Any, server: str) -> None:
     page = visit("?benches=2", failing=True)
-    text_of(page, "#first-contact p", "No pair of benches touches before.")
+    text_of(page, "#first-contact p", "No two benches touch before.")
     words = polite.get(f"{server}/clearance?benches=2").json()["detail"]
     words = words.replace("benches must", "“Benches” must", 1).replace(", got 2", "; it is 2.")
     text_of(page, "#clearance .reading", words)

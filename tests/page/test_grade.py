@@ -47,7 +47,9 @@ def test_chosen_files_are_graded_each_for_itself_and_accessibly(page: Any, files
     expect(boxes).to_have_count(3)
     first, second, third = (boxes.nth(k) for k in range(3))
     expect(first.locator(".value")).to_have_text("✕wrong")
-    expect(first.locator(".finding")).to_contain_text("The length of a bench was used as the distance of its handles")
+    expect(first.locator(".finding")).to_contain_text(
+        "The length of a bench was used as the distance between its handles"
+    )
     expect(first.locator(".evidence")).to_contain_text("wrong cells agree within")
     expect(first.locator("canvas.marks")).to_have_count(2)
     expect(first.locator(".legend").first).to_contain_text("■ wrong")

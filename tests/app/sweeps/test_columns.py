@@ -26,7 +26,7 @@ def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:
 
 def test_what_an_answer_does_not_have_is_null() -> None:
     dance = core.Dance(core.Dragon(), core.Spiral())
-    answer = CollisionTime.of(core.first_contact(dance), dance, CollisionQuery(cross_check="none"), Terms())
+    answer = CollisionTime.of(core.first_contact(dance), CollisionQuery(cross_check="none"), Terms())
     values = {column.name: column.value(answer) for column in answer_columns(CollisionTime)}
     assert (values["outcome"], values["benches.0"], values["benches.1"]) == ("contact", 0, 8)
     assert values["head.radius"] == answer.head.radius if answer.head else False

@@ -39,7 +39,7 @@ def test_each_row_is_the_answer_to_its_request() -> None:
     for row in rows(ShardPiece.whole(spec, question, 0)) + rows(ShardPiece.whole(spec, question, 1)):
         asked = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
         dance = asked.to_dance(50)
-        answer = CollisionTime.of(core.first_contact(dance), dance, asked, Terms())
+        answer = CollisionTime.of(core.first_contact(dance), asked, Terms())
         assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps

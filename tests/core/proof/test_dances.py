@@ -207,7 +207,8 @@ def test_waypoints_have_no_proof() -> None:
         prove_clear(Dance(Dragon(3), Route([curve])), 30.0, start=20.0)
     with pytest.raises(
         InvalidValue,
-        match=r"path.pieces\[1\] must be a line, an arc or a coil for a proof .*, got waypoints: .* not proven",
+        match=r"path.pieces\[1\] must be a line, an arc or a coil for a proof .*, got waypoints: on such a path "
+        ".* with bounds on its rounding",
     ):
         recorded_path(Route([Line((-9.0, -0.45), (0.0, 0.0)), Waypoints(curve.points, math.atan2(0.45, 9.0))]))
 
