@@ -72,20 +72,20 @@ Vector = tuple[Decimal, Decimal]
 
 
 # Decimals hold Python's lock: several threads would not be faster together, and would make all others wait.
-_TURN = Lock()
-# Time between two checks of the budget while another thread has its turn [s].
-TURN_SECONDS = 0.01
+_ALONE = Lock()
+# Time between two checks of the budget while another thread computes [s].
+LOOK_SECONDS = 0.01
 
 
 @contextmanager
-def _in_turn(budget: Budget) -> Iterator[None]:
+def _alone(budget: Budget) -> Iterator[None]:
     """A context for one thread at a time. raises: Halted"""
-    while not _TURN.acquire(timeout=TURN_SECONDS):
+    while not _ALONE.acquire(timeout=LOOK_SECONDS):
         budget.look()
     try:
         yield
     finally:
-        _TURN.release()
+        _ALONE.release()
 
 
 class Bench(NamedTuple):
@@ -307,7 +307,7 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
     if not others_clear(search, pair.pair, found.proven, found.touching):
         return None
     search.budget.take_time()
-    with _in_turn(search.budget), localcontext() as context:
+    with _alone(search.budget), localcontext() as context:
         context.prec = DIGITS
         low, high = Decimal(found.proven), Decimal(found.touching)
         above, below = pair.gap(low), pair.gap(high)

@@ -13,7 +13,7 @@ the ends of one interval give those of the next. Nearer to the centre of a spira
 be the rear handle's angle. As delta falls with theta (core/kernels/spiral.py), on [a, b]
     a + delta(b) <= g <= b + delta(a),
 and both bounds are within b - a of values of g. Intervals that may hold the least or the largest value are halved down
-to TURNS.
+to REVERSAL.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from core.paths.path import Path
 from core.values import Floats
 
 # Width to which places are found where a handle reverses [m].
-TURNS = 1e-8
+REVERSAL = 1e-8
 # Rounding of places, added to that of the chain: absolute [m], and relative to the longest way [1]; the latter exceeds
 # TRAVEL_ROUNDING of core/contact/search.py.
 PLACE_ROUNDING, WAY_ROUNDING = 1e-11, 1e-14
@@ -81,7 +81,7 @@ def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats
     while len(lags) <= chords.size and lags[-1][0] < gentle:
         lags.append(_behind(path, *lags[-1], float(chords[len(lags) - 1]), gentle))
     turned = len(lags) - 1
-    spares[1:] += TURNS if turned else 0.0
+    spares[1:] += REVERSAL if turned else 0.0
     ends = [_chain(path, lag, chords[turned:]) for lag in lags[-1]]
     front = np.array(lags[:turned]).reshape(-1, 2).T
     highs, lows = (path.along(np.concatenate([some, rest])) for some, (rest, _) in zip(front, ends, strict=True))
@@ -100,7 +100,7 @@ def _chain(path: Path, lag: float, chords: Floats) -> tuple[Floats, float]:
 
 
 def _behind(path: Path, low: float, high: float, chord: float, gentle: float) -> tuple[float, float]:
-    """Range of the polar angle of a rear handle on a spiral, to within TURNS; the front one is between two angles.
+    """Range of the polar angle of a rear handle on a spiral, to within REVERSAL; the front one is between two angles.
 
     low: the angle further in; gentle: angle from which outwards the rear handle does not reverse
     """
@@ -113,7 +113,7 @@ def _behind(path: Path, low: float, high: float, chord: float, gentle: float) ->
 
     def bound(sign: float) -> float:
         """Upper bound of sign g up to `bent`, at most the width of an interval above its largest value."""
-        width = TURNS / (path.growth * (bent + 1.0))
+        width = REVERSAL / (path.growth * (bent + 1.0))
         heap = [(0.0, low, bent, delta(low), delta(bent))]
         while True:
             least, a, b, at_a, at_b = heapq.heappop(heap)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Coil, Dance, Dragon, Line, Route, Spiral, trajectory
-from core.ground.tracks import TURNS, tracks
+from core.ground.tracks import REVERSAL, tracks
 
 DANCE = Dance(Dragon(40), Spiral())
 
@@ -60,7 +60,7 @@ def test_the_places_of_handles_that_turn_back_are_all_in_their_stretch(dragon: D
         least, most = seen[:, alike].min(), seen[:, alike].max()
         assert low <= least + 1e-9
         assert most - 1e-9 <= high
-        assert spare < 3.0 * TURNS
+        assert spare < 3.0 * REVERSAL
         assert low == pytest.approx(least, abs=1e-5)
         assert high == pytest.approx(most, abs=1e-5)
 
