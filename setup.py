@@ -72,7 +72,7 @@ class AllOrNothing(build_ext):
         if not all(path.exists() for path in built):
             for path in built:
                 path.unlink(missing_ok=True)
-            print("No C compiler works here: the loops stay uncompiled, which gives the same digits many times slower.")
+            print("The loops could not be compiled: they give the same digits uncompiled, many times slower.")
 
 
 def kernels() -> list[Extension]:

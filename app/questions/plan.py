@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import zip_longest
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
@@ -19,6 +19,9 @@ from core import Dance, FailureKind, Judgement
 from core.errors import asked_of, said
 from core.shapes.engines import widened
 from core.shown import counted
+
+if TYPE_CHECKING:
+    from app.plan.plan import Plan
 
 PDF_TYPE = "application/pdf"
 # Excess of the swept ground on paper [m]: 0.05 mm at 1:200.
@@ -56,7 +59,7 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
     from app.files.fonts import families
     from app.plan.ground import GroundMap
-    from app.plan.plan import Plan, plan_pdf
+    from app.plan.plan import Plan
     from app.plan.sheet import Title
     from app.plan.timing import TimeFormat, timing_of
 
@@ -83,13 +86,15 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     told = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
     # Chinese names may stand in an English plan.
     family = families(Language.CHINESE if max(told) >= FIRST_CHINESE else asked.language)
-    drawn = Plan(ground, family, names, clock, title, asked.paper, budget)
+    return _drawn(dance, Plan(ground, family, names, clock, title, asked.paper, budget), say, terms)
 
-    @asked_of("dance", Dance, "the plan was not drawn")
-    def draw(dance: Dance) -> bytes:
-        return plan_pdf(drawn, say, terms.progress)
 
-    return draw(dance)
+@asked_of("dance", Dance, "the plan was not drawn")
+def _drawn(dance: Dance, plan: Plan, say: Say, terms: Terms) -> bytes:
+    """The bytes of the plan of a dance. raises: TooMuchWork"""
+    from app.plan.plan import plan_pdf
+
+    return plan_pdf(plan, say, terms.progress)
 
 
 def _facts(

@@ -73,7 +73,7 @@ Pitch = Annotated[float, measure("m", "Radial advance of the spiral per full tur
 StartTurns = Annotated[float, measure("turns", "Turns between the centre and the start", gt=0, le=200)]
 Margin = Annotated[
     float,
-    measure("m", "Clearance required: benches nearer than this are in contact; 0: only a touch counts", ge=0, le=2),
+    measure("m", "Clearance required: benches within it are in contact; 0: only a touch counts", ge=0, le=2),
 ]
 # Unit of the coordinates of a venue.
 Coordinates = Literal["metres", "degrees"]

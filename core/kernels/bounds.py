@@ -183,7 +183,7 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             k_low = 0.0 if followed else spiral_curvature(outer) * outwards
             link = curved_link(chord, k_low, k_high, rate_a, rate_low)
         else:
-            if not filled:  # spiral_error() does not cover such chords: compute the sums
+            if not filled:  # the link that is followed needs the sums themselves
                 filled = True
                 widened = summed_widening(growth, benches, sizes, before, after)
                 inwards = (1.0 + widened) / growth

@@ -97,9 +97,9 @@ def corners_gap_squared(seen):
 
 
 def pair_gap_within(a, b, limit):
-    """Signed separation of two rectangles if that is at most limit; else a value above limit, at most that separation.
+    """Signed separation of two rectangles [m] if it is at most limit; else a value above limit, at most the separation.
 
-    In metres. Where limit and separation differ by rounding alone, either case may apply.
+    Where limit and separation differ by rounding alone, either case may apply.
     """
     b_seen = seen_from(a, b)
     from_a = face_gap(b_seen)
