@@ -106,7 +106,7 @@ export const ANSWERS = {
   certificateNone: ["nothing is decided from the start on", "自起始时刻起无法判定"],
   leastBefore: ["Narrowest graze", "最险擦过"],
   leastBeforeIs: ["{gap} mm between {a} and {b} at {time} s", "{time} s 时{a}与{b}相距 {gap} mm"],
-  leastBeforeIsStray: ["{gap} mm between the areas that {a} and {b} may cover, at {time} s", "{time} s 时{a}与{b}可能占据的地面相距 {gap} mm"],
+  leastBeforeIsStray: ["{gap} mm between the areas that {a} and {b} may cover, at {time} s", "{time} s 时{a}与{b}可能占据的区域相距 {gap} mm"],
   justified: ["Every larger pitch", "更大螺距"],
   justified_bound: ["feasible, proven for all at once", "可行，已整体证明"],
   justified_scan: ["feasible by a scan: up to {from} m only single pitches are proven, at most {step} mm apart", "经扫描可行：{from} m 以下逐个证明，间隔不超过 {step} mm"],

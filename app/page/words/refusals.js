@@ -79,7 +79,7 @@ export const REASONS = [
   [/^at a pitch of (.+) benches (\d+) and (\d+) .+, and on a straight line they are (.+) apart.*$/, "即使螺距为 {1}，{2b}与{3b}也过近；在直线上两者相距 {4}"],
   [/^on a straight line, and so on every wide enough spiral, benches (\d+) and (\d+) .+$/, "在直线上，因而在足够宽的螺线上，{1b}与{2b}相碰或过近"],
   [/^in a turn that begins on the circle benches (\d+) and (\d+) touch (.+) s (after|before) the entry.*$/, "自边界开始调头时，{1b}与{2b}在进入调头{4w} {3} s 相碰"],
-  [/^in a turn that begins on the circle benches (\d+) and (\d+) come within (.+) m (.+) s (after|before) the entry.*$/, "自边界开始调头时，{1b}与{2b}在进入调头{5w} {4} s 间距小于 {3} m"],
+  [/^in a turn that begins on the circle benches (\d+) and (\d+) come within (.+) m (.+) s (after|before) the entry.*$/, "自边界开始调头时，{1b}与{2b}在进入调头{5w} {4} s 间距不超过 {3} m"],
   [/^in a turn that begins on the circle benches (\d+) and (\d+) may touch with strays up to (.+) m (.+) s (after|before) the entry.*$/, "自边界开始调头时，若离位达 {3} m，{1b}与{2b}在进入调头{5w} {4} s 可能相碰"],
   [/^in a turn that begins on the circle .+ s (after|before) the entry.*$/, "自边界开始调头时，在进入调头{1w}板凳过近"],
 ];
