@@ -11,7 +11,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import PydanticCustomError
 
-from core.errors import InvalidValue
+from core.errors import Given, InvalidValue, Quantity
 
 # Variable with the folder where prometheus_client adds up the counts of all processes; app/service/workers.py sets it.
 SHARED_COUNTS = "PROMETHEUS_MULTIPROC_DIR"
@@ -28,7 +28,7 @@ PORT_MAX = 65535
 def _scheduler(address: str) -> str:
     found = SCHEDULER.fullmatch(address)
     if found is None or not 1 <= int(found[1] or 1) <= PORT_MAX:
-        raise PydanticCustomError("scheduler", "must be the address of a scheduler, as tcp://scheduler:8786")
+        raise PydanticCustomError("rule", "must be the address of a scheduler, as tcp://scheduler:8786")
     return address
 
 
@@ -52,15 +52,16 @@ def unknown_variables() -> list[str]:
 
 
 # What a variable must be, by pydantic's type of fault.
+LIMITS = ("gt", "ge", "le")
 RULES = {
     "int_parsing": "must be a whole number",
     "int_from_float": "must be a whole number",
     "float_parsing": "must be a number",
     "finite_number": "must be a finite number",
     "bool_parsing": "must be true or false",
-    "greater_than": "must be more than {gt:g}",
-    "greater_than_equal": "must be at least {ge:g}",
-    "less_than_equal": "must be at most {le:g}",
+    "greater_than": "must be more than {gt}",
+    "greater_than_equal": "must be at least {ge}",
+    "less_than_equal": "must be at most {le}",
 }
 
 
@@ -83,8 +84,9 @@ class Settings(BaseModel):
         except ValidationError as error:
             first = error.errors()[0]
             name = variables[str(first["loc"][0])]
-            rule = RULES[first["type"]].format(**first.get("ctx", {})) if first["type"] in RULES else first["msg"]
-            raise InvalidValue(name, f"{rule}, got {first['input']!r:.60}") from error
+            limits = {word: Quantity(limit, "", 6) for word, limit in first.get("ctx", {}).items() if word in LIMITS}
+            rule = RULES.get(first["type"], first["msg"])
+            raise InvalidValue(name, rule, got=Given(first["input"]), **limits) from error
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
     grade_bytes_max: int = Field(20_000_000, ge=1, description="Longest file in POST /grade [bytes]")

@@ -10,7 +10,17 @@ from .design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
 from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from .dragon import Dragon, Stray
-from .errors import BenchDragonError, InvalidValue, OutsideRun, ProofRefused, TooLarge, TooMuchWork
+from .errors import (
+    BenchDragonError,
+    Given,
+    InvalidValue,
+    OutsideRun,
+    Parameter,
+    ProofRefused,
+    Quantity,
+    TooLarge,
+    TooMuchWork,
+)
 from .failures import Failure, FailureKind
 from .ground.envelope import Envelope, SweepProof, envelope
 from .judgement import Judgement, Report, check, quick_check
@@ -67,6 +77,7 @@ __all__ = [
     "Feature",
     "FirstContact",
     "FirstExcess",
+    "Given",
     "Graze",
     "HeadState",
     "HighestSpeed",
@@ -84,10 +95,12 @@ __all__ = [
     "Outcome",
     "OutsideRun",
     "Overlaps",
+    "Parameter",
     "Passage",
     "Piece",
     "PitchScan",
     "ProofRefused",
+    "Quantity",
     "Report",
     "Route",
     "RunEnd",

@@ -19,11 +19,23 @@ from numpy.typing import ArrayLike
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, OutsideRun, checked_number, checked_type, said, said_bound
+from core.errors import (
+    Given,
+    InvalidValue,
+    OutsideRun,
+    Quantity,
+    Value,
+    bound,
+    checked_number,
+    checked_type,
+    filled,
+    quantities,
+    said,
+)
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes, words
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
-from core.paths.spiral import FOLD_ROUNDING, Spiral
+from core.paths.spiral import Spiral, end_theta
 from core.shown import Shown
 from core.values import Floats
 
@@ -57,10 +69,20 @@ class RunEnd(Shown):
 
     @property
     def why(self) -> str:
-        """The reason as a clause, for messages."""
+        """The reason as a clause."""
+        return filled(self.template, self.told)
+
+    @property
+    def template(self) -> str:
+        """The reason as a clause of a template."""
         if self.reason is EndReason.FOLD:
-            return f"bench {self.bench} folds"
+            return "bench {bench} folds"
         return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
+
+    @property
+    def told(self) -> dict[str, Value]:
+        """The values of that template."""
+        return {} if self.bench is None else {"bench": self.bench}
 
 
 # Nodes: see core/passages.py; without passages, the only node is time 0 at travel 0. speeds[k] holds from node k - 1 to
@@ -240,20 +262,21 @@ class Dance(Shown):
             raise InvalidValue("times", "must be a list of numbers in seconds, or one number") from error
         # NumPy would also accept "1", True and None as numbers.
         if array.dtype.kind not in "iuf":
-            raise InvalidValue("times", f"must be a list of numbers in seconds, or one number, got {given!r:.60}")
+            raise InvalidValue("times", "must be a list of numbers in seconds, or one number", got=Given(given))
         if array.ndim > 1:
             raise InvalidValue("times", "must be a flat list of numbers in seconds, or one number")
         time = np.array(array, dtype=np.float64, order="C")
         wrong = np.flatnonzero(~np.isfinite(time))
         if wrong.size:
-            raise InvalidValue.of(_instant(time, int(wrong[0])), "must be finite", time.flat[wrong[0]], "s")
+            got = Quantity(float(time.flat[wrong[0]]), "s")
+            raise InvalidValue(_instant(time, int(wrong[0])), "must be finite", got=got)
         earliest = self.earliest
         late, early = np.flatnonzero(time > self.end.time), np.flatnonzero(time < earliest)
         if late.size:
             raise self.after_the_end(time, int(late[0]))
         if early.size:
             k = int(early[0])
-            raise OutsideRun.of(_instant(time, k), self._told_start(), time.flat[k], "s")
+            raise self._before_the_start(_instant(time, k), float(time.flat[k]))
         return time
 
     def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
@@ -265,20 +288,26 @@ class Dance(Shown):
         until = self.end.time if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
         begin = checked_number("start", self.default_start if start is None else start, "s", -TIME_MAX, TIME_MAX)
         if begin < self.earliest:
-            raise OutsideRun.of("start", self._told_start(), begin, "s")
+            raise self._before_the_start("start", begin)
         if until > self.end.time:
-            raise OutsideRun.of("stop", f"must be at most {self._told_end()}", until, "s")
+            raise self._past_the_end("stop", "must be at most", until)
         if until <= begin:
             if stop is None:
-                raise OutsideRun.of("start", f"must be before {self._told_end()}", begin, "s")
-            raise InvalidValue.of("stop", f"must be after start ({said(begin)} s)", until, "s")
+                raise self._past_the_end("start", "must be before", begin)
+            raise InvalidValue("stop", "must be after start ({start})", **quantities("s", got=until, start=begin))
         return begin, until
 
-    def _told_start(self) -> str:
-        return f"must be at least {said_bound(self.earliest, 6, 1)} s, when the whole dragon is on the path"
+    def _before_the_start(self, name: str, time: float) -> OutsideRun:
+        rule, least = "must be at least {least}, when the whole dragon is on the path", bound(self.earliest, 6, 1, "s")
+        return OutsideRun(name, rule, got=Quantity(time, "s"), least=least)
 
-    def _told_end(self) -> str:
-        return f"{said_bound(self.end.time, 9, -1)} s, when {self.end.why}"
+    def _past_the_end(self, name: str, rule: str, time: float) -> OutsideRun:
+        told = {"end": bound(self.end.time, 9, -1, "s"), **self.end.told}
+        return OutsideRun(name, f"{rule} {{end}}, when {self.end.template}", got=Quantity(time, "s"), **told)
+
+    def after_the_end(self, time: Floats, index: int) -> OutsideRun:
+        """The error for a time after the end of the run."""
+        return self._past_the_end(_instant(time, index), "must be at most", float(time.flat[index]))
 
     def ends_by(self, stop: float) -> bool:
         """True if a run until `stop` [s] ends at a fold."""
@@ -288,35 +317,10 @@ class Dance(Shown):
         """True if a run until `stop` [s] ends at a fold or within NEAR_FOLD of it."""
         return self.ends_by(self.clock.time(self.clock.travel(stop) + NEAR_FOLD))
 
-    def after_the_end(self, time: Floats, index: int) -> OutsideRun:
-        """The error for a time after the end of the run."""
-        return OutsideRun.of(_instant(time, index), f"must be at most {self._told_end()}", time.flat[index], "s")
-
 
 def checked_head_speed(head_speed: float) -> float:
     """The head speed [m/s], if it is in the allowed range."""
     return checked_number("head_speed", head_speed, "m/s", HEAD_SPEED_MIN, HEAD_SPEED_MAX)
-
-
-def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
-    """The head angle [rad] at which the run ends, and the bench that folds (0 and None at the centre).
-
-    Bench k folds when handle k reaches the fold of its chord; at that moment handle k - 1 is one chord further in. So
-    limits are found from the tail forwards: the limit of handle k is the larger of its own fold and the place from
-    which handle k + 1 reaches its limit. In a uniform tail its own fold is always the larger one.
-    """
-    chords = dragon.chords[: dragon.uniform_from + 1].tolist()
-    chords2 = [(chord / path.growth) * (chord / path.growth) for chord in chords]
-    fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
-    limit, bench = 0.0, None
-    for k in range(dragon.uniform_from, -1, -1):
-        chord2 = chords2[k]
-        inherited = kernels.previous_theta(limit, chord2) if limit > fold[chord2] else kernels.NO_ROOT
-        if fold[chord2] >= inherited:
-            limit, bench = fold[chord2], k
-        else:
-            limit = inherited
-    return (limit * (1.0 + FOLD_ROUNDING), bench) if limit > 0.0 else (0.0, None)
 
 
 def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
@@ -327,8 +331,9 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
         return RunEnd(EndReason.END, clock.time(path.end), None, None)
     theta, bench = end_theta(dragon, spiral)
     if theta >= spiral.start_theta:
-        rule = f"must be more than {theta / math.tau:.6g} turns, where bench {bench} of this dragon folds"
-        raise InvalidValue("path.start_turns", f"{rule}, got {said(spiral.start_turns)} turns")
+        rule, got = "must be more than {least}, where bench {bench} of this dragon folds", spiral.start_turns
+        told = quantities("turns", 6, least=theta / math.tau) | {"bench": bench or 0}
+        raise InvalidValue("path.start_turns", rule, got=Quantity(got, "turns"), **told)
     time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 

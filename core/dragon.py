@@ -6,10 +6,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from numbers import Integral
+from typing import Any
 
 import numpy as np
 
-from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, checked_name, checked_number, checked_size, said
+from core.errors import (
+    SIZE_MAX,
+    SIZE_MIN,
+    Given,
+    InvalidValue,
+    Parameter,
+    Quantity,
+    Value,
+    checked_number,
+    checked_size,
+    quantities,
+)
+from core.names import checked_name
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
 from core.values import Floats
 
@@ -28,17 +41,27 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     if column.ndim != 1 or column.size == 0:
         raise InvalidValue(name, "must be a list with one number for each bench")
     if benches is not None and column.size != benches:
-        raise InvalidValue(name, f"must have {benches} numbers, one for each bench, got {column.size}")
+        raise InvalidValue(name, "must have {count} numbers, one for each bench", got=column.size, count=benches)
     low = 0.0 if name == "dragon.overhangs" else SIZE_MIN
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        raise InvalidValue(f"{name}.{k}", f"must be from {low:g} to {SIZE_MAX:g} m, got {said(column[k])} m")
+        told = quantities("", 6, least=low) | quantities("m", 6, most=SIZE_MAX) | quantities("m", got=column[k])
+        raise InvalidValue(f"{name}.{k}", "must be from {least} to {most}", **told)
     return column
 
 
-def _compared(length: float, overhang: float) -> str:
-    return f"({said(length)} m / 2 = {said(length / 2)} m), got {said(overhang)} m"
+def _no_chord(field: str, of: str, length: float, overhang: float) -> InvalidValue:
+    """The error for an overhang that leaves no chord. of: name of the length"""
+    rule = "must be less than half of {length} ({size} / 2 = {half})"
+    told = quantities("m", size=length, half=length / 2)
+    return InvalidValue(field, rule, got=Quantity(float(overhang), "m"), length=Parameter(of), **told)
+
+
+def told_chords(dragon: Dragon) -> dict[str, Value]:
+    """The number of chords and the range of their lengths, for messages."""
+    ends = quantities("m", 6, shortest=dragon.chords.min(), longest=dragon.chords.max())
+    return {"benches": dragon.benches, **ends}
 
 
 @dataclass(frozen=True, init=False, eq=False)
@@ -72,17 +95,16 @@ class Dragon(Shown):
         overhang: float = 0.275,
     ) -> None:
         if not isinstance(benches, Integral) or isinstance(benches, bool):
-            raise InvalidValue("dragon.benches", f"must be a whole number, got {benches!r}")
+            raise InvalidValue("dragon.benches", "must be a whole number", got=Given(benches))
         if not 1 <= benches <= BENCHES_MAX:
-            raise InvalidValue("dragon.benches", f"must be from 1 to {BENCHES_MAX} benches, got {benches}")
+            raise InvalidValue("dragon.benches", "must be from 1 to {most} benches", got=int(benches), most=BENCHES_MAX)
         head_length = checked_size("dragon.head_length", head_length)
         body_length = checked_size("dragon.body_length", body_length)
         width = checked_size("dragon.width", width)
         overhang = checked_number("dragon.overhang", overhang, "m", 0.0, SIZE_MAX)
         for name, length in (("head_length", head_length), ("body_length", body_length)):
             if length - 2.0 * overhang < SIZE_MIN:
-                rule = f"must be less than half of {{length}} {_compared(length, overhang)}"
-                raise InvalidValue("dragon.overhang", rule, length=f"dragon.{name}")
+                raise _no_chord("dragon.overhang", f"dragon.{name}", length, overhang)
         lengths = np.full(int(benches), body_length)
         lengths[0] = head_length
         self._freeze(lengths, np.full(int(benches), width), np.full(int(benches), overhang))
@@ -102,8 +124,7 @@ class Dragon(Shown):
         wrong = np.flatnonzero(lengths - 2.0 * overhangs < SIZE_MIN)
         if wrong.size:
             k = int(wrong[0])
-            rule = f"must be less than half of dragon.lengths[{k}] {_compared(lengths[k], overhangs[k])}"
-            raise InvalidValue(f"dragon.overhangs.{k}", rule)
+            raise _no_chord(f"dragon.overhangs.{k}", f"dragon.lengths.{k}", lengths[k], overhangs[k])
         return cls._made(lengths, widths, overhangs)
 
     @classmethod
@@ -133,10 +154,10 @@ class Dragon(Shown):
         '0 (Zhou)'
         """
         if isinstance(names, str) or not isinstance(names, Sequence):
-            raise InvalidValue("dragon.names", f"must be a list of strings, got {names!r:.60}")
+            raise InvalidValue("dragon.names", "must be a list of strings", got=Given(names))
         if names and len(names) != self.benches:
-            rule = f"must have {self.benches} entries, one for each bench, got {len(names)}"
-            raise InvalidValue("dragon.names", rule)
+            rule = "must have {count} entries, one for each bench"
+            raise InvalidValue("dragon.names", rule, got=len(names), count=self.benches)
         for k, name in enumerate(names):
             checked_name(f"dragon.names.{k}", name)
         return self._made(self.lengths, self.widths, self.overhangs, tuple(names))
@@ -202,8 +223,7 @@ class Stray(Shown):
         for name in ("people", "hole", "pin"):
             object.__setattr__(self, name, checked_number(f"stray.{name}", getattr(self, name), "m", 0.0, SIZE_MAX))
         if self.pin > self.hole:
-            rule = f"must be no wider than its hole (stray.hole = {said(self.hole)} m)"
-            raise InvalidValue("stray.pin", f"{rule}, got {said(self.pin)} m")
+            raise wider_pin("stray.pin", "stray.hole", self)
 
     @property
     def total(self) -> float:
@@ -212,6 +232,12 @@ class Stray(Shown):
 
     def _line(self) -> str:
         return f"{worded(self.total, 'm')} in all"
+
+
+def wider_pin(field: str, hole: str, of: Any) -> InvalidValue:
+    """The error for a pin wider than its hole. hole: its name; of: has both sizes"""
+    told = quantities("m", got=of.pin, size=of.hole)
+    return InvalidValue(field, "must be no wider than its {hole} ({size})", hole=Parameter(hole), **told)
 
 
 def checked_stray(stray: object, dragon: Dragon) -> float:
@@ -225,6 +251,6 @@ def checked_stray(stray: object, dragon: Dragon) -> float:
     bench = int(dragon.chords.argmin())
     most = 0.5 * float(dragon.chords[bench])
     if total > most:
-        rule = f"must be at most half the chord of bench {bench} ({most:.9g} m)"
-        raise InvalidValue("stray", f"{rule}, got {total:.9g} m")
+        rule, got = "must be at most half the chord of bench {bench} ({most})", Quantity(total, "m", 9)
+        raise InvalidValue("stray", rule, got=got, bench=bench, most=Quantity(most, "m", 9))
     return total

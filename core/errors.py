@@ -1,6 +1,6 @@
 """Every error that core raises, the checks of numbers that raise them, and how a question ends. One tree:
 
-    BenchDragonError          code, field, message
+    BenchDragonError          code, field, template, got, reason, values, message
       InvalidValue            a parameter is outside what its type allows (also a ValueError)
       TooLarge                the requested work is beyond a stated limit
       TooMuchWork             an answer was not found within the work that one question may take
@@ -15,11 +15,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
+from copy import copy
+from copyreg import __newobj__  # type: ignore[attr-defined]
 from functools import wraps
 from inspect import signature
 from numbers import Real
-from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
-from unicodedata import category
+from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar
 
 from core.kernels import Budget, Halted
 
@@ -36,78 +37,68 @@ SIZE_MAX = 1e4
 COORDINATE_MAX = 1e5
 # Largest angle [rad]: larger ones lose the digits that the joints need.
 ANGLE_MAX = 1e6
-# Longest name of a bench or an area [characters].
-NAME_MAX = 200
-# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
-NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
+# A word in a template.
+WORD = re.compile(r"\{(\w+)\}")
 
 
-class BenchDragonError(Exception):
-    """Every error of this library; catch it for all of them.
+class Quantity(NamedTuple):
+    """A number with its unit in a message.
 
-    code: stable word for programs; field: dotted name of the wrong parameter
-    rule: what the parameter must be, with {word} in the place of each other parameter; the message is the field, in the
-        form of spoken(), and the rule. in_words() makes an error whose message does not begin with the field
-    others: the other parameters by their words: names, which are spoken, or numbers, which stand as they are unless
-        renamed() changes them; got: the given number, if of() made the error
+    digits: significant ones in the message; by default all of them; shown: the number in the message, in place of those
 
-    >>> InvalidValue("times.stop", "must not be before {start}", start="times.start").renamed(
-    ...     lambda name: name.removeprefix("times.")
-    ... ).message
-    'stop must not be before start'
+    >>> str(Quantity(12.5, "s")), str(Quantity(1 / 3, "m", 4)), str(Quantity(3.0, ""))
+    ('12.5 s', '0.3333 m', '3')
     """
 
-    code = "error"
-    got: float | None = None
-    _unit = ""
-    _is_whole = False
+    value: float
+    unit: str
+    digits: int = 17
+    shown: str = ""
 
-    def __init__(self, field: str, rule: str, **others: str | int) -> None:
-        self.field, self._rule, self._others = field, rule, others
-        if others:
-            rule = rule.format(**{word: spoken(one) if isinstance(one, str) else one for word, one in others.items()})
-        self.message = f"{spoken(field)} {rule}"
-        super().__init__(self.message)
+    def __str__(self) -> str:
+        number = said(self.value) if self.digits == 17 else f"{self.value:.{self.digits}g}"
+        return f"{self.shown or number} {self.unit}".rstrip()
 
-    @classmethod
-    def in_words(cls, field: str, message: str) -> Self:
-        """The error with this message, which stays the same whatever the field is called."""
-        error = cls(field, "")
-        error.message, error.args, error._is_whole = message, (message,), True
-        return error
 
-    @classmethod
-    def of(cls, field: str, rule: str, got: float, unit: str) -> Self:
-        """The error of a number that breaks a rule; the part of the rule after a colon, the reason, comes last.
+class Parameter(NamedTuple):
+    """A parameter in a message, by its dotted name."""
 
-        >>> InvalidValue.of("times.3", "must be at most 9 s", 12.5, "s").message
-        'times[3] must be at most 9 s, got 12.5 s'
-        """
-        rule_itself, colon, why = rule.partition(": ")
-        error = cls(field, f"{rule_itself}, got {f'{said(got)} {unit}'.rstrip()}{colon}{why}")
-        error.got, error._rule, error._unit = got, rule, unit
-        return error
+    name: str
 
-    def named(self, field: str, got: float | None = None) -> Self:
-        """The same error under another parameter name, and with another value if `got` is given.
+    def __str__(self) -> str:
+        return spoken(self.name)
 
-        For a caller that computes the parameters of core from others, such as times from a range, or a radius from a
-        diameter.
-        """
-        if self.got is not None:
-            return type(self).of(field, self._rule, self.got if got is None else got, self._unit)
-        if self._is_whole:
-            return type(self).in_words(field, self.message)
-        return type(self)(field, self._rule, **self._others)
 
-    def renamed(self, name_of: Callable[[str], str], number_of: Callable[[int], int] = int) -> Self:
-        """The same error with other names for its field, and other names and numbers of the others in its message."""
-        error = self.named(name_of(self.field))
-        if self._others:
-            others = self._others.items()
-            told = {word: name_of(one) if isinstance(one, str) else number_of(one) for word, one in others}
-            return type(self)(error.field, self._rule, **told)
-        return error
+class Given(NamedTuple):
+    """What a caller gave, in a message. shown: its form there; by default the first 60 characters of its repr()"""
+
+    value: object
+    shown: str = ""
+
+    def __str__(self) -> str:
+        return self.shown or f"{self.value!r:.60}"
+
+
+# What may stand in a template. A number or a text stands there as it is.
+Value = Quantity | Parameter | Given | int | float | str
+
+
+def quantities(unit: str, digits: int = 17, /, **numbers: float) -> dict[str, Value]:
+    """Values of one unit, by their words."""
+    return {word: Quantity(float(number), unit, digits) for word, number in numbers.items()}
+
+
+def filled(template: str, values: Mapping[str, Value]) -> str:
+    """A template with the values in the places of their words.
+
+    >>> filled("at most {limit}, not {other}", {"limit": Quantity(9.0, "s")})
+    'at most 9 s, not {other}'
+    """
+    return WORD.sub(lambda word: told_as(values[word[1]]) if word[1] in values else word[0], template)
+
+
+def told_as(value: Value) -> str:
+    return said(value) if isinstance(value, float) else str(value)
 
 
 def said(number: float) -> str:
@@ -129,6 +120,12 @@ def said_bound(number: float, decimals: int, side: int) -> str:
     return text if side * (float(text) - number) >= 0.0 else f"{float(text) + side * 10.0**-decimals:.{decimals}f}"
 
 
+def bound(number: float, decimals: int, side: int, unit: str) -> Quantity:
+    """A bound in a message, rounded as said_bound() does."""
+    text = said_bound(number, decimals, side)
+    return Quantity(float(text), unit, shown=text)
+
+
 def spoken(field: str) -> str:
     """A dotted field as messages write it.
 
@@ -136,6 +133,77 @@ def spoken(field: str) -> str:
     'path.pieces[0].points[2]'
     """
     return re.sub(r"\.(\d+)", r"[\1]", field)
+
+
+class BenchDragonError(Exception):
+    """Every error of this library; catch it for all of them.
+
+    code:     stable word for programs
+    field:    dotted name of the wrong parameter
+    template: what the parameter must be, with {field} in its place and {word} in the place of each value
+    got:      what was given; None where the template says it
+    reason:   template of the reason, or of what to change; empty without one
+    values:   of both templates, by their words
+    message:  the sentence: the template, what was given, and the reason
+
+    >>> start = Parameter("times.start")
+    >>> error = InvalidValue("times.stop", "must be after {start}: it is earlier", got=3.0, start=start)
+    >>> error.template, error.reason
+    ('{field} must be after {start}', 'it is earlier')
+    >>> error.renamed(lambda name: name.removeprefix("times.")).message
+    'stop must be after start, got 3: it is earlier'
+    """
+
+    code = "error"
+
+    def __init__(self, field: str, rule: str, /, *, got: Value | None = None, **values: Value) -> None:
+        """rule: the rest of the template after the field; what follows a colon is the reason"""
+        rule, _, reason = rule.partition(": ")
+        self._tell(field, f"{{field}} {rule}", reason, got, {"field": Parameter(field), **values})
+
+    def _tell(self, field: str, template: str, reason: str, got: Value | None, values: Mapping[str, Value]) -> None:
+        self.field, self.template, self.reason, self.got = field, template, reason, got
+        self.values = {word: values[word] for word in WORD.findall(f"{template} {reason}") if word in values}
+        given = "" if got is None else f", got {told_as(got)}"
+        self.message = filled(template, values) + given + (f": {filled(reason, values)}" if reason else "")
+        self.args = (self.message,)
+
+    @classmethod
+    def in_words(
+        cls, field: str, template: str, /, *, got: Value | None = None, reason: Value = "", **values: Value
+    ) -> Self:
+        """The error with this template, which need not begin with the field."""
+        error = cls.__new__(cls)
+        error._tell(field, template, str(reason), got, values)
+        return error
+
+    def named(self, field: str, got: Value | None = None) -> Self:
+        """The same error under another parameter name, and with another value if `got` is given.
+
+        For a caller that computes the parameters of core from others, such as times from a range, or a radius from a
+        diameter.
+        """
+        error = copy(self)
+        values = {**self.values, "field": Parameter(field)} if "field" in self.values else self.values
+        error._tell(field, self.template, self.reason, self.got if got is None else got, values)
+        return error
+
+    def renamed(self, name_of: Callable[[str], str], **values: Value) -> Self:
+        """The same error with other names for all its parameters, and other values in the place of these."""
+        error = copy(self)
+        names = {word: Parameter(name_of(one.name)) for word, one in self.values.items() if isinstance(one, Parameter)}
+        error._tell(name_of(self.field), self.template, self.reason, self.got, {**self.values, **names, **values})
+        return error
+
+    def because(self, reason: str) -> Self:
+        """The same error with another reason."""
+        error = copy(self)
+        error._tell(self.field, self.template, reason, self.got, self.values)
+        return error
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # An exception is copied by the arguments of its constructor, which are not kept here.
+        return __newobj__, (type(self), self.message), self.__dict__
 
 
 class InvalidValue(BenchDragonError, ValueError):
@@ -159,16 +227,10 @@ class TooMuchWork(BenchDragonError):
     code = "too-much-work"
     stopped = False
 
-    def named(self, field: str, got: float | None = None) -> Self:
-        """As in the base class; `stopped` is kept."""
-        error = super().named(field, got)
-        error.stopped = self.stopped
-        return error
 
-
-def too_much(budget: Budget, field: str, rule: str, got: float, unit: str) -> TooMuchWork:
+def too_much(budget: Budget, field: str, rule: str, got: Value, **values: Value) -> TooMuchWork:
     """The error of a question that ended early. The rule ends with a clause on the missing answer and {then}."""
-    error = TooMuchWork.of(field, rule.format(then=budget.then), got, unit)
+    error = TooMuchWork(field, rule, got=got, then=budget.then, **values)
     error.stopped = budget.stopped
     return error
 
@@ -191,23 +253,24 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     raises: InvalidValue naming the field, the value, its unit and the limit
     """
     if type(value) is not float and (not isinstance(value, Real) or isinstance(value, bool)):
-        raise InvalidValue(name, f"must be a number, got {value!r}")
+        raise InvalidValue(name, "must be a number", got=Given(value))
+    limits = quantities(unit, 6, least=low, most=high)
     try:
         number = float(value)
     except OverflowError as error:  # an int of Python may have any number of digits
-        rule = f"from {low:g} to {high:g} {unit}".rstrip()
-        raise InvalidValue(name, f"must be {rule}, got 1e308 or more") from error
+        span = {**limits, "least": Quantity(low, "", 6)}
+        raise InvalidValue(name, "must be from {least} to {most}", got="1e308 or more", **span) from error
     if low <= number <= high and math.isfinite(number) and not (open_low and number == low):
         return number
     if not math.isfinite(number):
-        rule = "a finite number"
+        rule = "must be a finite number"
     elif number > high:
-        rule = f"at most {high:g} {unit}".rstrip()
+        rule = "must be at most {most}"
     elif number <= 0.0 <= low:
-        rule = "positive" if open_low or low > 0.0 else "zero or more"
+        rule = "must be positive" if open_low or low > 0.0 else "must be zero or more"
     else:
-        rule = f"at least {low:g} {unit}".rstrip()
-    raise InvalidValue(name, f"must be {rule}, got {said(number)} {unit}".rstrip())
+        rule = "must be at least {least}"
+    raise InvalidValue(name, rule, got=Quantity(number, unit), **limits)
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
@@ -215,10 +278,10 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
     if not isinstance(value, kinds):
         words = " or a ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
         plain = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
-        given = f"{value!r:.60}" if plain else f"a {type(value).__name__}"
+        given: Value = Given(value) if plain else f"a {type(value).__name__}"
         if isinstance(value, type):
             given = f"the class {value.__name__}"
-        raise InvalidValue(name, f"must be a {words}, got {given}")
+        raise InvalidValue(name, "must be a {kinds}", got=given, kinds=words)
 
 
 def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -245,8 +308,8 @@ def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]
             dance = given.get("dance") or getattr(given.get("contact"), "dance", None)
             if dragon := given.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
-                raise too_much(spent, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches, "")
-            raise too_much(spent, "benches", f"must be fewer: {found} {{then}}", len(given["poses"]), "")
+                raise too_much(spent, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches)
+            raise too_much(spent, "benches", f"must be fewer: {found} {{then}}", len(given["poses"]))
 
         return asked
 
@@ -263,7 +326,7 @@ def checked_point(name: str, value: Any) -> Point:
     try:
         x, y = value
     except (TypeError, ValueError) as error:
-        raise InvalidValue(name, f"must be a point [x, y] in metres, got {value!r}") from error
+        raise InvalidValue(name, "must be a point [x, y] in metres", got=Given(value)) from error
     limits = (-COORDINATE_MAX, COORDINATE_MAX)
     return (checked_number(f"{name}.0", x, "m", *limits), checked_number(f"{name}.1", y, "m", *limits))
 
@@ -283,21 +346,4 @@ def listed(name: str, value: Any, what: str) -> list[Any]:
             return list(value)
     except TypeError:
         pass
-    raise InvalidValue(name, f"must be {what}, got {value!r}")
-
-
-def checked_name(field: str, name: object, what: str = "") -> None:
-    """Refuse a name that is not one line of plain text, because it appears in sentences and figures.
-
-    what: the beginning of the message, if it is not the field
-    raises: InvalidValue
-    """
-    if not isinstance(name, str):
-        rule = f"must be a string, got {name!r:.60}"
-    elif len(name) > NAME_MAX:
-        rule = f"must have at most {NAME_MAX} characters, got {len(name)}"
-    elif any(category(one) in NOT_PLAIN for one in name):
-        rule = f"must be one line of plain text, got {name!a:.60}"
-    else:
-        return
-    raise InvalidValue.in_words(field, f"{what} {rule}") if what else InvalidValue(field, rule)
+    raise InvalidValue(name, f"must be {what}", got=Given(value))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from core.errors import InvalidValue, checked_number, said
+from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number, said
 from core.shown import Shown
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
@@ -75,42 +75,42 @@ def _ended(k: int, passage: Passage, time: float, travel: float) -> tuple[float,
     """Time and travel of the end of a passage, from those of its beginning. raises: InvalidValue"""
     if passage.until_time is not None:
         if passage.until_time <= time:
-            rule = f"must be after the passage begins, at {said(time)} s"
-            raise InvalidValue.of(f"passages.{k}.until_time", rule, passage.until_time, "s")
+            rule, got = "must be after the passage begins, at {begin}", Quantity(passage.until_time, "s")
+            raise InvalidValue(f"passages.{k}.until_time", rule, got=got, begin=Quantity(time, "s"))
         return passage.until_time, travel + (passage.until_time - time) * passage.speed
     until = passage.until_s
     assert until is not None
     if until <= travel:
-        rule = f"must be further than where the passage begins, at {said(travel)} m"
-        raise InvalidValue.of(f"passages.{k}.until_s", rule, until, "m")
+        rule = "must be further than where the passage begins, at {begin}"
+        raise InvalidValue(f"passages.{k}.until_s", rule, got=Quantity(until, "m"), begin=Quantity(travel, "m"))
     return time + (until - travel) / passage.speed, until
 
 
 def checked_passages(given: object) -> tuple[Passage, ...]:
     """Passages whose numbers are checked one by one. raises: InvalidValue"""
-    rule = "must be a list of Passage objects"
     if not isinstance(given, (list, tuple)):
-        raise InvalidValue("passages", f"{rule}, got {given!r:.60}")
+        raise InvalidValue("passages", "must be a list of Passage objects", got=Given(given))
     if len(given) > PASSAGES_MAX:
-        raise InvalidValue("passages", f"must be at most {PASSAGES_MAX}, got {len(given)}")
+        raise InvalidValue("passages", "must be at most {most}", got=len(given), most=PASSAGES_MAX)
     return tuple(_checked(f"passages.{k}", passage) for k, passage in enumerate(given))
 
 
 def _checked(name: str, passage: object) -> Passage:
     if not isinstance(passage, Passage):
-        raise InvalidValue(name, f"must be a Passage, got {passage!r:.60}")
+        raise InvalidValue(name, "must be a Passage", got=Given(passage))
     speed = checked_number(f"{name}.speed", passage.speed, "m/s", 0.0, HEAD_SPEED_MAX)
     if 0.0 < speed < HEAD_SPEED_MIN:
-        rule = f"must be 0, for a pause, or at least {HEAD_SPEED_MIN:g} m/s"
-        raise InvalidValue.of(f"{name}.speed", rule, speed, "m/s")
+        rule, least = "must be 0, for a pause, or at least {least}", Quantity(HEAD_SPEED_MIN, "m/s")
+        raise InvalidValue(f"{name}.speed", rule, got=Quantity(speed, "m/s"), least=least)
     s, time = passage.until_s, passage.until_time
     if (s is None) == (time is None):
         got = "neither" if s is None else "both"
-        raise InvalidValue(name, f"must end at until_s [m] or at until_time [s], got {got}")
+        raise InvalidValue(name, "must end at until_s [m] or at until_time [s]", got=got)
     if s is None:
         return Passage(speed, None, checked_number(f"{name}.until_time", time, "s", -TIME_MAX, TIME_MAX))
     if speed == 0.0:
-        raise InvalidValue(f"{name}.until_time", "must be given: a pause does not reach until_s")
+        rule = "must be given: a pause does not reach {place}"
+        raise InvalidValue(f"{name}.until_time", rule, place=Parameter("until_s"))
     return Passage(speed, checked_number(f"{name}.until_s", s, "m", -S_MAX, S_MAX))
 
 

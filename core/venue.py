@@ -9,7 +9,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.errors import InvalidValue, checked_name, checked_point, checked_type, listed
+from core.errors import Given, InvalidValue, Value, checked_point, checked_type, listed
+from core.names import checked_name
 from core.shapes.engines import polygon_fault
 from core.shown import Shown, extent
 from core.values import Floats, Point
@@ -35,7 +36,7 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
     """Refuse more edges than EDGES_MAX, counted by the lengths of the rings alone. raises: InvalidValue"""
     edges = sum(max(len(ring) - 1, 1) for ring in rings)
     if edges > EDGES_MAX:
-        raise InvalidValue("venue", f"must have at most {EDGES_MAX} edges, got {edges}")
+        raise InvalidValue("venue", "must have at most {most} edges", got=edges, most=EDGES_MAX)
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,18 +55,22 @@ class Area(Shown):
         checked_name("venue", self.name, "venue: the name of a polygon")
         rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
         if not rings:
-            raise InvalidValue.in_words("venue", f"venue: {self.name!r} must have at least one ring")
+            raise self._refused("venue: {polygon} must have at least one ring")
         refuse_many_edges(rings)
         points = [[checked_point(f"venue.{k}.{i}", at) for i, at in enumerate(ring)] for k, ring in enumerate(rings)]
         object.__setattr__(self, "rings", tuple(map(tuple, points)))
         for ring in self.rings:
             if len(ring) < 4 or ring[0] != ring[-1]:
-                words = f"venue: a ring of {self.name!r} must be closed and have at least 4 points"
-                raise InvalidValue.in_words("venue", f"{words}, got {len(ring)}, from {ring[:1]} to {ring[-1:]}")
+                got = f"{len(ring)}, from {ring[:1]} to {ring[-1:]}"
+                raise self._refused("venue: a ring of {polygon} must be closed and have at least 4 points", got)
         if found := polygon_fault(self.rings):
             reason, x, y = found
-            got = f"{FAULTS.get(reason, f'a fault ({reason})')} at ({x:g}, {y:g}) m"
-            raise InvalidValue.in_words("venue", f"venue: {self.name!r} must be a valid polygon, got {got}")
+            fault, at = FAULTS.get(reason, f"a fault ({reason})"), f"({x:g}, {y:g}) m"
+            words = f"venue: {{polygon}} must be a valid polygon, got {fault} at {{at}}"
+            raise self._refused(words, at=at)
+
+    def _refused(self, words: str, got: Value | None = None, **values: Value) -> InvalidValue:
+        return InvalidValue.in_words("venue", words, got=got, polygon=Given(self.name, repr(self.name)), **values)
 
     def _line(self) -> str:
         x, y = np.array(self.rings[0]).T
@@ -99,7 +104,8 @@ class Venue(Shown):
         names = [area.name for area in self.areas]
         for k, name in enumerate(names):
             if name in names[:k]:
-                raise InvalidValue("venue", f"must give each polygon its own name, got {name!r} twice")
+                polygon = Given(name, repr(name))
+                raise InvalidValue("venue", "must give each polygon its own name, got {polygon} twice", polygon=polygon)
 
     def _line(self) -> str:
         names = ", ".join(repr(area.name) for area in self.obstacles) or "none"

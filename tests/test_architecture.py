@@ -50,6 +50,7 @@ ORDER = (
     "core.kernels",
     "core.values",
     "core.errors",
+    "core.names",
     "core.extras",
     "core.shown",
     "core.tables",

@@ -57,4 +57,4 @@ def _unfit(parameter: Any, quoted: str) -> str:
     if " range" in kind.name and re.fullmatch(r"[-+]?\d+", value):
         return f"{option} must be from {kind.min} to {kind.max}, got {value}"
     wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
-    return f"{option}{fault_of({**wrong, 'loc': ('query', parameter.name)}, None).rule}"
+    return fault_of({**wrong, "loc": ("query", parameter.name)}, None).named(option).message

@@ -68,9 +68,8 @@ def write_kit(
     """
     lock = FolderLock(folder, ROLE)
     if not lock.take():
-        raise InvalidValue.in_words(
-            "folder", f"another run writes into {folder}: wait until it is done, or give another FOLDER"
-        )
+        words = "another run writes into {folder}: wait until it is done, or give another FOLDER"
+        raise InvalidValue.in_words("folder", words, folder=str(folder))
     say, unfinished = Say(language), folder / UNFINISHED
     try:
         solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))

@@ -152,11 +152,9 @@ def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: L
     decimals = XLSX_DECIMALS if decimals is None else decimals
     instants, handles = result.speed.shape
     if 2 * handles + 1 > XLSX_ROWS_MAX or instants + 1 > XLSX_COLUMNS_MAX:
-        raise TooLarge.in_words(
-            "format",
-            f"xlsx holds at most {(XLSX_ROWS_MAX - 1) // 2} handles and {XLSX_COLUMNS_MAX - 1} instants, "
-            f"got {handles} handles and {instants} instants: ask for csv",
-        )
+        words, got = "xlsx holds at most {handles} handles and {instants} instants", f"{handles} and {instants}"
+        most = {"handles": (XLSX_ROWS_MAX - 1) // 2, "instants": XLSX_COLUMNS_MAX - 1}
+        raise TooLarge.in_words("format", words, got=got, reason="ask for csv", **most)
     return workbook(trajectory_sheets(result, language), decimals)
 
 
@@ -201,6 +199,5 @@ def trajectory_writer(
             return lambda result: trajectory_arrow(result, decimals=decimals)
         case ".xlsx":
             return lambda result: trajectory_xlsx(result, decimals=decimals, language=language)
-    raise InvalidValue.in_words(
-        "output", f"--output must end in {', '.join(TABLE_ENDINGS)}, got {suffix or 'no ending'}"
-    )
+    words, endings = "--output must end in {endings}", ", ".join(TABLE_ENDINGS)
+    raise InvalidValue.in_words("output", words, got=suffix or "no ending", endings=endings)

@@ -20,7 +20,7 @@ from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn,
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
-from core.errors import too_much
+from core.errors import Given, Quantity, too_much
 from core.kernels import Halted
 
 # Endings of workbook files.
@@ -135,7 +135,7 @@ def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
 
 def too_long(data: bytes, budget: Budget) -> TooMuchWork:
     """The error for a file whose budget was stopped before it was graded."""
-    return too_much(budget, "name", "must name a smaller file: it was not graded {then}", len(data), "bytes")
+    return too_much(budget, "name", "must name a smaller file: it was not graded {then}", Quantity(len(data), "bytes"))
 
 
 def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
@@ -171,9 +171,9 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
     try:
         value = float(text)
     except ValueError as error:
-        raise InvalidValue(name, f"must be a number [{UNITS[name]}], got {text!r:.60}") from error
+        raise InvalidValue(name, "must be a number [{unit}]", got=Given(text), unit=UNITS[name]) from error
     if not 0.0 < value < 1e6:
-        raise InvalidValue.of(name, "must be more than 0 and less than 1e6", value, UNITS[name])
+        raise InvalidValue(name, "must be more than 0 and less than 1e6", got=Quantity(value, UNITS[name]))
     mantissa = text.lower().partition("e")[0].strip()
     half_unit = 0.5 * 10.0 ** -min(len(mantissa.partition(".")[2]), 12)
     right, usual = accepted(name, value, half_unit), right_answer(name)

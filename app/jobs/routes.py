@@ -36,16 +36,17 @@ from app.jobs.wire import (
 from app.questions.registry import CALLS, QUESTIONS
 from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
-from app.service.middleware import client_of, reached
+from app.service.middleware import client_of
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
 from app.wire.faults import in_body, unfit
-from app.wire.problem import PROBLEM_TYPE, ErrorItem, problem_of
+from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, shown
 from core import BenchDragonError
+from core.errors import Given
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -79,7 +80,7 @@ def keeper_of(request: Request) -> Keeper:
     """The keeper of the jobs. raises: Refused (503) if the service has none"""
     keeper: Keeper | str = request.app.state.jobs
     if isinstance(keeper, str):
-        raise Refused(503, f"This service takes no jobs: {keeper}.", headers=COME_AGAIN)
+        raise Refused(503, "This service takes no jobs: {why}.", None, COME_AGAIN, why=keeper)
     return keeper
 
 
@@ -90,14 +91,16 @@ def take(request: Request, task: Task) -> Response:
     try:
         job = keeper.store.create(task.call, task.to_bytes(), client_of(request), limits)
     except FullForClient as error:
-        detail = f"{reached('Your', limits.jobs_client_max, 'unfinished job')}: wait for one, or dismiss it."
-        raise Refused(429, detail, headers=COME_AGAIN) from error
+        words = f"Your limit of {{most}} unfinished job{'s'[: limits.jobs_client_max != 1]} is reached"
+        why, most = "wait for one, or dismiss it.", limits.jobs_client_max
+        raise Refused(429, words, None, COME_AGAIN, reason=why, most=most) from error
     except FullOfBytes as error:
         detail = "The kept jobs take all the room that they may have: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
-        detail = f"{reached('The', limits.jobs_max, 'kept job')}: remove some, or try again later."
-        raise Refused(503, detail, headers=COME_AGAIN) from error
+        words = f"The limit of {{most}} kept job{'s'[: limits.jobs_max != 1]} is reached"
+        why = "remove some, or try again later."
+        raise Refused(503, words, None, COME_AGAIN, reason=why, most=limits.jobs_max) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
     headers = {**NOT_KEPT, "Location": f"{root}/jobs/{job.id}", "Preference-Applied": RESPOND_ASYNC}
@@ -114,11 +117,10 @@ async def store_problem(request: Request, error: Exception) -> Response:
     """The answer if SQLite cannot write or read: the disk is full or fails."""
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
         words = "removing a job needs some room too: free some" if request.method == "DELETE" else MAKE_ROOM
-        detail = f"The disk of the data folder is full: {words}."
-        return problem(507, "insufficient-storage", detail)
+        return problem(507, "insufficient-storage", f"The disk of the data folder is full: {words}.")
     logger.error("The store of the jobs failed: %s", error)
-    detail = f"The store of the jobs failed ({error}): try again."
-    return problem(503, "service-unavailable", detail, headers=COME_AGAIN)
+    words = "The store of the jobs failed ({why}): try again."
+    return problem(503, "service-unavailable", words, headers=COME_AGAIN, why=str(error))
 
 
 REMOVED, NO_NEWS = "The job was finished and is removed", "The job is finished, and the client has its last event"
@@ -150,8 +152,8 @@ def found(request: Request, job_id: JobId) -> Job:
     """The job with that name. raises: Refused (404) if there is none"""
     job = keeper_of(request).store.get(job_id)
     if job is None:
-        detail = f"There is no job {shown(job_id)}: it was removed, it has expired, or its ID is wrong."
-        raise Refused(404, detail)
+        words = "There is no job {job}: it was removed, it has expired, or its ID is wrong."
+        raise Refused(404, words, job=shown(job_id))
     return job
 
 
@@ -173,9 +175,10 @@ def ask_later(
     """Asks a question to be answered later; Location is the address of its job."""
     if wanted.question not in CALLS:
         near = difflib.get_close_matches(wanted.question, CALLS, n=1)
-        advice = f"did you mean {near[0]}?" if near else f"it must be one of {', '.join(sorted(CALLS))}"
-        detail = f"question {shown(wanted.question)} is unknown here: {advice}"
-        raise Refused(422, detail, [ErrorItem(pointer="/question", detail=detail)])
+        advice = "did you mean {near}?" if near else "it must be one of {known}"
+        told: dict[str, Any] = {"near": near[0] if near else "", "known": ", ".join(sorted(CALLS))}
+        told["question"] = shown(wanted.question)
+        raise Refused(422, f"question {{question}} is unknown here: {advice}", {"pointer": "/question"}, **told)
     call, values = CALLS[wanted.question], dict(wanted.request)
     accept = wanted.accept
     if call.question.formats and "format" in values:  # The format is part of the path of the call.
@@ -205,7 +208,7 @@ def sweep(request: Request, wanted: Annotated[SweepRequest, Body(examples=[SWEEP
         check_limit("shard_size", "shards", spec.shards, limits.sweep_shards_max, "give a larger shard_size")
     except BenchDragonError as error:
         place = pointer_in_sweep(error.field, wanted)
-        return answer_of(problem_of(422, error.code, error.message, [ErrorItem(pointer=place, detail=error.message)]))
+        return problem(422, error.code, error, [item_of(error, pointer=place)])
     return take(request, Task(SWEEP, spec.model_dump(mode="json"), form))
 
 
@@ -214,8 +217,8 @@ def format_of(value: Any, formats: type[FileFormat]) -> str:
     try:
         return formats(value).media_type
     except ValueError as error:
-        detail = f"format must be {' or '.join(formats)}, got {shown(value)}"
-        raise Refused(422, detail, [ErrorItem(pointer="/request/format", detail=detail)]) from error
+        told: dict[str, Any] = {"got": Given(value, shown(value)), "formats": " or ".join(formats)}
+        raise Refused(422, "format must be {formats}", {"pointer": "/request/format"}, **told) from error
 
 
 @router.get(
@@ -253,8 +256,8 @@ def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
 def result(keeper: KeptKeeper, found: Found) -> Response:
     """The answer of the call, with the same bytes as a direct answer; for a failed job its problem."""
     if not found.is_finished:
-        detail = f"The job is {found.state}, so it has no result yet: ask again, or follow its events."
-        raise Refused(409, detail, headers={"Retry-After": "1"})
+        detail = "The job is {state}, so it has no result yet: ask again, or follow its events."
+        raise Refused(409, detail, None, {"Retry-After": "1"}, state=str(found.state))
     if found.problem is not None:
         known = orjson.loads(found.problem)
         return Response(found.problem, known["status"], NOT_KEPT, PROBLEM_TYPE)
@@ -283,8 +286,8 @@ async def events(
     if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
         return Response(status_code=204)  # It tells a browser not to connect again.
     if not keeper.free.acquire(blocking=False):
-        detail = f"{keeper.settings.jobs_listeners_max} clients follow jobs, which is the limit: ask for the status."
-        raise Refused(503, detail, headers=COME_AGAIN)
+        words = "{most} clients follow jobs, which is the limit: ask for the status."
+        raise Refused(503, words, None, COME_AGAIN, most=keeper.settings.jobs_listeners_max)
     return News(keeper, found.id, after)
 
 

@@ -36,6 +36,7 @@ from app.jobs.store import Store
 from app.logs import log_to_stderr
 from app.settings import Settings
 from app.wire.problem import problem_of
+from core.errors import Quantity
 
 logger = logging.getLogger("app.jobs")
 
@@ -218,15 +219,15 @@ class Runner:
 
 def too_long(seconds: float) -> bytes:
     """The problem of a job that exceeded its time limit."""
-    detail = f"The job took longer than {seconds:g} s, the limit here: ask for less."
-    return problem_of(422, "too-much-work", detail).to_json()
+    words = "The job took longer than {most}, the limit here: ask for less."
+    return problem_of(422, "too-much-work", words, most=Quantity(seconds, "s", 6)).to_json()
 
 
 def died(code: int) -> bytes:
     """The problem of a job whose process died at each attempt. code: last exit code, or minus the signal"""
     how = f"signal {-code}" if code < 0 else f"exit code {code}"
-    detail = f"The process of the job died at each attempt, the last time by {how}: the job may need too much memory."
-    return problem_of(500, "process-ended", detail).to_json()
+    words = "The process of the job died at each attempt, the last time by {how}: the job may need too much memory."
+    return problem_of(500, "process-ended", words, how=how).to_json()
 
 
 def end_group() -> None:

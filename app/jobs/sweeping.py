@@ -52,14 +52,14 @@ def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Pat
         teller.tell(Progress(spec.designs, spec.designs, 0.0, None))
         return _table(Sweep(folder, spec), task.form)
     except FAILURES as error:
-        return problem_of(503, error.code, f"The sweep failed: {error.message}.")
+        return problem_of(503, error.code, "The sweep failed: {why}.", why=error.message)
     except TooManyBytes as error:
-        return problem_of(413, error.code, error.message)
+        return problem_of(413, error.code, error)
     except BenchDragonError as error:
         return refused(error, in_body(task.request))
     except OSError as error:
-        detail = f"The sweep could not be written into the data folder: {error.strerror}. Make room and ask again."
-        return problem_of(507, "insufficient-storage", detail)
+        words = "The sweep could not be written into the data folder: {why}. Make room and ask again."
+        return problem_of(507, "insufficient-storage", words, why=str(error.strerror))
 
 
 class _Teller:
@@ -81,8 +81,9 @@ class _Teller:
         """raises: TooManyBytes"""
         size = sum(file.stat().st_size for file in self.folder.glob("*.parquet"))
         if size > self.bytes_max:
-            words = f"The sweep has {size} bytes after {progress.designs} of {progress.total} designs"
-            raise TooManyBytes.in_words("over", f"{words}; the limit is {self.bytes_max} here: ask for fewer designs.")
+            words = "The sweep has {size} bytes after {designs} of {total} designs; the limit is {most} here"
+            told = {"size": size, "designs": progress.designs, "total": progress.total, "most": self.bytes_max}
+            raise TooManyBytes.in_words("over", f"{words}: ask for fewer designs.", **told)
         share, rate = progress.designs / progress.total, progress.rate / progress.total
         self.reports.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
 

@@ -67,9 +67,8 @@ def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> by
             return swept(task, settings, shards, reports)
         return task.answer(settings, reports.share)
     except MemoryError:
-        most = settings.job_memory_max
-        detail = f"The job needs more memory than {most} bytes, the limit here: ask for less."
-        return problem_of(422, "too-much-work", detail)
+        words = "The job needs more memory than {most} bytes, the limit here: ask for less."
+        return problem_of(422, "too-much-work", words, most=settings.job_memory_max)
     except Exception:
         logger.exception("A job failed: %s", task.call)
         return problem_of(500, "internal-error", "The service failed on this job; its log has the reason.")
@@ -94,14 +93,14 @@ def do(store: Store, job: str, settings: Settings, reports: Reports) -> dict[str
     if not isinstance(found, Problem):
         size = len(found) if isinstance(found, bytes) else found.stat().st_size
         if size > most:
-            detail = f"The answer has {size} bytes, the limit for a kept one is {most}: ask for less."
-            found = problem_of(413, "content-too-large", detail)
+            words = "The answer has {size} bytes, the limit for a kept one is {most}: ask for less."
+            found = problem_of(413, "content-too-large", words, size=size, most=most)
     if not isinstance(found, Problem):
         try:
             return {"written": str(written(found, store.results)), "media_type": task.form}
         except OSError as error:
-            detail = f"The answer could not be written into the data folder: {error.strerror}. Make room and ask again."
-            found = problem_of(507, "insufficient-storage", detail)
+            words = "The answer could not be written into the data folder: {why}. Make room and ask again."
+            found = problem_of(507, "insufficient-storage", words, why=str(error.strerror))
     return {"problem": found.to_json().decode()}
 
 

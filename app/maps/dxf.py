@@ -16,6 +16,7 @@ from app.files.outlines import dxf_bytes, new_dxf
 from app.maps.features import Counted, Drawing, MapFeature, area_of, drawn_as, holds, inner_point, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
+from core.errors import Quantity
 from core.venue import Ring
 
 # Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, yard, decimetre.
@@ -42,9 +43,9 @@ def read(data: bytes) -> Drawing:
     """The map in a drawing. raises: InvalidValue; MissingPackage"""
     require("dxf", "file", "DXF")
     if data.startswith(b"AutoCAD Binary DXF"):
-        raise InvalidValue("file", "must be DXF as text, got binary DXF: save it as ASCII DXF")
+        raise InvalidValue("file", "must be DXF as text: save it as ASCII DXF", got="binary DXF")
     if data.startswith(b"AC10"):
-        raise InvalidValue("file", "must be DXF, got DWG: save it as DXF")
+        raise InvalidValue("file", "must be DXF: save it as DXF", got="DWG")
     errors = import_module("ezdxf.lldxf.const")
     try:
         return _drawing(import_module("ezdxf.recover").read(io.BytesIO(data))[0])
@@ -52,7 +53,8 @@ def read(data: bytes) -> Drawing:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
     except (errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
-        raise InvalidValue("file", f"must be DXF, got one that cannot be read: {error}"[:300]) from error
+        rule, why = "must be DXF that can be read: {why}", str(error)[:200]
+        raise InvalidValue("file", rule, why=why) from error
 
 
 def _drawing(document: Any) -> Drawing:
@@ -79,8 +81,9 @@ def _refuse_wide(features: list[MapFeature]) -> None:
     points = [point for one in features for ring in one.rings for point in ring]
     across = max((max(column) - min(column) for column in zip(*points, strict=True)), default=0.0)
     if across > ACROSS_MAX:
-        words = f"file must state its unit: without one it is read in metres, and the drawing is {across:.6g} across"
-        raise InvalidValue.in_words("file", f"{words}: set $INSUNITS, 4 for millimetres, or scale it to metres")
+        rule = "must state its unit: without one it is read in metres, and the drawing is {across} across"
+        advice = ": set $INSUNITS, 4 for millimetres, or scale it to metres"
+        raise InvalidValue("file", rule + advice, across=Quantity(across, "", 6))
 
 
 def _told(document: Any) -> Mapping[str, Any]:
@@ -109,8 +112,8 @@ class _Reader:
         for entity in some:
             self.seen += 1
             if self.seen > ENTITIES_MAX:
-                words = f"file must draw at most {ENTITIES_MAX} entities, counting a block at each use, got more"
-                raise InvalidValue.in_words("file", f"{words}: leave out everything that does not belong to the square")
+                rule = "must draw at most {most} entities, counting a block at each use: leave out everything that does"
+                raise InvalidValue("file", f"{rule} not belong to the square", got="more", most=ENTITIES_MAX)
             if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
                 yield from self.entities(entity.virtual_entities(), depth + 1)
             else:

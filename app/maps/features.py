@@ -92,8 +92,11 @@ class Counted:
         self._points += sum(map(len, feature.rings))
         self.features.append(feature)
         if self._points > POINTS_MAX or len(self.features) > FEATURES_MAX:
-            words = f"file must hold at most {FEATURES_MAX} features with {POINTS_MAX} points in all, got more"
-            raise InvalidValue.in_words("file", f"{words}: leave out everything that does not belong to the square")
+            rule = (
+                "must hold at most {features} features with {points} points in all: leave out everything that does not"
+            )
+            most = {"features": FEATURES_MAX, "points": POINTS_MAX}
+            raise InvalidValue("file", f"{rule} belong to the square", got="more", **most)
 
     def leave_out(self, kind: str) -> None:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1

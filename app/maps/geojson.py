@@ -15,6 +15,7 @@ from app.maps.features import Counted, Drawing, MapFeature, Shape, drawn_as, rol
 from app.wire.degrees import GEOGRAPHIC, Origin, named_system
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
+from core.errors import Given
 from core.venue import Ring
 
 # For each geometry: the shape of its parts, and the depth of its lists of points in its coordinates.
@@ -67,12 +68,12 @@ def _is_number(value: object) -> TypeGuard[float]:
 def _features(field: str, told: object, like: MapFeature, depth: int = 0) -> Iterator[MapFeature]:
     """Every feature of a GeoJSON object in its order; `like` has the name and the role of the object around it."""
     if depth > DEPTH_MAX:
-        raise InvalidValue(field, f"must not nest objects deeper than {DEPTH_MAX}")
+        raise InvalidValue(field, "must not nest objects deeper than {most}", most=DEPTH_MAX)
     if told is None and depth:
         return  # A feature may have no geometry.
     kind = told.get("type") if isinstance(told, Mapping) else None
     if not isinstance(told, Mapping) or not isinstance(kind, str):
-        raise InvalidValue(field, f"must be a GeoJSON object with a type, got {told!r:.60}")
+        raise InvalidValue(field, "must be a GeoJSON object with a type", got=Given(told))
     if kind == "Feature":
         given = told.get("properties")
         properties = {str(name): value for name, value in given.items()} if isinstance(given, Mapping) else {}
@@ -91,7 +92,7 @@ def _features(field: str, told: object, like: MapFeature, depth: int = 0) -> Ite
             yield drawn_as(one) if shape == "line" else one  # Some programs draw a polygon as a line.
     else:
         known = ", ".join([*GEOMETRIES, "Feature", *COLLECTIONS])
-        raise InvalidValue(f"{field}.type", f"must be one of {known}, got {kind!r:.60}")
+        raise InvalidValue(f"{field}.type", "must be one of {known}", got=Given(kind), known=known)
 
 
 def _parts(field: str, value: object, shape: Shape, deep: int) -> Iterator[tuple[Ring, ...]]:
@@ -115,13 +116,13 @@ def _ring(field: str, value: object) -> Ring:
 def _point(field: str, value: object) -> tuple[float, float]:
     numbers = _listed(field, value)
     if len(numbers) < 2 or not all(map(_is_number, numbers[:2])):
-        raise InvalidValue(field, f"must be a position of two numbers, got {value!r:.60}")
+        raise InvalidValue(field, "must be a position of two numbers", got=Given(value))
     return float(numbers[0]), float(numbers[1])
 
 
 def _listed(field: str, value: object) -> list[Any]:
     if not isinstance(value, list) or not value:
-        raise InvalidValue(field, f"must be a list with at least one entry, got {value!r:.60}")
+        raise InvalidValue(field, "must be a list with at least one entry", got=Given(value))
     return value
 
 

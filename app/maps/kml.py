@@ -18,6 +18,7 @@ import orjson
 from app.maps.features import POINTS_MAX, Counted, Drawing, MapFeature, Shape, drawn_as, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
+from core.errors import Given
 from core.venue import Ring
 
 # Deepest nesting of elements, and the largest document in a KMZ file [bytes].
@@ -39,13 +40,13 @@ def unpacked(data: bytes) -> bytes:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             name = next((one for one in archive.namelist() if one.lower().endswith(".kml")), None)
             if name is None:
-                raise InvalidValue("file", "must be a KMZ file with a .kml document, got an archive without one")
+                raise InvalidValue("file", "must be a KMZ file with a .kml document", got="an archive without one")
             with archive.open(name) as source:
                 document = source.read(UNPACKED_MAX + 1)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
-        raise InvalidValue("file", f"must be a KMZ file that can be unpacked, got one with a fault: {error}") from error
+        raise InvalidValue("file", "must be a KMZ file that can be unpacked: {why}", why=str(error)) from error
     if len(document) > UNPACKED_MAX:
-        raise InvalidValue("file", f"must unpack to at most {UNPACKED_MAX} bytes, got more")
+        raise InvalidValue("file", "must unpack to at most {most} bytes", got="more", most=UNPACKED_MAX)
     return document
 
 
@@ -60,10 +61,10 @@ def read(data: bytes) -> Drawing:
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
-        words = f"{expat.ErrorString(error.code)} in line {error.lineno}"
-        raise InvalidValue("file", f"must be KML, got {words}") from error
+        rule, fault = "must be KML, got {fault} in line {line}", expat.ErrorString(error.code)
+        raise InvalidValue("file", rule, fault=fault, line=error.lineno) from error
     if not reader.is_kml:
-        raise InvalidValue("file", "must be KML, got XML of another kind")
+        raise InvalidValue("file", "must be KML", got="XML of another kind")
     told, counted = reader.told, reader.counted
     return Drawing(tuple(counted.features), True, told.get("origin"), told.get("path"), counted.left_out)  # type: ignore[arg-type]
 
@@ -91,7 +92,7 @@ class _Reader:
         self.is_kml = self.is_kml or local == "kml"
         self.stack.append(local)
         if len(self.stack) > DEPTH_MAX:
-            raise InvalidValue("file", f"must not nest elements deeper than {DEPTH_MAX}")
+            raise InvalidValue("file", "must not nest elements deeper than {most}", most=DEPTH_MAX)
         self.text = []
         if local in ("Folder", "Document"):
             self.folders.append("")
@@ -151,12 +152,12 @@ def _points(text: str) -> Ring:
     """Points of a text such as "120.1,30.2,0 120.2,30.2,0". raises: InvalidValue"""
     found: list[tuple[float, float]] = []
     if text.count(",") > 3 * POINTS_MAX:
-        raise InvalidValue("file", f"must draw no line of more than {POINTS_MAX} points")
+        raise InvalidValue("file", "must draw no line of more than {most} points", most=POINTS_MAX)
     for word in text.split():
         parts = word.split(",")
         numbers = [_number(part) for part in parts[:2]]
         if len(numbers) < 2 or None in numbers:
-            raise InvalidValue("file", f"must have coordinates such as 120.1,30.2 in degrees, got {word!r:.60}")
+            raise InvalidValue("file", "must have coordinates such as 120.1,30.2 in degrees", got=Given(word))
         found.append((numbers[0] or 0.0, numbers[1] or 0.0))
     return tuple(found)
 

@@ -21,7 +21,8 @@ from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.paths import POINTS_MAX, AnyPath
 from app.wire.question import Coordinates
 from core import InvalidValue, Route, Spiral, Venue
-from core.errors import NAME_MAX, NOT_PLAIN, said
+from core.errors import Quantity
+from core.names import NAME_MAX, NOT_PLAIN
 from core.shown import counted
 from core.values import Floats
 
@@ -76,7 +77,7 @@ def _checked(things: list[MapFeature]) -> Venue:
     try:
         return venue_of(outlined(read_things(told)))
     except InvalidValue as error:
-        raise InvalidValue("file", f"must hold a valid square: {error.message}") from error
+        raise error.named("file") from error
 
 
 def checked_path(path: object) -> Spiral | Route:
@@ -86,7 +87,7 @@ def checked_path(path: object) -> Spiral | Route:
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         place = ".".join(str(part) for part in ("path", *first["loc"][1:]))
-        raise InvalidValue("file", f"must describe a path: {place}: {first['msg']}") from error
+        raise InvalidValue("file", "must describe a path: {place}: {why}", place=place, why=first["msg"]) from error
     return found
 
 
@@ -99,7 +100,7 @@ class Reading:
         self.assumed = dict[float, list[str]]()
         self.features = [_closed(one) for one in drawing.features if one.role != MARK]
         if not self.features:
-            raise InvalidValue("file", "must hold a polygon, a line or a point, got none of these")
+            raise InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
         self.origin = drawing.origin
         self._lay_out(units)
         for kind, count in drawing.left_out.items():
@@ -138,7 +139,7 @@ class Reading:
             self._note("Coordinates are in metres.", "坐标以米为单位。")
             return
         if (np.abs(points) > (180.0, 90.0)).any():
-            seems = ", but longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
+            seems = ": longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
             raise InvalidValue("file", f"must have longitudes within 180 and latitudes within 90 degrees{seems}")
         near = float(points[0, 0])
         self.features = [
@@ -217,7 +218,8 @@ class Reading:
             )
         kept, name = _thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
-            raise InvalidValue("file", f"must hold a path with at least two points {said(POINTS_APART)} m apart")
+            apart = Quantity(POINTS_APART, "m")
+            raise InvalidValue("file", "must hold a path with at least two points {apart} apart", apart=apart)
         self._note(
             f"The path is a smooth curve through {len(kept)} points: {name}.",
             f"路径是通过 {len(kept)} 个点的光滑曲线：{name}。",

@@ -18,11 +18,10 @@ from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
 from app.wire.texts import Unreadable, toml_of
 from core import BenchDragonError, Budget, Dragon, InvalidValue
+from core.errors import Given, Parameter
 
 # Longest file [bytes].
 FILE_MAX = 20_000_000
-# Class, field and message of an error.
-Refusal = tuple[type[BenchDragonError], str, str]
 
 
 class Places(Answer):
@@ -43,12 +42,14 @@ class Places(Answer):
         return cls(path=found.path, venue=found.geometry, dance=found.dance, notes=list(found.notes))
 
 
-def read_places(data: bytes, units: Coordinates | None, language: Language, budget: Budget) -> Places | Refusal:
-    """Content of a map, or a refusal as plain values: an exception would not pass whole between processes."""
+def read_places(
+    data: bytes, units: Coordinates | None, language: Language, budget: Budget
+) -> Places | BenchDragonError:
+    """Content of a map, or its refusal, for another process."""
     try:
         return Places.of(places_of(data, units, Say(language)))
     except BenchDragonError as error:
-        return type(error), error.field, error.message
+        return error
 
 
 def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
@@ -58,7 +59,8 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     raises: InvalidValue at the field `file`; MissingPackage
     """
     if not data.strip():
-        raise InvalidValue("file", "must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON; got nothing")
+        words = "{field} must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON"
+        raise InvalidValue.in_words("file", words, got="nothing", field=Parameter("file"))
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
     if start.startswith(b"PK"):
         return Reading(kml.read(kml.unpacked(data)), units, say).found()
@@ -68,7 +70,7 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
         try:
             told = orjson.loads(start)
         except orjson.JSONDecodeError as error:
-            raise InvalidValue("file", f"must be JSON, got one with a fault: {error}") from error
+            raise InvalidValue("file", "must be JSON without a fault: {why}", why=str(error)) from error
         if "type" in told:
             return Reading(geojson.read(told), units, say).found()
         return _of_dance(told, say)
@@ -77,8 +79,8 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     try:
         return _of_dance(toml_of(data), say)
     except Unreadable as error:
-        words = "file must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON"
-        raise InvalidValue.in_words("file", f"{words}, got none of these: it {error}") from error
+        rule = "must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: it {why}"
+        raise InvalidValue("file", rule, got="none of these", why=str(error)) from error
 
 
 def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
@@ -91,7 +93,7 @@ def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
     if isinstance(venue, str):
         notes.append(say(f"The venue is in another file: {venue}.", f"场地在另一个文件中：{venue}。"))
     elif not isinstance(venue, Mapping | None):
-        raise InvalidValue("file", f"must have a venue that is GeoJSON or the name of a file, got {venue!r:.60}")
+        raise InvalidValue("file", "must have a venue that is GeoJSON or the name of a file", got=Given(venue))
     elif venue is not None:
         place = place_of(venue, told.get("coordinates"), Dragon())
     place = place or Place()
@@ -103,5 +105,6 @@ def read_map(file: Path, units: Coordinates | None = None, language: Language = 
     with file.open("rb") as source:
         data = source.read(FILE_MAX + 1)
     if len(data) > FILE_MAX:
-        raise InvalidValue.in_words("file", f"{file} must have at most {FILE_MAX} bytes, got more")
+        words = "{file} must have at most {most} bytes"
+        raise InvalidValue.in_words("file", words, got="more", file=str(file), most=FILE_MAX)
     return places_of(data, units, Say(language))

@@ -200,10 +200,10 @@ export function showEnd(box, answer, time, asked) {
   show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
-/** detail: the service's message; null if it is shown elsewhere; names: of the fields beside which it is shown */
-export function showRefusal(box, title, detail, names) {
+/** told: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */
+export function showRefusal(box, title, told, names) {
   show(box, say(title), say("unanswered"), []);
-  if (detail) box.append(make("p", refusalWords(detail)));
+  if (told) box.append(make("p", refusalWords(told)));
   else box.append(paragraph(names.length ? mendWords(names) : say("told")));
 }
 

@@ -19,11 +19,15 @@ const EMPTY = 204;
 const BUSY = [429, 503];
 const MOMENT = 10;
 
-/** The service's message about a refused request; errors: [{name or pointer, detail}]. */
+/** A refused request. told: the service's problem; errors: of it */
 export class Problem extends Error {
   constructor(status, body) {
-    super(body?.detail ?? `HTTP ${status}`);
-    this.errors = body?.errors ?? [];
+    // A proxy before the service may answer in its own words, or without any.
+    const { detail, template = detail } = body ?? {};
+    const told = detail ? { ...body, template } : { detail: `HTTP ${status}`, template: "HTTP {status}", values: { status: { text: status } } };
+    super(told.detail);
+    this.told = told;
+    this.errors = told.errors ?? [];
   }
 }
 

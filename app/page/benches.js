@@ -108,10 +108,10 @@ export class BenchTable {
     this.note.textContent = csv && !this.state.fits ? say("csvLong") : "";
   }
 
-  /** detail: the service's message about the table, which names the line; or none */
-  refuse(detail) {
-    this.error.hidden = !detail;
-    Object.assign(this.error, refusalWords(detail ?? ""));
-    this.text.setAttribute("aria-invalid", Boolean(detail));
+  /** error: of the service about the table, which names the line; or none */
+  refuse(error) {
+    this.error.hidden = !error;
+    Object.assign(this.error, error ? refusalWords(error) : { textContent: "" });
+    this.text.setAttribute("aria-invalid", Boolean(error));
   }
 }

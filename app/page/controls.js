@@ -117,14 +117,14 @@ export class Controls {
     }
   }
 
-  /** errors: name -> the service's message; a name that is not a field is not shown here */
+  /** errors: name -> error of the service; a name that is not a field is not shown here */
   refuse(errors) {
     for (const [name, row] of this.#rows) {
-      const detail = errors.get(name) ?? "";
-      const said = refusalWords(detail);
+      const error = errors.get(name);
+      const said = error ? refusalWords(error) : { textContent: "" };
       if (row.error.textContent !== said.textContent) Object.assign(row.error, said);
-      row.error.hidden = !detail;
-      row.text.setAttribute("aria-invalid", Boolean(detail));
+      row.error.hidden = !error;
+      row.text.setAttribute("aria-invalid", Boolean(error));
     }
   }
 }

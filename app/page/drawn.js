@@ -105,7 +105,7 @@ export class Drawn {
     this.form.offer(null);
     const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
     if (fields.length) this.judgement.wait(fields);
-    else this.judgement.refuse(refusal.message, this.questions.course, Number(this.state.get("benches")));
+    else this.judgement.refuse(refusal.told, this.questions.course, Number(this.state.get("benches")));
   }
 
   /** Move the benches at fault into view once, after a pose is shown. */

@@ -16,7 +16,7 @@ const MEANINGS = { ".": "mark_right", o: "mark_rounded", "#": "mark_wrong", "?":
 /** Numbers that may be typed, with an example of each. */
 const NUMBER = /^[0-9]{1,6}(\.[0-9]{1,15})?$/;
 const EXAMPLES = { collision_time: "412.473838", pitch: "0.450338", turn_length: "13.621245", speed: "1.246266" };
-const TOO_LONG = /^The body must be at most (\d+) bytes/;
+const TOO_LONG = "The body must be at most {most} bytes";
 
 export class Grader {
   #files = [];
@@ -85,8 +85,8 @@ export class Grader {
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;
-        const most = TOO_LONG.exec(error.message)?.[1];
-        const words = most ? { textContent: say("fileTooLong", { most: most / 1e6 }) } : refusalWords(error.message);
+        const { told } = error;
+        const words = told.template === TOO_LONG ? { textContent: say("fileTooLong", { most: told.values.most.value / 1e6 }) } : refusalWords(told);
         found.push(refusedBox(file?.name ?? say("typed"), words));
       }
       if (this.#answers !== found) return;

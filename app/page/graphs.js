@@ -50,11 +50,11 @@ export class Graphs {
     $("#scan .hint").textContent = sayOf("scanHelp", asked) + (strayOf(asked) > 0 ? say("scanStray") : "");
   }
 
-  /** Show a refusal in place of the chart of this kind, if there is one. message: null if it is shown elsewhere */
-  refuse(kind, message) {
+  /** Show a refusal in place of the chart of this kind, if there is one. told: null if it is shown elsewhere */
+  refuse(kind, told) {
     if (!(kind in this.#charts)) return;
     this.#charts[kind].show(null);
-    $(`#${kind} .reading`).replaceChildren(make("span", message ? refusalWords(message) : { textContent: say("told") }));
+    $(`#${kind} .reading`).replaceChildren(make("span", told ? refusalWords(told) : { textContent: say("told") }));
   }
 
   clearance() {

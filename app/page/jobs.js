@@ -151,7 +151,7 @@ export class Jobs {
     if (href) buttons.append(make("a", { href: `jobs/${id}/result`, download: `${status.processID}-${id.slice(0, 8)}${ENDINGS[type] ?? ""}`, textContent: say("jobResult") }));
     buttons.append(labelled(going ? "jobCancel" : "jobRemove", () => this.#end(id)));
     row.append(buttons);
-    if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem.detail) }));
+    if (status.problem) row.append(make("p", { className: "error", ...refusalWords(status.problem) }));
     return row;
   }
 }

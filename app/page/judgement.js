@@ -52,12 +52,12 @@ export class Judgement {
   }
 
   /** Show why there is no verdict: no drawing yet, bends that are too tight, or the service's refusal. */
-  refuse(message, course, benches) {
+  refuse(told, course, benches) {
     const bends = course?.bends ?? [];
     const said = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
     const rows = bends.map(({ points }, k) => this.#row(say("show"), said[k], () => this.look(points[Math.floor(points.length / 2)])));
-    const drawn = message === null;
-    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [refusalWords(message)];
+    const drawn = told === null;
+    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [refusalWords(told)];
     this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, said[0] ?? lines[0]?.textContent);
   }
 

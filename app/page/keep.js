@@ -5,10 +5,11 @@ import { $, button, download, make, onClick } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { isPlain } from "./questions.js";
-import { FOR_CLIENTS } from "./refusals.js";
 import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
 import { language, say } from "./text.js";
 
+/** The type of a problem of what takes too long for one answer. */
+const TOO_LONG = "urn:problem-type:bench-dragon:too-much-work";
 const CSV_STEP = 1;
 const TYPES = {
   CSV: "text/csv",
@@ -172,7 +173,7 @@ export class Keep {
       announce(() => say("saved", { name }));
     } catch (error) {
       // What takes too long for one answer is made as a job.
-      if (error instanceof Problem && FOR_CLIENTS.test(error.message)) this.#begin(item, form).catch(announceRefusal);
+      if (error instanceof Problem && error.told.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
       else announceRefusal(error);
     }
   }

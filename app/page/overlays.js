@@ -32,7 +32,7 @@ export function announce(words, stays = false) {
 
 /** Show the refusal of a question that a person has asked, if it was refused. throws: any other error */
 export function announceRefusal(error) {
-  if (error instanceof Problem) announce(() => refusalWords(error.message).textContent);
+  if (error instanceof Problem) announce(() => refusalWords(error.told).textContent);
   else if (!(error instanceof Superseded)) throw error;
 }
 

@@ -136,9 +136,9 @@ export class Pace {
     if (document.activeElement !== this.clock) this.clock.value = this.state.get("start_clock");
   }
 
-  /** detail: the service's message about the passages, or none */
-  refuse(detail) {
-    this.error.hidden = !detail;
-    Object.assign(this.error, refusalWords(detail ?? ""));
+  /** error: of the service about the passages, or none */
+  refuse(error) {
+    this.error.hidden = !error;
+    Object.assign(this.error, error ? refusalWords(error) : { textContent: "" });
   }
 }

@@ -174,9 +174,9 @@ export class Questions {
     return this.refusals.get(channel).errors.map(nameOf).filter((name) => SAID.includes(name) || FIELDS.some((field) => field.name === name));
   }
 
-  /** Errors in the numbers: name -> the service's message. */
+  /** Errors in the numbers: name -> error. */
   errors() {
-    return new Map(ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []).map((error) => [nameOf(error), error.detail]));
+    return new Map(ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []).map((error) => [nameOf(error), error]));
   }
 
   async #askContact(asked) {

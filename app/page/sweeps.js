@@ -95,8 +95,8 @@ export class SweepForm {
     this.error.textContent = first === second ? say("sweepTwice") : "";
     if (this.error.textContent) return;
     await this.start(this.spec()).catch((error) => {
-      if (!error.errors) throw error;
-      Object.assign(this.error, refusalWords(error.message));
+      if (!error.told) throw error;
+      Object.assign(this.error, refusalWords(error.told));
     });
   }
 }

@@ -49,8 +49,8 @@ export function titleOf(key, asked) {
   return stray > 0 ? say(asked.hole > 0 ? "withinPlay" : "within", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
 }
 
-/** A refusal of the service in the language of the page: the properties of an element. */
-export const refusalWords = (detail) => refusalIn(detail, column === 1, say);
+/** A refusal of the service in the language of the page: the properties of an element. told: a problem or one of its errors */
+export const refusalWords = (told) => refusalIn(told.errors?.[0] ?? told, column === 1, say);
 
 /** The proof of an answer in the language of the page. */
 export const proofWords = (method) => (column ? proofInChinese(method) : method);

@@ -10,13 +10,13 @@ const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "t
 /** boxOf(kind): selector of the box of this kind of answer */
 export function tellRefusals(questions, graphs, boxOf) {
   // Each message appears once: beside its field, or in the first box that it concerns.
-  const wordsOf = (detail) => refusalWords(detail).textContent;
-  const told = new Set([...questions.errors().values()].map(wordsOf));
-  for (const [kind, { message, errors }] of questions.refusals) {
-    const words = [message, ...errors.map(({ detail }) => detail)].map(wordsOf);
-    const detail = words.some((one) => told.has(one)) ? null : message;
-    for (const one of words) told.add(one);
-    if (kind in TITLES) showRefusal($(boxOf(kind)), TITLES[kind], detail, questions.fieldsOf(kind));
-    graphs.refuse(kind, detail);
+  const wordsOf = (told) => refusalWords(told).textContent;
+  const shown = new Set([...questions.errors().values()].map(wordsOf));
+  for (const [kind, { told, errors }] of questions.refusals) {
+    const words = [told, ...errors].map(wordsOf);
+    const first = words.some((one) => shown.has(one)) ? null : told;
+    for (const one of words) shown.add(one);
+    if (kind in TITLES) showRefusal($(boxOf(kind)), TITLES[kind], first, questions.fieldsOf(kind));
+    graphs.refuse(kind, first);
   }
 }

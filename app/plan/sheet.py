@@ -17,6 +17,7 @@ from matplotlib.path import Path as Outline
 
 from app.files.words import Say
 from core import Budget, InvalidValue
+from core.errors import quantities
 from core.values import Floats
 
 PaperName = Literal["A4", "A3"]
@@ -82,8 +83,9 @@ def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:
             room = np.array([right - left, top - bottom]) - 2.0 * PAD
             if (size / ratio <= room).all():
                 return Scale(paper, ratio, (middle[0], middle[1]))
-    rule = f"must be less than {min(PAPERS[name]) * RATIOS[-1] / 1000.0:g} m across, to fit on {name} at 1:{RATIOS[-1]}"
-    raise InvalidValue("path", f"{rule}, got {max(size) / 1000.0:.6g} m")
+    told = quantities("m", 6, got=max(size) / 1000.0, most=min(PAPERS[name]) * RATIOS[-1] / 1000.0)
+    rule = "must be less than {most} across, to fit on {paper} at 1:{ratio}"
+    raise InvalidValue("path", rule, paper=name, ratio=RATIOS[-1], **told)
 
 
 Box = tuple[float, float, float, float]

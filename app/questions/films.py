@@ -9,7 +9,7 @@ from app.files.tables import Language
 from app.wire.dances import PlacedDance
 from app.wire.question import Instant, Question, Terms, Whole, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, first_contact
-from core.errors import said
+from core.errors import quantities
 
 FORM = next(iter(ENDINGS))
 # Longest time of the dance in a film without a stop, unless benches touch earlier, and time left before a fold [s].
@@ -81,7 +81,8 @@ def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:
-        raise InvalidValue("start", f"must be before {said(until)} s, when {end.why}, got {said(start)} s")
+        told = quantities("s", got=start, end=until) | end.told
+        raise InvalidValue("start", f"must be before {{end}}, when {end.template}", **told)
     found = first_contact(dance, start=start, stop=until, budget=terms.budget)
     if found.outcome is Outcome.CONTACT and found.time is not None:
         return *dance.span(start, found.time), found.benches

@@ -20,7 +20,7 @@ from app.wire.question import (
     measure,
 )
 from core import Dragon, InvalidValue, LimitedBy
-from core.errors import said
+from core.errors import Quantity, quantities
 
 # Shortest chord and largest circle of a search that takes 20 ms [m].
 CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
@@ -81,20 +81,21 @@ def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> cor
     """The minimum pitch, if other questions accept it. raises: InvalidValue naming what makes it too large"""
     if found.pitch <= PITCH_MAX:
         return found
-    why = f"the minimum pitch is {found.pitch:.9g} m, and pitches are at most {said(PITCH_MAX)} m here"
+    why = "the minimum pitch is {pitch}, and pitches are at most {most} here"
+    told = quantities("m", 9, pitch=found.pitch) | quantities("m", most=PITCH_MAX)
     if found.limited_by is LimitedBy.START and found.benches is None:
-        turns = said(asked.turning_diameter / 2 / PITCH_MAX)
-        rule = f"must be at least {turns} turns, or the turning circle smaller: {why}"
-        raise InvalidValue.of("start_turns", rule, asked.start_turns, "turns")
+        told |= quantities("turns", got=asked.start_turns, least=asked.turning_diameter / 2 / PITCH_MAX)
+        raise InvalidValue("start_turns", f"must be at least {{least}}, or the turning circle smaller: {why}", **told)
     if found.benches is None or found.benches[1] - found.benches[0] > 2:
-        raise InvalidValue.of("turning_diameter", f"must be larger: {why}", asked.turning_diameter, "m")
+        got = Quantity(asked.turning_diameter, "m")
+        raise InvalidValue("turning_diameter", f"must be larger: {why}", got=got, **told)
     # The benches are hardly apart even on a straight line.
     if isinstance(asked, Circle) and asked.margin:
-        raise InvalidValue.of("margin", f"must be smaller: {why}", asked.margin, "m")
+        raise InvalidValue("margin", f"must be smaller: {why}", got=Quantity(asked.margin, "m"), **told)
     bench, one_by_one = found.benches[0], isinstance(getattr(asked, "dragon", None), BenchByBench)
     field = f"dragon.overhangs.{bench}" if one_by_one else "dragon.overhang"
     narrower = f"must be smaller, or the benches narrower: {why}"
-    raise InvalidValue.of(field, narrower, float(dragon.overhangs[bench]), "m")
+    raise InvalidValue(field, narrower, got=Quantity(float(dragon.overhangs[bench]), "m"), **told)
 
 
 def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, terms: Terms) -> MinimumPitch:

@@ -11,6 +11,7 @@ from app.wire.answers import Point
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.question import Answer, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
 from core import InvalidValue, Limit
+from core.errors import Quantity
 from core.tolerance.curve import time_on_circle
 
 SizeError = Annotated[float, Field(ge=0, le=5)]
@@ -113,11 +114,11 @@ def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[fl
         return start, stop
     if dance.path.spiral is None or stop is not None:
         rule = "must be left out, unless the path is a spiral and stop is left out"
-        raise InvalidValue.of("turning_diameter", rule, asked.turning_diameter, "m")
+        raise InvalidValue("turning_diameter", rule, got=Quantity(asked.turning_diameter, "m"))
     circle = time_on_circle(dance, asked.turning_diameter / 2)
     if start is not None and start >= circle:
-        rule = f"must be before the head is on the turning circle, at {circle:.6f} s"
-        raise InvalidValue.of("start", rule, start, "s")
+        rule = "must be before the head is on the turning circle, at {circle}"
+        raise InvalidValue("start", rule, got=Quantity(start, "s"), circle=Quantity(round(circle, 6), "s"))
     return start, circle
 
 
@@ -131,7 +132,7 @@ def _with_errors(
     if asked.turning_diameter is None or placed or spiral is None:
         field = next(name for name, error in errors.items() if error)
         rule = "must be 0, unless the dance has no venue and ends on a circle of a spiral (turning_diameter)"
-        raise InvalidValue.of(field, rule, errors[field], "m")
+        raise InvalidValue(field, rule, got=Quantity(errors[field], "m"))
     radius = asked.turning_diameter / 2
     return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=radius, budget=budget)
 

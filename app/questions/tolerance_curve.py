@@ -12,7 +12,7 @@ from app.wire.dances import DragonFields
 from app.wire.paths import WayToCircle
 from app.wire.question import Answer, Pitch, Question, Terms, UniformDragon, Whole, measure
 from core import Dragon, InvalidValue, Limit, TooMuchWork
-from core.errors import said
+from core.errors import quantities
 from core.values import Floats
 
 # Default highest pitch, as a multiple of the lowest one [1].
@@ -37,8 +37,9 @@ class CurveFields(WayToCircle):
             least = core.minimum_pitch(dragon, **circle, budget=terms.budget)
             low = allowed(least, self, dragon).pitch * (1.0 + ABOVE_MINIMUM)
         if high is not None and high <= low:
-            rule = f"must be larger than the lowest pitch ({said(low)} m)"
-            raise InvalidValue.of("to_pitch", rule, high, "m")
+            raise InvalidValue(
+                "to_pitch", "must be larger than the lowest pitch ({low})", **quantities("m", got=high, low=low)
+            )
         return np.linspace(low, WIDEST * low if high is None else high, self.samples)
 
 

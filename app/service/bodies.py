@@ -19,7 +19,7 @@ from app.service.middleware import Handler, Lanes, watched
 from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings
-from app.wire.problem import ERRORS_MAX, ErrorItem
+from app.wire.problem import ERRORS_MAX
 from app.wire.question import JSON, shown
 from app.wire.texts import Unreadable, json_of
 
@@ -96,8 +96,8 @@ class BodyRoute(WatchedRoute):
             settings: Settings = request.app.state.settings
             parts = body.count(b"[") + body.count(b"{")
             if parts > settings.parts_max:
-                detail = f"The body must hold at most {settings.parts_max} objects and lists, got about {parts}."
-                raise Refused(422, detail, [ErrorItem(pointer="", detail=detail)])
+                words = "The body must hold at most {most} objects and lists, got about {parts}."
+                raise Refused(422, words, {"pointer": ""}, most=settings.parts_max, parts=parts)
             lanes: Lanes = request.app.state.lanes
             with lanes.large_bodies.taken(LARGE_COST):
                 # Threads separate from those that answer small requests.
@@ -116,8 +116,8 @@ def refuse_type(request: Request) -> None:
     kind = content_type(request)
     has_body = request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
     if has_body and kind != JSON:
-        detail = f"The body must be {JSON}, got {kind or 'no Content-Type'}: send the header Content-Type: {JSON}."
-        raise Refused(415, detail, [ErrorItem(name="Content-Type", detail=detail)], {"Accept-Post": JSON})
+        told = {"got": kind or "no Content-Type", "reason": "send the header Content-Type: {type}.", "type": JSON}
+        raise Refused(415, "The body must be {type}", {"name": "Content-Type"}, {"Accept-Post": JSON}, **told)
     if has_body:
         refuse_coded(request)
 
@@ -126,8 +126,9 @@ def refuse_coded(request: Request) -> None:
     """raises: Refused (415) for a body that is compressed"""
     coding = request.headers.get("content-encoding", "identity").strip()
     if coding.lower() != "identity":
-        detail = f"The body must not be compressed, got Content-Encoding: {shown(coding)[1:-1]}: send it as it is."
-        raise Refused(415, detail, [ErrorItem(name="Content-Encoding", detail=detail)], {"Accept-Encoding": "identity"})
+        told = {"got": f"Content-Encoding: {shown(coding)[1:-1]}", "reason": "send it as it is."}
+        place, plainly = {"name": "Content-Encoding"}, {"Accept-Encoding": "identity"}
+        raise Refused(415, "The body must not be compressed", place, plainly, **told)
 
 
 async def reply_body(request: Request) -> Reply:
@@ -138,11 +139,8 @@ async def reply_body(request: Request) -> Reply:
 
 async def refuse_query(request: Request) -> None:
     """raises: Refused (422) when a request has query parameters but its call takes none"""
-    detail = "this call takes no query parameters: leave it out"
-    names = list(request.query_params)[:ERRORS_MAX]
-    unknown = [ErrorItem(name=name, detail=f"{name[:60]} is unknown here: {detail}") for name in names]
-    if unknown:
-        raise Refused(422, unknown[0].detail, unknown)
+    if names := list(request.query_params)[:ERRORS_MAX]:
+        raise Refused.names(names, "is unknown here: this call takes no query parameters: leave it out")
 
 
 BodyReply = Annotated[Reply, Depends(reply_body)]

@@ -205,7 +205,7 @@ def _add_health(app: FastAPI) -> None:
     async def readyz(request: Request, response: Response) -> State:
         """This installation gives the known answers of the self-test."""
         if request.app.state.fault:
-            raise problems.Refused(503, f"The self-test failed: {request.app.state.fault}.")
+            raise problems.Refused(503, "The self-test failed: {why}.", why=str(request.app.state.fault))
         response.headers["Cache-Control"] = "no-store"
         return State(status="ready")
 

@@ -28,9 +28,8 @@ from app.files.tables import XLSX_TYPE
 from app.logs import request_id
 from app.service.problems import Refused, http_problem, server_problem
 from app.settings import Settings
-from app.wire.problem import ErrorItem
 from core import Budget
-from core.shown import counted
+from core.errors import Quantity
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -88,17 +87,17 @@ class RequestLimits(Layer):
 
     def _refused_head(self, headers: Headers, query: bytes, most: int) -> Refused | None:
         if len(query) > self.query_max:
-            detail = f"The query must have at most {self.query_max} bytes, got {len(query)}: ask in a body."
-            return Refused(414, detail, headers=CLOSE)
+            words, got = "The query must have at most {most} bytes", len(query)
+            return Refused(414, words, None, CLOSE, got=got, reason="ask in a body.", most=self.query_max)
         stated = headers.get("content-length", "0")
         if "transfer-encoding" in headers and "content-length" in headers:
             detail = "The length of a body is stated twice: send Content-Length or Transfer-Encoding, not both."
-            return Refused(400, detail, [ErrorItem(name="Content-Length", detail=detail)], CLOSE)
+            return Refused(400, detail, {"name": "Content-Length"}, CLOSE)
         return self._refused(most, stated) if stated.isdecimal() and int(stated) > most else None
 
     def _refused(self, most: int, got: str) -> Refused:
-        detail = f"The body must be at most {most} bytes, got {got}: ask for less in one request."
-        return Refused(413, detail, [ErrorItem(pointer="", detail=detail)], CLOSE)
+        words, why = "The body must be at most {most} bytes", "ask for less in one request."
+        return Refused(413, words, {"pointer": ""}, CLOSE, got=got, reason=why, most=most)
 
 
 class OriginForm(Layer):
@@ -216,9 +215,11 @@ def client_of(request: Request) -> str:
     return request.client.host if request.client else ""
 
 
-def reached(whose: str, limit: int, thing: str, when: str = "") -> str:
-    """A limit of the service in words: "Your limit of 2 unfinished jobs is reached"."""
-    return f"{whose} limit of {counted(limit, thing)}{when} is reached"
+class Deadline(Quantity):
+    """The longest time of an answer, as the end of an error's sentence."""
+
+    def __str__(self) -> str:
+        return f"within {super().__str__()}, the time that one answer may take here"
 
 
 class Lane:
@@ -240,11 +241,9 @@ class Lane:
         with self._lock:
             own = [one for one in self._begun.values() if one[2] == client]
             if len(self._begun) >= self.most:
-                words = reached("The", self.most, f"{self.name} computation", " at once")
-                raise self._full(503, words, self._begun.values())
+                raise self._full(503, "The", self.most, self._begun.values())
             if client and len(own) >= self.of_client:
-                words = reached("Your", self.of_client, f"{self.name} computation", " at once")
-                raise self._full(429, words, own)
+                raise self._full(429, "Your", self.of_client, own)
             self._begun[key] = (time.monotonic(), cost, client)
         self._running.inc()
         try:
@@ -254,13 +253,15 @@ class Lane:
             with self._lock:
                 del self._begun[key]
 
-    def _full(self, status: int, words: str, begun: Iterable[tuple[float, float, str]]) -> Refused:
+    def _full(self, status: int, whose: str, most: int, begun: Iterable[tuple[float, float, str]]) -> Refused:
         """A refusal with the expected end of the first computation; a late one is expected to take as long again."""
         self._refused.inc()
         now = time.monotonic()
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
         seconds = max(self.retry_after, math.ceil(min(left)))
-        return Refused(status, f"{words}: try again in {seconds} s.", headers={"Retry-After": str(seconds)})
+        words = f"{whose} limit of {{most}} {{lane}} computation{'s'[: most != 1]} at once is reached"
+        why, after = "try again in {seconds} s.", {"Retry-After": str(seconds)}
+        return Refused(status, words, None, after, reason=why, seconds=seconds, most=most, lane=self.name)
 
 
 class Lanes:
@@ -310,7 +311,7 @@ async def _watch(request: Request, seconds: float) -> None:
                 pass
     except TimeoutError:
         lanes.stopped.labels("deadline").inc()
-        budget.stop(f"within {seconds:g} s, the time that one answer may take here")
+        budget.stop(Deadline(seconds, "s", 6))
     else:
         lanes.stopped.labels("client gone").inc()
         budget.stop("before its client was gone")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from http import HTTPStatus
-from typing import get_type_hints
+from typing import Self, get_type_hints
 
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
@@ -13,10 +13,11 @@ from starlette.routing import Match, Mount
 
 from app.wire.faults import Placing, in_body, in_query, refused, unfit
 from app.wire.messages import fault_of
-from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, problem_of, title
+from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, item_of, problem_of, title
 from app.wire.question import shown
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
+from core.errors import Value
 
 # Advice to a client whose answer takes too much work.
 A_JOB = "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
@@ -24,20 +25,42 @@ METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
 
 
 class Refused(HTTPException):
-    """A request refused by the service; errors name the place."""
+    """A request refused by the service.
+
+    template, got, reason, values: of BenchDragonError.in_words(); place: pointer into the body, or name of the wrong
+    parameter or header
+    """
 
     def __init__(
-        self, status: int, detail: str, errors: Sequence[ErrorItem] = (), headers: Mapping[str, str] | None = None
+        self,
+        status: int,
+        template: str,
+        place: Mapping[str, str] | None = None,
+        headers: Mapping[str, str] | None = None,
+        **values: Value,
     ) -> None:
-        super().__init__(status, detail, headers)
-        self.errors = errors
+        self.told = BenchDragonError.in_words("", template, **values)
+        super().__init__(status, self.told.message, headers)
+        self.errors = [] if place is None else [item_of(self.told, **place)]
+
+    @classmethod
+    def names(cls, names: Iterable[str], rule: str) -> Self:
+        """A refusal (422) of names in a query; rule: what is wrong with each, and what to do."""
+        refused = [cls(422, f"{{name}} {rule}", {"name": name}, name=name[:60]) for name in names]
+        refused[0].errors = [item for one in refused for item in one.errors]
+        return refused[0]
 
 
 def problem(
-    status: int, code: str, detail: str, errors: Iterable[ErrorItem] = (), headers: Mapping[str, str] | None = None
+    status: int,
+    code: str,
+    error: BenchDragonError | str,
+    errors: Iterable[ErrorItem] = (),
+    headers: Mapping[str, str] | None = None,
+    **values: Value,
 ) -> Response:
-    """The answer to a request that failed."""
-    return answer_of(problem_of(status, code, detail, errors), headers)
+    """The answer to a request that failed; see problem_of()."""
+    return answer_of(problem_of(status, code, error, errors, **values), headers)
 
 
 def answer_of(said: Problem, headers: Mapping[str, str] | None = None) -> Response:
@@ -64,16 +87,16 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
     """Answer to a request whose fields do not fit the schema."""
     found = error.errors()
     if found[0]["loc"][0] == "path":
-        name, detail = found[0]["loc"][-1], fault_of(found[0], None).message
-        return problem(404, "not-found", detail, [ErrorItem(name=name, detail=detail)])
+        fault = fault_of(found[0], None)
+        return problem(404, "not-found", fault, [item_of(fault, name=found[0]["loc"][-1])])
     return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
 
 
 def unreadable(error: Unreadable) -> Response:
     """Answer to a body that cannot be read as JSON."""
-    detail = f"The body {error}. Send an object such as {{}}."
+    told = BenchDragonError.in_words("", "The body {why}. Send an object such as {}.", why=str(error))
     status, code = (422, "invalid-value") if isinstance(error, Unfit) else (400, "broken-json")
-    return problem(status, code, detail, [ErrorItem(pointer="", detail=detail)])
+    return problem(status, code, told, [item_of(told, pointer="")])
 
 
 def _takes_file(request: Request) -> bool:
@@ -90,16 +113,18 @@ async def _placing(request: Request) -> Placing:
 async def http_problem(request: Request, error: HTTPException) -> Response:
     """Answer to an error of HTTP itself: unknown path, method, media type and so on."""
     status, headers = error.status_code, dict(error.headers or {})
-    detail, code = str(error.detail), title(status).lower().replace(" ", "-")
-    items: Sequence[ErrorItem] = getattr(error, "errors", ())
-    if status == 404 and detail == HTTPStatus.NOT_FOUND.phrase:
-        detail = f"There is nothing at {shown(request.url.path)}: see /docs for all calls."
+    told: BenchDragonError | str = error.told if isinstance(error, Refused) else str(error.detail)
+    items, code = getattr(error, "errors", ()), title(status).lower().replace(" ", "-")
+    path = request.url.path
+    if status == 404 and told == HTTPStatus.NOT_FOUND.phrase:
+        told = BenchDragonError.in_words("", "There is nothing at {path}: see /docs for all calls.", path=shown(path))
     elif status == 405:
         headers["Allow"] = ", ".join(sorted(_allowed(request)))
         if request.method == "OPTIONS":
             return Response(status_code=204, headers=headers)
-        detail = f"{request.url.path} does not support {request.method}: use {headers['Allow']}."
-    return problem(status, code, detail, items, headers)
+        words = {"path": path, "method": request.method, "methods": headers["Allow"]}
+        told = BenchDragonError.in_words("", "{path} does not support {method}: use {methods}.", **words)
+    return problem(status, code, told, items, headers)
 
 
 def _allowed(request: Request) -> set[str]:

@@ -17,6 +17,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from app.service.problems import problem
 from app.settings import Settings
+from core.errors import Quantity
 
 # Size of the pieces in which chunked bodies are read, with other work in between [bytes]: 700 chunks of one byte, 6 ms.
 PIECE = 4096
@@ -127,15 +128,16 @@ class Protocol(H11Protocol):
         if self.transport.is_closing():
             return
         if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE) and owed == "head":
-            self._refuse(408, "request-timeout", f"The head of the request was not complete within {seconds:g} s.")
+            words = "The head of the request was not complete within {most}."
+            self._refuse(408, "request-timeout", words, most=Quantity(seconds, "s", 6))
         else:
             self.transport.abort()
 
     def send_400_response(self, msg: str) -> None:
         self._refuse(400, "malformed-http", "The request is not valid HTTP/1.1.")
 
-    def _refuse(self, status: int, code: str, detail: str) -> None:
-        answer = problem(status, code, detail, headers={"Connection": "close"})
+    def _refuse(self, status: int, code: str, words: str, **values: Any) -> None:
+        answer = problem(status, code, words, headers={"Connection": "close"}, **values)
         for event in (
             h11.Response(status_code=status, headers=answer.raw_headers, reason=b""),
             h11.Data(data=bytes(answer.body)),

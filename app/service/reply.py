@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
 from threading import Event, Lock, Thread, get_ident
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Depends, Request, Response
 from fastapi.exceptions import RequestValidationError
@@ -32,7 +32,7 @@ from app.service.middleware import Handler, Lanes, client_of, watched
 from app.service.problems import Refused
 from app.service.version import build
 from app.settings import Settings
-from app.wire.problem import ERRORS_MAX, ErrorItem
+from app.wire.problem import ERRORS_MAX
 from app.wire.question import BYTES, UNKNOWN_COST, Call, FileFormat, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget, TooMuchWork
@@ -251,8 +251,7 @@ async def reply_query(request: Request) -> Reply:
     if len(given) > len(request.query_params):
         times = collections.Counter(name for name, _ in given)
         twice = sorted(name for name in times if times[name] > 1)[:ERRORS_MAX]
-        items = [ErrorItem(name=name, detail=f"{name[:60]} is given more than once: give it once") for name in twice]
-        raise Refused(422, items[0].detail, items)
+        raise Refused.names(twice, "is given more than once: give it once")
     return Reply(request)
 
 
@@ -306,8 +305,8 @@ def form_of(header: str | None, offers: Sequence[str], place: Mapping[str, str])
     """
     chosen = accepted(header, offers)
     if chosen is None:
-        detail = f"This call answers {' or '.join(offers)}, but Accept asks for {header[:100] if header else ''}."
-        raise Refused(406, detail, [ErrorItem(**place, detail=detail)])
+        told: dict[str, Any] = {"offers": " or ".join(offers), "asked": header[:100] if header else ""}
+        raise Refused(406, "This call answers {offers}, but Accept asks for {asked}.", place, **told)
     return chosen
 
 

@@ -8,7 +8,6 @@ from fastapi import Request, Security
 from fastapi.security import HTTPBearer
 
 from app.service.problems import Refused
-from app.wire.problem import ErrorItem
 
 # Security of a call that may need the token, in the schema; guard() reads the token. The empty second entry says that a
 # service may have none.
@@ -23,4 +22,4 @@ def guard(request: Request) -> None:
     if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
         detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
         challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
-        raise Refused(401, detail, [ErrorItem(name="Authorization", detail=detail)], challenge)
+        raise Refused(401, detail, {"name": "Authorization"}, challenge)

@@ -26,9 +26,9 @@ from app.service.problems import Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
-from app.wire.problem import ErrorItem
 from app.wire.question import BYTES, JSON, Answer, Coordinates, Wire, measure
-from core.errors import too_much
+from core import BenchDragonError
+from core.errors import Quantity, too_much
 from core.kernels import Halted
 
 GRADED = (BYTES, XLSX_TYPE, CSV_TYPE)
@@ -99,9 +99,9 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
         kind = content_type(request)
         if data and kind not in types:
             known = " or ".join(types)
-            detail = f"The body must be the file itself, of type {known}, got {kind or 'no Content-Type'}."
-            item = ErrorItem(name="Content-Type", detail=detail)
-            raise Refused(415, detail, [item], {"Accept-Post": ", ".join(types)})
+            words, place = "The body must be the file itself, of type {types}, got {type}.", {"name": "Content-Type"}
+            told = {"types": known, "type": kind or "no Content-Type"}
+            raise Refused(415, words, place, {"Accept-Post": ", ".join(types)}, **told)
         return data
 
     return uploaded
@@ -142,7 +142,7 @@ def grade(
     given = {name: text for name in UNITS if (text := getattr(wanted, name)) is not None}
     if not data and not given:
         detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."
-        raise Refused(422, detail, [ErrorItem(name="name", detail=detail)])
+        raise Refused(422, detail, {"name": "name"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
     with in_lane(request):
@@ -161,15 +161,16 @@ def places(
     """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON."""
     if not data:
         detail = "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON."
-        raise Refused(422, detail, [ErrorItem(name="file", detail=detail)])
+        raise Refused(422, detail, {"name": "file"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
     with in_lane(request):
         try:
             found = graders.asked(budget, read_places, data, wanted.units, wanted.language)
         except Halted:
-            raise too_much(budget, "file", "must be smaller: it was not read {then}", len(data), "bytes") from None
-    if not isinstance(found, Places):
-        refused, field, message = found
-        raise refused.in_words(field, message)
+            raise too_much(
+                budget, "file", "must be smaller: it was not read {then}", Quantity(len(data), "bytes")
+            ) from None
+    if isinstance(found, BenchDragonError):
+        raise found
     return reply_of(found)

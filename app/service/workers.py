@@ -30,6 +30,7 @@ from app.jobs.keeper import scratch
 from app.logs import log_config
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
 from core import InvalidValue
+from core.errors import Given
 
 if TYPE_CHECKING:  # The first of several processes answers nothing and does not load the framework.
     from fastapi import FastAPI
@@ -57,7 +58,7 @@ def process_count(asked: int | None, platform: str = sys.platform) -> int:
         return asked or min(usable_cores(), WORKERS_MAX)
     if asked not in (None, 1):
         rule = "--workers must be 1 on Windows, where the service is one process"
-        raise InvalidValue.in_words("workers", f"{rule}, got {asked}")
+        raise InvalidValue.in_words("workers", rule, got=Given(asked))
     return 1
 
 

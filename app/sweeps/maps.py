@@ -31,7 +31,8 @@ def value_map(sweep: Sweep, value: str) -> Figure:
     """
     spec, names = sweep.spec, list(sweep.spec.over)
     if len(names) > 2:
-        raise InvalidValue.in_words("output", f"a map has one or two parameters, and this sweep has {len(names)}")
+        words = "a map has one or two parameters, and this sweep has {count}"
+        raise InvalidValue.in_words("output", words, count=len(names))
     table = sweep.table(["design", *names, value])
     numbers = numbers_of(sweep, table, value)
     places = [numbers_of(sweep, table, name) for name in names]

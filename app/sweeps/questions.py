@@ -26,6 +26,7 @@ from app.wire.messages import checked
 from app.wire.question import Answer, DanceQuery, Terms, measure
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
+from core.errors import Given
 
 # The service's default limits, so that a row does not depend on the machine that computes it.
 LIMITS = Settings.model_construct()
@@ -112,7 +113,7 @@ def trajectory_row(asked: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
     dance = asked.to_dance(terms.settings.benches_max)
     times = asked.times_of(dance, terms.settings.cells_max)
     if not times.size:
-        raise InvalidValue("times", "must have at least one instant for a row, got none")
+        raise InvalidValue("times", "must have at least one instant for a row", got="none")
     found = core.trajectory(dance, times, budget=terms.budget)
     head, tail = found.position[-1, 0], found.position[-1, -1]
     return TrajectoryRow(
@@ -143,7 +144,7 @@ def least_clearance(asked: DanceQuery | DanceFields, terms: Terms) -> LeastClear
     """The least separation of two benches that share no handle, over the whole dance."""
     found = core.least_clearance(asked.to_dance(terms.settings.checked_benches_max), budget=terms.budget)
     if found is None:
-        raise InvalidValue.of("dragon.benches", "must be at least 3, so that two share no handle", asked.benches, "")
+        raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=asked.benches)
     return LeastClearance.model_validate(found)
 
 
@@ -183,9 +184,9 @@ def question_of(name: str, parameters: Collection[str] = ()) -> Question:
     raises: InvalidValue
     """
     if why := NO_ROWS.get(name.removesuffix("_of")):
-        raise InvalidValue("question", f"{name} cannot be swept, because {why}")
+        raise InvalidValue("question", "{name} cannot be swept, because {why}", name=name, why=why)
     if name not in QUESTIONS:
-        raise InvalidValue("question", f"must be one of {', '.join(QUESTIONS)}, got {name!r:.60}")
+        raise InvalidValue("question", "must be one of {known}", got=Given(name), known=", ".join(QUESTIONS))
     names = [parameter.partition(".")[0] for parameter in parameters]
     return max(QUESTIONS[name], key=lambda way: sum(one in way.request.model_fields for one in names))
 

@@ -138,11 +138,12 @@ def begin(folder: Path, spec: Spec) -> None:
     kept = folder / SPEC_FILE
     if not kept.exists():
         if any(not file.name.startswith(shards.TEMPORARY) for file in folder.iterdir()):
-            raise InvalidValue.in_words("output", f"{folder} has files but no sweep: name an empty or a new folder")
+            words = "{folder} has files but no sweep: name an empty or a new folder"
+            raise InvalidValue.in_words("output", words, folder=str(folder))
         shards.write_durably(kept, spec.canonical())
     elif kept.read_bytes() != spec.canonical():
-        words = f"has another sweep, or one of another version, as {SPEC_FILE} says: name a new folder"
-        raise InvalidValue.in_words("output", f"{folder} {words}")
+        words = "{folder} has another sweep, or one of another version, as {file} says: name a new folder"
+        raise InvalidValue.in_words("output", words, folder=str(folder), file=SPEC_FILE)
 
 
 def missing_shards(folder: Path, spec: Spec) -> list[int]:

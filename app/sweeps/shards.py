@@ -162,9 +162,10 @@ def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:
     try:
         opened = pq.ParquetFile(file)
     except (pa.ArrowInvalid, OSError) as error:
-        words = f"{file} is not part of a sweep: remove it and run the sweep again"
-        raise InvalidValue.in_words("folder", words) from error
+        words = "{file} is not part of a sweep: remove it and run the sweep again"
+        raise InvalidValue.in_words("folder", words, file=str(file)) from error
     if (opened.schema_arrow.metadata or {}).get(b"bench-dragon sweep") != spec.name.encode():
         opened.close()
-        raise InvalidValue.in_words("folder", f"{file} belongs to another sweep: remove it and run the sweep again")
+        words = "{file} belongs to another sweep: remove it and run the sweep again"
+        raise InvalidValue.in_words("folder", words, file=str(file))
     return opened

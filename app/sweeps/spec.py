@@ -129,7 +129,7 @@ class Spec(_Told):
         try:
             return cls.of((toml_of if file.suffix.lower() == ".toml" else json_of)(file.read_bytes()))
         except Unreadable as error:
-            raise InvalidValue.in_words("spec", f"{file} {error}") from error
+            raise InvalidValue.in_words("spec", "{file} {why}", file=str(file), why=str(error)) from error
 
     @property
     def asks(self) -> Question:
@@ -178,18 +178,20 @@ class Spec(_Told):
         if bool(self.sampled) is not bool(self.samples):
             words = "needs a range without a count, and there is none: leave samples out, or remove a count"
             if self.sampled:
-                words = f"must say how to sample {', '.join(self.sampled)}: give samples, or give the range a count"
-            raise InvalidValue("samples", words)
+                words = "must say how to sample {ranges}: give samples, or give the range a count"
+            raise InvalidValue("samples", words, ranges=", ".join(self.sampled))
         if len(self.sampled) > SOBOL_DIMENSIONS:
-            raise TooLarge("over", f"must have at most {SOBOL_DIMENSIONS} sampled ranges, got {len(self.sampled)}")
+            rule, got = "must have at most {most} sampled ranges", len(self.sampled)
+            raise TooLarge("over", rule, got=got, most=SOBOL_DIMENSIONS)
         if self.designs > DESIGNS_MAX:
-            raise TooLarge("over", f"must make at most {DESIGNS_MAX} designs, got {self.designs}")
+            raise TooLarge("over", "must make at most {most} designs", got=self.designs, most=DESIGNS_MAX)
         if self.shards > SHARDS_MAX:
             least = -(-self.designs // SHARDS_MAX)
-            raise TooLarge("shard_size", f"must be at least {least} for {self.designs} designs, got {self.shard_size}")
+            rule, size = "must be at least {least} for {designs} designs", self.shard_size
+            raise TooLarge("shard_size", rule, got=size, least=least, designs=self.designs)
         for name in self.over:
             if name in OWN_COLUMNS:
-                raise InvalidValue(f"over.{name}", f"is not a parameter of {self.question}")
+                raise InvalidValue(f"over.{name}", "is not a parameter of {question}", question=self.question)
         self._check_names(question)
 
     def _check_names(self, question: Question) -> None:

@@ -20,6 +20,7 @@ from app.sweeps import shards
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
 from core import InvalidValue
+from core.errors import Given
 from core.shown import counted
 from core.tables import data_frame
 from core.values import Floats
@@ -51,10 +52,11 @@ class Sweep:
             version = told.pop("version")
             spec = Spec.model_validate(told | {"over": dict(told["over"])})
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise InvalidValue.in_words("folder", f"{folder} has no sweep: it holds no valid {SPEC_FILE}") from error
+            words = "{folder} has no sweep: it holds no valid {file}"
+            raise InvalidValue.in_words("folder", words, folder=str(folder), file=SPEC_FILE) from error
         if version != core.__version__:
-            words = f"must be of this version, {core.__version__}, got {version}"
-            raise InvalidValue("folder", f"{folder} {words}: run the sweep into a new folder")
+            rule = "{folder} must be of this version, {ours}: run the sweep into a new folder"
+            raise InvalidValue("folder", rule, got=str(version), folder=str(folder), ours=core.__version__)
         return cls(folder, spec)
 
     @property
@@ -78,10 +80,12 @@ class Sweep:
         """The available rows. raises: InvalidValue if there are none, or no such column"""
         tables = list(self.tables(columns))
         if not tables:
-            raise InvalidValue.in_words("folder", f"{self.folder} has no rows yet: run the sweep")
+            words = "{folder} has no rows yet: run the sweep"
+            raise InvalidValue.in_words("folder", words, folder=str(self.folder))
         for name in columns or ():
             if name not in tables[0].column_names:
-                raise InvalidValue("value", f"must be a column of the sweep, got {name!r:.60}: {self.numbers()}")
+                rule = "must be a column of the sweep: {numbers}"
+                raise InvalidValue("value", rule, got=Given(name), numbers=self.numbers())
         return pa.concat_tables(tables)
 
     def numbers(self) -> str:
@@ -125,8 +129,9 @@ class Sweep:
 
     def _check_complete(self) -> None:
         if self.missing:
-            words = f"lacks {self.missing} of {counted(self.spec.shards, 'shard')}"
-            raise InvalidValue.in_words("folder", f"{self.folder} {words}: run the sweep again")
+            words = "{folder} lacks {missing} of {shards}: run the sweep again"
+            whole = counted(self.spec.shards, "shard")
+            raise InvalidValue.in_words("folder", words, folder=str(self.folder), missing=self.missing, shards=whole)
 
     def _write(self, file: Path, tables: Iterable[pa.Table], begun: Callable[..., Any]) -> None:
         """Write the rows with a writer of pyarrow, begun with a file and the schema. raises: InvalidValue; OSError"""
@@ -156,7 +161,7 @@ def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
     """A column as numbers, NaN where a row has none. raises: InvalidValue for a column without numbers"""
     column = table[name]
     if not is_number(column.type):
-        raise InvalidValue("value", f"must be a column of numbers, got {name}: {sweep.numbers()}")
+        raise InvalidValue("value", "must be a column of numbers: {numbers}", got=name, numbers=sweep.numbers())
     found: Floats = column.cast(pa.float64()).to_numpy().astype(np.float64)
     return found
 

@@ -6,14 +6,14 @@ import csv
 import io
 from collections.abc import Iterable
 from functools import cached_property
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
 from app.wire.question import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from core import Dragon, InvalidValue
-from core.errors import said
+from core.errors import Given, Parameter, Quantity, quantities
 
 # Separators of columns; a table uses the first of these that stands in its first line.
 SEPARATORS = "\t;,"
@@ -25,7 +25,6 @@ WORDS = {
     "overhang": ("overhang", "孔心距板头", "孔距", "端距"),
 }
 SIZES = {"length": LENGTHS, "width": WIDTHS, "overhang": OVERHANGS}
-LONGEST_WORD = 60
 
 
 class BenchTable(NamedTuple):
@@ -41,8 +40,8 @@ class BenchTable(NamedTuple):
         """raises: InvalidValue naming the line"""
         for k, (length, overhang) in enumerate(zip(self.lengths, self.overhangs, strict=True)):
             if not overhang < 0.5 * length:
-                rule = f"overhang must be less than half of the length, {said(length)} m"
-                raise InvalidValue.in_words("dragon.csv", f"line {self.lines[k]}: {rule}, got {said(overhang)} m")
+                told = quantities("m", got=overhang, length=length)
+                raise _refused(self.lines[k], "overhang must be less than half of the length, {length}", **told)
         return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names if any(self.names) else ())
 
 
@@ -59,8 +58,7 @@ def bench_table(text: str) -> BenchTable:
     lines = text.removeprefix("\N{ZERO WIDTH NO-BREAK SPACE}").splitlines()
     first = next((k for k, line in enumerate(lines) if line.strip()), None)
     if first is None:
-        rule = "must be the names of columns: name,length,width,overhang"
-        raise InvalidValue.in_words("dragon.csv", f"line 1: {rule}; got nothing")
+        raise _refused(1, "must be the names of columns name,length,width,overhang", got="nothing")
     separator = next((mark for mark in SEPARATORS if mark in lines[first]), ",")
     columns = _columns(_cells(lines[first], separator), first + 1)
     table = BenchTable([], [], [], [], [])
@@ -71,15 +69,15 @@ def bench_table(text: str) -> BenchTable:
         if len(cells) > len(columns) and not any(cells[len(columns) :]):
             cells = cells[: len(columns)]
         if len(cells) != len(columns):
-            rule = f"must have {len(columns)} entries, as the first line has, got {len(cells)}"
-            raise InvalidValue.in_words("dragon.csv", f"line {number}: {rule}")
+            rule = "must have {count} entries, as the first line has"
+            raise _refused(number, rule, got=len(cells), count=len(columns))
         row = dict(zip(columns, cells, strict=True))
         table.names.append(row.get("name", ""))
         for column, sizes in zip(SIZES, table[1:4], strict=True):
             sizes.append(_size(column, row[column], number, separator != ","))
         table.lines.append(number)
     if not table.lines:
-        raise InvalidValue.in_words("dragon.csv", f"line {first + 2}: must be the first bench, the head; got nothing")
+        raise _refused(first + 2, "must be the first bench, the head", got="nothing")
     return table
 
 
@@ -98,10 +96,10 @@ def _columns(words: Iterable[str], number: int) -> list[str]:
         column = next((column for column, known in WORDS.items() if plain in known), None)
         if column is None or column in found:
             rule = f"a column must be {'named once' if column else 'name, length, width or overhang'}"
-            raise InvalidValue.in_words("dragon.csv", f"line {number}: {rule}, got {word!r:.{LONGEST_WORD}}")
+            raise _refused(number, rule, got=Given(word))
         found.append(column)
     if missing := [column for column in SIZES if column not in found]:
-        raise InvalidValue.in_words("dragon.csv", f"line {number}: the column {missing[0]} is missing")
+        raise _refused(number, "the column {column} is missing", column=missing[0])
     return found
 
 
@@ -110,21 +108,27 @@ def _size(column: str, word: str, number: int, comma: bool) -> float:
     try:
         size = float(word.replace(",", ".") if comma else word)
     except ValueError as error:
-        what = f"{column} must be a number in metres"
-        raise InvalidValue.in_words("dragon.csv", f"line {number}: {what}, got {word!r:.{LONGEST_WORD}}") from error
+        raise _refused(
+            number, "{field} must be a number in metres", got=Given(word), field=Parameter(column)
+        ) from error
     low, high = SIZES[column]
     if low <= size <= high:
         return size
-    hint = f": {said(size)} cm is {said(size / 100)} m" if low <= size / 100 <= high else ""
-    rule = f"{column} must be from {low:g} to {high:g} m, got {said(size)} m{hint}"
-    raise InvalidValue.in_words("dragon.csv", f"line {number}: {rule}")
+    told = quantities("", 6, least=low) | quantities("m", 6, most=high) | quantities("m", got=size, m=size / 100)
+    told |= {"field": Parameter(column), "cm": Quantity(size, "cm")}
+    hint = "lengths are in metres, and {cm} is {m}" if low <= size / 100 <= high else ""
+    raise _refused(number, "{field} must be from {least} to {most}", reason=hint, **told)
+
+
+def _refused(line: int, words: str, **values: Any) -> InvalidValue:
+    return InvalidValue.in_words("dragon.csv", f"line {{line}}: {words}", line=line, **values)
 
 
 def _readable(text: str) -> str:
     try:
         bench_table(text).to_dragon()
     except InvalidValue as error:
-        raise PydanticCustomError("benches", "{words}", {"words": error.message}) from error
+        raise PydanticCustomError("benches", "no table of benches", {"error": error}) from error
     return text
 
 

@@ -18,7 +18,7 @@ CLOCK = re.compile(r"([01]\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?", re.ASCII)
 
 def _clock(text: str | None) -> str | None:
     if text is not None and not CLOCK.fullmatch(text):
-        raise PydanticCustomError("clock", "must be a time of day such as 19:30 or 19:30:15")
+        raise PydanticCustomError("rule", "must be a time of day such as 19:30 or 19:30:15")
     return text
 
 

@@ -30,7 +30,7 @@ from app.wire.question import (
     measure,
 )
 from core import Dance, Dragon, InvalidValue
-from core.errors import said
+from core.errors import Parameter, quantities
 from core.passages import PASSAGES_MAX
 from core.values import Floats
 
@@ -93,8 +93,8 @@ class TimeRange(Wire):
     def instants(self) -> int:
         """Number of instants, computed before any is allocated. raises: InvalidValue when stop lies before start"""
         if self.stop < self.start:
-            rule = f"must not be before {{start}} ({said(self.start)} s), got {said(self.stop)} s"
-            raise InvalidValue("times.stop", rule, start="times.start")
+            told = quantities("s", got=self.stop, begin=self.start) | {"start": Parameter("times.start")}
+            raise InvalidValue("times.stop", "must not be before {start} ({begin})", **told)
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
 
     def within(self, dance: Dance) -> Self:
@@ -260,7 +260,8 @@ class PlacedDance(DanceFields):
 
         if self.venue is None:
             if self.coordinates is not None:
-                words = f"got {self.coordinates} without one: give the venue, or leave coordinates out"
-                raise InvalidValue("coordinates", f"must stand beside a venue, whose unit it gives, {words}")
+                rule = "must stand beside a venue, whose unit it gives, got {unit} without one"
+                advice = ": give the venue, or leave coordinates out"
+                raise InvalidValue("coordinates", rule + advice, unit=self.coordinates)
             return Place()
         return place_of(self.venue, self.coordinates, dragon)

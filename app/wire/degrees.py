@@ -15,7 +15,7 @@ import numpy as np
 from app.wire.geojson import Polygon, Scale, Thing, outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
-from core.errors import checked_number
+from core.errors import Given, Parameter, checked_number, quantities
 from core.values import Floats
 from core.venue import Ring
 
@@ -99,11 +99,11 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     geographic = named is not None and GEOGRAPHIC.search(named) is not None
     if coordinates is None and named is not None and not geographic:
         words = "give longitude and latitude without crs, or true metres with coordinates 'metres' beside the venue"
-        raise InvalidValue("venue.crs", f"must be left out or name CRS84, got {named!r:.60}: {words}")
+        raise InvalidValue("venue.crs", f"must be left out or name CRS84: {words}", got=Given(named))
     if named is not None and coordinates == ("metres" if geographic else "degrees"):
-        meant = "longitude and latitude" if geographic else "something else"
-        rule = f"must agree with venue.crs, which is {named!r:.60}: {meant}"
-        raise InvalidValue("coordinates", f"{rule}, got {coordinates!r}")
+        rule = f"must agree with {{crs}}: {{system}} is {'longitude and latitude' if geographic else 'something else'}"
+        crs, system = Parameter("venue.crs"), Given(named)
+        raise InvalidValue("coordinates", rule, got=Given(coordinates), crs=crs, system=system)
     if coordinates == "degrees" or geographic:
         return _laid_out(_in_degrees(geometry))
     things = read_things(geometry)
@@ -157,7 +157,7 @@ def _in_degrees(geometry: Mapping[str, object]) -> list[Polygon]:
             read_things(geometry, LATITUDE_FIRST)
         except InvalidValue:
             raise error from None
-        raise InvalidValue.in_words(error.field, f"{error.message}: {SWAPPED}") from error
+        raise error.because(SWAPPED) from error
 
 
 def _bounds(rings: list[Ring]) -> tuple[float, float, float, float]:
@@ -175,12 +175,13 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     left, low, right, high = _bounds([polygons[0][1][0]])
     if max(right - left, high - low) >= longest:
         return
-    size = f"{right - left:.6g} by {high - low:.6g}, narrower than a bench of {longest:g} m"
     looks = "longitude and latitude" if in_order else "latitude and longitude in that order"
+    rule = f"must be in metres, got what looks like {looks}, a square of {{width}} by {{height}},"
     change = 'give "coordinates": "degrees" beside the venue (in TOML: coordinates = "degrees") to have it in metres'
     if not in_order:
         change = f"{SWAPPED}; put them in order, and {change}"
-    raise InvalidValue("venue", f"must be in metres, got what looks like {looks}, a square of {size}: {change}")
+    told = quantities("", 6, width=right - left, height=high - low) | quantities("m", 6, length=longest)
+    raise InvalidValue("venue", f"{rule} narrower than a bench of {{length}}: {change}", **told)
 
 
 def _laid_out(polygons: list[Polygon]) -> Place:
@@ -208,8 +209,8 @@ def refuse_wide(field: str, rings: list[Ring], origin: Origin) -> None:
     left, low, right, high = _bounds(rings)
     across = AXIS * math.radians(max((right - left) * math.cos(math.radians(origin.latitude)), high - low))
     if across > ACROSS_MAX:
-        limit, size = ACROSS_MAX / 1000.0, across / 1000.0
-        raise InvalidValue(field, f"must be at most {limit:g} km across, got about {size:.4g} km")
+        told = quantities("km", 6, most=ACROSS_MAX / 1000.0) | quantities("km", 4, across=across / 1000.0)
+        raise InvalidValue(field, "must be at most {most} across, got about {across}", **told)
 
 
 def unwrapped(ring: Ring, near: float) -> Ring:

@@ -7,17 +7,17 @@ from typing import Any
 
 from app.wire.dances import SHAPES
 from app.wire.messages import fault_of, place_of
-from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, plain, problem_of
+from app.wire.problem import ERRORS_MAX, PLACE_MAX, ErrorItem, Problem, item_of, plain, problem_of
 from core import BenchDragonError
 
-# A function that makes an error of the problem from the steps to its place and its words.
-Placing = Callable[[Sequence[Any], str], ErrorItem]
+# A function that makes an error of the problem from the steps to its place and the error itself.
+Placing = Callable[[Sequence[Any], BenchDragonError], ErrorItem]
 
 
 def refused(error: BenchDragonError, item: Placing) -> Problem:
     """A value that core, or a limit of the service, refuses."""
     place = tuple(int(part) if part.isdigit() else part for part in error.field.split("."))
-    return problem_of(422, error.code, error.message, [item(place, error.message)])
+    return problem_of(422, error.code, error, [item(place, error)])
 
 
 def unfit(found: Sequence[Any], asked: Any, item: Placing) -> Problem:
@@ -25,19 +25,18 @@ def unfit(found: Sequence[Any], asked: Any, item: Placing) -> Problem:
 
     found: pydantic's errors, the first step to each is query or body; asked: type of the request
     """
-    items = [item(place_of(one)[1:], fault_of(one, asked).message) for one in found[:ERRORS_MAX]]
+    faults = [(place_of(one)[1:], fault_of(one, asked)) for one in found[:ERRORS_MAX]]
     more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-    return problem_of(422, "invalid-value", items[0].detail + more, items)
+    return problem_of(422, "invalid-value", faults[0][1], [item(*fault) for fault in faults], more)
 
 
-def in_query(place: Sequence[Any], detail: str) -> ErrorItem:
-    name = next((part for part in reversed(place) if isinstance(part, str)), "")
-    return ErrorItem(name=name, detail=detail)
+def in_query(place: Sequence[Any], error: BenchDragonError) -> ErrorItem:
+    return item_of(error, name=next((part for part in reversed(place) if isinstance(part, str)), ""))
 
 
 def in_body(body: Any, before: str = "") -> Placing:
     """Places in a body. body: JSON of the request; before: pointer to it in the object that holds it"""
-    return lambda place, detail: ErrorItem(pointer=before + pointer(place, body), detail=detail)
+    return lambda place, error: item_of(error, pointer=before + pointer(place, body))
 
 
 def pointer(place: Sequence[Any], body: Any) -> str:

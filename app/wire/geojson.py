@@ -15,7 +15,8 @@ import numpy as np
 
 from app.wire.question import shown
 from core import Area, Envelope, InvalidValue, Venue
-from core.errors import COORDINATE_MAX, checked_name, checked_number
+from core.errors import COORDINATE_MAX, Given, checked_number
+from core.names import checked_name
 from core.shapes.engines import thickened
 from core.values import Point
 from core.venue import Ring, refuse_many_edges
@@ -90,9 +91,9 @@ def geometry_of(found: Envelope) -> dict[str, object]:
 def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     """Every polygon of a GeoJSON object, in its order."""
     if depth > DEPTH_MAX:
-        raise InvalidValue("venue", f"must not nest objects deeper than {DEPTH_MAX}")
+        raise InvalidValue("venue", "must not nest objects deeper than {most}", most=DEPTH_MAX)
     if not isinstance(geometry, Mapping):
-        raise InvalidValue(field, f"must be a GeoJSON object, got {shown(geometry)}")
+        raise InvalidValue(field, "must be a GeoJSON object", got=Given(geometry, shown(geometry)))
     kind = geometry.get("type")
     if kind == "Polygon":
         return [(None, f"{field}.coordinates", geometry.get("coordinates"), None)]
@@ -113,7 +114,7 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
     members = {"FeatureCollection": "features", "GeometryCollection": "geometries"}.get(str(kind))
     if members is None:
         rule = "must be Polygon, Feature, FeatureCollection or GeometryCollection"
-        raise InvalidValue(f"{field}.type", f"{rule}, got {kind!r}")
+        raise InvalidValue(f"{field}.type", rule, got=Given(kind))
     items = _listed(f"{field}.{members}", geometry.get(members))
     each = (_polygons(f"{field}.{members}.{k}", item, depth + 1) for k, item in enumerate(items))
     return [found for polygons in each for found in polygons]
@@ -130,9 +131,9 @@ def _rings(field: str, value: object, scale: Scale, radius: float | None) -> tup
     if radius is None:
         return read
     if scale != METRES:
-        raise InvalidValue(field, f"must be in metres, because its radius is, or be a Polygon: got {scale[0]}")
+        raise InvalidValue(field, "must be in metres, because its radius is, or be a Polygon", got=scale[0])
     if len(read[0]) < 2:
-        raise InvalidValue(field, f"must be at least 2 points, got {len(read[0])}")
+        raise InvalidValue(field, "must be at least 2 points", got=len(read[0]))
     return read
 
 
@@ -140,8 +141,9 @@ def _place(field: str, value: object, scale: Scale) -> Point:
     unit, *limits = scale
     numbers = _listed(field, value)
     if len(numbers) not in (2, 3):
-        words = "[x, y] in metres" if scale == METRES else f"[longitude, latitude] in {unit}"
-        raise InvalidValue(field, f"must be a position {words}, got {len(numbers)} numbers")
+        axes, unit = ("x, y", "metres") if scale == METRES else ("longitude, latitude", unit)
+        rule = f"must be a position [{axes}] in {unit}, got {{count}} numbers"
+        raise InvalidValue(field, rule, count=len(numbers))
     x, y = (checked_number(f"{field}.{k}", numbers[k], unit, -limits[k], limits[k]) for k in range(2))
     return x, y
 
@@ -149,7 +151,7 @@ def _place(field: str, value: object, scale: Scale) -> Point:
 def _listed(field: str, value: object, entry: str = "") -> list[object]:
     """The value if it is a list; if the entry has a name, the list must not be empty."""
     if not isinstance(value, list):
-        raise InvalidValue(field, f"must be a list, got {shown(value)}")
+        raise InvalidValue(field, "must be a list", got=Given(value, shown(value)))
     if entry and not value:
-        raise InvalidValue(field, f"must hold at least one {entry}")
+        raise InvalidValue(field, "must hold at least one {entry}", entry=entry)
     return value

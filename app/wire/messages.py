@@ -8,7 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import takewhile
-from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin
+from typing import Annotated, Any, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, Tag, ValidationError
 
@@ -16,7 +16,7 @@ from app.wire.dances import AXIS, SHAPES
 from app.wire.paths import KINDS
 from app.wire.question import Wire, shown, unit_of
 from core import InvalidValue
-from core.errors import spoken
+from core.errors import Given, Parameter, Quantity, Value, spoken
 
 Model = TypeVar("Model", bound=BaseModel)
 # An object, in the words of JSON.
@@ -38,9 +38,12 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
         first = error.errors()[0]
         steps = [step for step in place_of(first) if step not in SHAPES]
         fault, field = fault_of({**first, "loc": ("request", *first["loc"])}, model, thing), ".".join(map(str, steps))
-        named = next((step for step in reversed(steps) if isinstance(step, str)), fault.name) == fault.name
-        subject = fault.subject if len(steps) < 2 else spoken(field) if named else f"{spoken(field)}: {fault.subject}"
-        raise InvalidValue.in_words(field, subject + fault.rule) from error
+        subject: dict[str, Value] = {}
+        if len(steps) > 1:
+            named = next((step for step in reversed(steps) if isinstance(step, str)), fault.field) == fault.field
+            word = "table" if "table" in fault.values else "field"
+            subject = {word: Parameter(field) if named else f"{spoken(field)}: {fault.values[word]}"}
+        raise fault.renamed(lambda name: field if name == fault.field else name, **subject) from error
 
 
 def place_of(error: Mapping[str, Any]) -> tuple[str | int, ...]:
@@ -49,93 +52,90 @@ def place_of(error: Mapping[str, Any]) -> tuple[str | int, ...]:
     return (*place, "kind") if error["type"].startswith("union_tag") else place
 
 
-class Fault(NamedTuple):
-    """One wrong field in words.
-
-    name: of the field; subject: the name with the indices at its end, or in quotes if it is unknown; rule: the rest of
-    the sentence: the limit, the unit, the value, and what to change
-    """
-
-    name: str
-    subject: str
-    rule: str
-
-    @property
-    def message(self) -> str:
-        return self.subject + self.rule
-
-
-def fault_of(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> Fault:
-    """The fault behind one of pydantic's errors.
+def fault_of(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> InvalidValue:
+    """The fault behind one of pydantic's errors, with the last name in its place as the field.
 
     asked: type of the request; thing: name of an object in the format of its values
     """
     units, place = known_units(), place_of(error)
     names = [part for part in place[1:] if isinstance(part, str)]
+    if error["type"] == "extra_forbidden":
+        rule, near = _stranger(names[-1], units, place, asked)
+        return InvalidValue(names[-1], rule, field=Given(names[-1], shown(names[-1])), **near)
     name = _name(names, units, place, asked)
+    if isinstance(inner := error.get("ctx", {}).get("error"), InvalidValue):
+        told = {**inner.values, "table": Parameter(name)}
+        return InvalidValue.in_words(name, f"{{table}}: {inner.template}", got=inner.got, reason=inner.reason, **told)
     told_apart = next((part for part in reversed(names) if part in KINDS), "")
     unit = "" if AXIS in names else units.get(f"{told_apart}.{name}", units.get(name, ""))
-    if error["type"] == "extra_forbidden":
-        return Fault(names[-1], shown(names[-1]), _stranger(names[-1], units, place, asked))
     indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
-    subject = name + "".join(f"[{index}]" for index in reversed(indices))
+    subject = ".".join(map(str, [name, *reversed(indices)]))
     if AXIS in names:
         thing += " or a list of values"
     elif subject == "times":
         thing += ", or a list of instants [s]"
-    return Fault(name, subject, _rule(error, unit, thing))
+    rule, values = _rule(error, unit, thing)
+    return InvalidValue(name, rule, field=Parameter(subject), **values)
 
 
-def _rule(error: Mapping[str, Any], unit: str, thing: str) -> str:
-    """The rest of the sentence after the name of the wrong field."""
+def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[str, Value]]:
+    """The rule that the wrong field breaks, and its values."""
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     number = _number(value, text=error["loc"][0] == "query")
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
-    got = f"got {words}" + (f" {unit}" if unit and number is not None else "")
-    limit = next((f"{limits[key]:.15g} {unit}".rstrip() for key in ("ge", "gt", "le", "lt") if key in limits), "")
-    of_unit = f" [{unit}]" if unit else ""
+    got: Value = Given(value, words) if number is None else Quantity(number, unit, shown=words)
+    told: dict[str, Value] = {"got": got, "unit": unit}
+    bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
+    told |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}
+    of_unit = " [{unit}]" if unit else ""
     match kind:
         case "greater_than_equal":
-            return f" must be at least {limit}, {got}"
+            return "must be at least {least}", told
         case "greater_than":
-            return f" must be more than {limit}, {got}"
+            return "must be more than {least}", told
         case "less_than_equal":
-            return f" must be at most {limit}, {got}{_unit_hint(number, limits['le'], unit)}"
+            why, hint = _unit_hint(number, limits["le"], unit)
+            return f"must be at most {{most}}{why}", told | hint
         case "finite_number":
-            return f" must be a finite number{of_unit}, {got}"
+            return f"must be a finite number{of_unit}", told
         case "float_type" if isinstance(value, int) and not isinstance(value, bool):
-            return f" must be a finite number{of_unit}, {got}"
+            return f"must be a finite number{of_unit}", told
         case "float_type" | "float_parsing":
-            return f" must be a number{of_unit}, {got}{_centimetres(value) if unit == 'm' else ''}"
+            why, hint = _centimetres(value) if unit == "m" else ("", {})
+            return f"must be a number{of_unit}{why}", told | hint
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
-            return f" must be a whole number, {got}"
+            return "must be a whole number", told
         case "string_type":
-            return f" must be a string, {got}"
+            return "must be a string", told
         case "string_pattern_mismatch" if unit:
-            return f" must be a number{of_unit} in digits, such as 0.4503, {got}"
+            return "must be a number [{unit}] in digits, such as 0.4503", told
         case "missing" | "union_tag_not_found":
-            return " is missing"
+            return "is missing", {}
         case "model_type" | "model_attributes_type" | "dict_type":
-            return f" must be {thing}, {got}"
+            return "must be {thing}", told | {"thing": thing}
         case "list_type":
-            return f" must be a list{f' of numbers [{unit}]' if unit else ''}, got {words}"
+            told["got"] = Given(value, words)
+            return "must be a list of numbers [{unit}]" if unit else "must be a list", told
         case "too_short":
             least, given = limits["min_length"], limits["actual_length"]
-            return f" must have at least {least} {'entry' if least == 1 else 'entries'}, got {given or 'none'}"
+            rule = f"must have at least {{least}} {'entry' if least == 1 else 'entries'}"
+            return rule, {"least": least, "got": given or "none"}
         case "too_long":
-            return f" must have at most {limits['max_length']} entries, got more"
+            return "must have at most {most} entries", {"most": limits["max_length"], "got": "more"}
         case "union_tag_invalid":
             kind = value.get("kind") if isinstance(value, dict) else limits["tag"]
-            return f" must be one of {_quoted(limits['expected_tags'])}, got {shown(kind)}"
+            told = {"allowed": _quoted(limits["expected_tags"]), "got": Given(kind, shown(kind))}
+            return "must be one of {allowed}", told
         case "too_deep":
-            return f" must nest objects and lists at most {limits['most']} deep"
+            return "must nest objects and lists at most {most} deep", {"most": limits["most"]}
         case "literal_error" | "enum":
-            return f" must be {_quoted(limits['expected'])}, {got}"
-        case "benches":
-            return f": {limits['words']}"
+            return "must be {allowed}", told | {"allowed": _quoted(limits["expected"])}
         case "too_many_names":
-            return f" must have at most {limits['most']} names, got {limits['given']}: see /docs for all names"
-    return f": {error['msg'][:1].lower()}{error['msg'][1:]}, {got}"
+            told = {"most": limits["most"], "got": limits["given"]}
+            return "must have at most {most} names: see /docs for all names", told
+        case "rule":
+            return error["msg"], told
+    return "is not valid: {why}", told | {"why": f"{error['msg'][:1].lower()}{error['msg'][1:]}"}
 
 
 def _quoted(words: str) -> str:
@@ -143,17 +143,20 @@ def _quoted(words: str) -> str:
     return words.replace("'", '"')
 
 
-def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:
-    """The rest of the sentence after a name that is unknown at its place."""
+def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: Any) -> tuple[str, dict[str, Value]]:
+    """The rule for a name that is unknown at its place, and its values."""
     if homes := _homes(name, asked, place[1:-1]):
-        return f" is unknown here: it belongs in {' or '.join(homes)}"
+        return "is unknown here: it belongs in {home}", {"home": " or ".join(homes)}
     if place[-2] in KINDS:
         kinds = sorted(kind for kind in KINDS if name in names_at(asked, (*place[1:-2], kind)))
         if kinds:
-            return f" is unknown in the kind {shown(place[-2])}: it belongs to {' or '.join(map(shown, kinds))}"
+            told: dict[str, Value] = {"kind": shown(place[-2]), "home": " or ".join(map(shown, kinds))}
+            return "is unknown in the kind {kind}: it belongs to {home}", told
     alike = ALIKE if name in units else ALIKE_SLIP
     near = difflib.get_close_matches(name, names_at(asked, place[1:-1]), n=1, cutoff=alike)
-    return " is unknown here: " + (f"did you mean {near[0]}?" if near else "leave it out")
+    if near:
+        return "is unknown here: did you mean {near}?", {"near": near[0]}
+    return "is unknown here: leave it out", {}
 
 
 def _name(names: Sequence[str], units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:
@@ -226,17 +229,18 @@ def _number(value: Any, *, text: bool) -> float | None:
     return number if math.isfinite(number) else None
 
 
-def _centimetres(value: Any) -> str:
-    """Hint for text such as 55cm in place of a length."""
+def _centimetres(value: Any) -> tuple[str, dict[str, Value]]:
+    """Hint for text such as 55cm in place of a length, and its values."""
     found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*cm\s*", value) if isinstance(value, str) else None
-    return _in_metres(float(found[1])) if found else ""
+    return _in_metres(float(found[1])) if found else ("", {})
 
 
-def _in_metres(centimetres: float) -> str:
-    return f": lengths are in metres, and {centimetres:g} cm is {centimetres / 100:g} m"
+def _in_metres(centimetres: float) -> tuple[str, dict[str, Value]]:
+    told = {"cm": Quantity(centimetres, "cm", 6), "m": Quantity(centimetres / 100, "m", 6)}
+    return ": lengths are in metres, and {cm} is {m}", dict(told)
 
 
-def _unit_hint(value: float | None, limit: float, unit: str) -> str:
+def _unit_hint(value: float | None, limit: float, unit: str) -> tuple[str, dict[str, Value]]:
     if unit == "m" and value is not None and value / 100 <= limit:
         return _in_metres(value)
-    return f": {IN_WORDS[unit]}" if unit in IN_WORDS else ""
+    return f": {IN_WORDS[unit]}" if unit in IN_WORDS else "", {}

@@ -2,54 +2,122 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from http import HTTPStatus
 from itertools import islice
+from typing import Any
 
 from pydantic import BaseModel, Field
+
+from core.errors import BenchDragonError, Given, Parameter, Quantity, Value
 
 PROBLEM_TYPE = "application/problem+json"
 # Errors beyond this number in one request are counted, not listed.
 ERRORS_MAX = 20
 # Longest detail and place [characters]; longer ones are cut, so that a problem has less than 20 kB.
 DETAIL_MAX, PLACE_MAX = 300, 200
+# Largest number that every reader of JSON takes exactly, if it is whole; a larger one stands in the text alone.
+NUMBER_MAX = 2**53
 # Titles by RFC 9110, which newer Pythons know by these names and older ones do not.
 TITLES = {413: "Content Too Large", 414: "URI Too Long", 422: "Unprocessable Content"}
 
 
-class ErrorItem(BaseModel):
-    """One thing that is wrong."""
+class Part(BaseModel):
+    """A value in a sentence."""
+
+    text: str = Field(description="As it stands in the sentence")
+    value: int | float | str | None = Field(None, description="The number, or the value that was given")
+    unit: str | None = Field(None, description="Unit of the number")
+    parameter: str | None = Field(None, description="Dotted name of the parameter, if the text names one")
+
+
+class Sentence(BaseModel):
+    """A sentence in English, and its parts for programs that word it themselves: template, got and reason."""
+
+    detail: str = Field(description="What is wrong and what to change")
+    template: str = Field(description="What must hold; {word} stands for a value, {field} for the wrong field")
+    got: Part | None = Field(None, description="What was given")
+    reason: str | None = Field(None, description="Why it must hold, or what to change; with words as in the template")
+    values: dict[str, Part] = Field(description="The values of the words of the template and of the reason")
+
+
+class Place(BaseModel):
+    """Where an error is."""
 
     pointer: str | None = Field(None, description="JSON pointer into the body")
     name: str | None = Field(None, description="Name of the query parameter or header")
-    detail: str = Field(description="What is wrong and what to change")
 
 
-class Problem(BaseModel):
-    """RFC 9457 problem details."""
+class ErrorItem(Sentence, Place):
+    """One thing that is wrong."""
+
+
+class Kind(BaseModel):
+    """Kind of a problem."""
 
     type: str = Field(description="Stable identifier of the kind of problem")
     title: str = Field(description="The status in words")
     status: int = Field(description="HTTP status")
-    detail: str = Field(description="What is wrong and what to change")
+
+
+class Problem(Sentence, Kind):
+    """RFC 9457 problem details; the parts of the sentence are those of the first error."""
+
     errors: list[ErrorItem] = Field(description="Each thing that is wrong, with its place")
 
     def to_json(self) -> bytes:
         return self.model_dump_json(exclude_none=True).encode()
 
 
-def problem_of(status: int, code: str, detail: str, errors: Iterable[ErrorItem] = ()) -> Problem:
-    """The problem of a request that failed. code: kind of problem, such as invalid-value"""
-    return Problem(
-        type=f"urn:problem-type:bench-dragon:{code}",
-        title=title(status),
-        status=status,
-        detail=plain(detail, 2 * DETAIL_MAX),
-        errors=[
-            ErrorItem(pointer=one.pointer, name=one.name and plain(one.name, PLACE_MAX), detail=plain(one.detail))
-            for one in islice(errors, ERRORS_MAX)
-        ],
-    )
+def problem_of(
+    status: int,
+    code: str,
+    error: BenchDragonError | str,
+    errors: Iterable[ErrorItem] = (),
+    more: Value = "",
+    **values: Value,
+) -> Problem:
+    """The problem of a request that failed.
+
+    code: kind of problem, such as invalid-value; error: what is wrong, or the template of a sentence with these values;
+    more: stands after its message
+    """
+    error = BenchDragonError.in_words("", error, **values) if isinstance(error, str) else error
+    told = sentence_of(error)
+    told["detail"] = plain(f"{error}{more}", 2 * DETAIL_MAX)
+    kind, listed = f"urn:problem-type:bench-dragon:{code}", list(islice(errors, ERRORS_MAX))
+    return Problem(type=kind, title=title(status), status=status, errors=listed, **told)
+
+
+def item_of(error: BenchDragonError, *, pointer: str | None = None, name: str | None = None) -> ErrorItem:
+    """An error at its place."""
+    return ErrorItem(pointer=pointer, name=name and plain(name, PLACE_MAX), **sentence_of(error))
+
+
+def sentence_of(error: BenchDragonError) -> dict[str, Any]:
+    """The fields of a Sentence."""
+    return {
+        "detail": plain(error.message),
+        "template": plain(error.template),
+        "got": None if error.got is None else _part(error.got),
+        "reason": plain(error.reason) or None,
+        "values": {word: _part(value) for word, value in error.values.items()},
+    }
+
+
+def _part(value: Value) -> Part:
+    if isinstance(value, Parameter):
+        return Part(text=plain(str(value)), parameter=plain(value.name, PLACE_MAX))
+    if isinstance(value, Quantity):
+        number = float(f"{value.value:.{value.digits}g}")
+        return Part(text=str(value), value=number if math.isfinite(number) else None, unit=value.unit or None)
+    inner = value.value if isinstance(value, Given) else None if isinstance(value, str) else value
+    if isinstance(inner, str):
+        inner = plain(inner)
+    elif isinstance(inner, bool) or not (isinstance(inner, int | float) and abs(inner) <= NUMBER_MAX):
+        inner = None
+    return Part(text=plain(str(value)), value=inner)
 
 
 def plain(text: str, longest: int = DETAIL_MAX) -> str:

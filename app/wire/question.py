@@ -20,8 +20,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 
 from app.settings import Settings
-from core import Budget, Dance, Dragon, InvalidValue, Spiral, Stray, TooLarge
-from core.dragon import BENCHES_MAX
+from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
+from core.dragon import BENCHES_MAX, wider_pin
 from core.errors import said
 
 JSON = "application/json"
@@ -96,7 +96,7 @@ CrossCheck = Annotated[
 def check_limit(field: str, what: str, count: int, limit: int, advice: str) -> None:
     """raises: TooLarge, at the field, when the count exceeds the limit; what: the things counted"""
     if count > limit:
-        raise TooLarge.in_words(field, f"{what} must be at most {limit} here, got {count}: {advice}")
+        raise TooLarge.in_words(field, f"{what} must be at most {{most}} here", got=count, reason=advice, most=limit)
 
 
 class Wire(BaseModel):
@@ -211,8 +211,7 @@ class Strays(Wire):
     def to_stray(self) -> float:
         """The stray in all, 0.0 for none [m]. raises: InvalidValue for a pin wider than its hole"""
         if self.pin > self.hole:
-            rule = f"must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
-            raise InvalidValue("pin", rule, hole="hole")
+            raise wider_pin("pin", "hole", self)
         return Stray(self.stray, self.hole, self.pin).total if self.strays else 0.0
 
 

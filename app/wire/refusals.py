@@ -17,7 +17,7 @@ from app.wire.dances import TimeSteps
 from app.wire.paths import TurnFields
 from core import BenchDragonError, Dragon
 from core.dragon import BENCHES_MAX
-from core.errors import said
+from core.errors import Quantity, quantities
 from core.paths.following import follows, tightest_bend
 
 # A request without an object of this name holds the object's fields itself.
@@ -43,7 +43,9 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
         error = _of_instants(error, request, int(found[1] or 0))
     *outer, last = error.field.split(".")
     if last == "turning_radius":
-        error = error.named(".".join([*outer, "turning_diameter"]), None if error.got is None else 2.0 * error.got)
+        got = error.got
+        got = Quantity(2.0 * got.value, got.unit) if isinstance(got, Quantity) else got
+        error = error.named(".".join([*outer, "turning_diameter"]), got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
     # A range of times may exist beside the name `times`, as in the options of the command.
@@ -59,11 +61,11 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
     times = getattr(request, "times", None)
     if times is None:
         times = request if "stop" in names else TimeSteps()
-    if not hasattr(times, "stop") or error.got is None:
+    if not hasattr(times, "stop") or not isinstance(error.got, Quantity):
         return error
     stop_alone = times.model_fields_set & {"start", "stop"} == {"stop"}
     end = "stop" if index or stop_alone else "start"
-    return error.named(f"times.{end}", getattr(times, end))
+    return error.named(f"times.{end}", Quantity(getattr(times, end), "s"))
 
 
 def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
@@ -75,13 +77,11 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
     if follows(dragon, path):
         return error
     name = next((name for name in MEND_A_TURN if _mends(name, fields, dragon)), "turning_diameter")
-    rule = f"must be larger than {said(getattr(fields, name))} m"
-    if name == "ratio":
-        rule = f"must be nearer to 1 than {said(fields.ratio)}"
+    rule, unit = ("must be nearer to 1 than {given}", "") if name == "ratio" else ("must be larger than {given}", "m")
     (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
-    why = f"the turn bends to a radius of {bend:.4g} m, and bench {bench} follows none below {tightest:.4g} m"
-    place = f"path.{name}" if body else name
-    return type(error)(place, f"{rule}: {why}")
+    why = "the turn bends to a radius of {bend}, and bench {bench} follows none below {least}"
+    told = quantities(unit, given=getattr(fields, name)) | quantities("m", 4, bend=bend, least=tightest)
+    return type(error)(f"path.{name}" if body else name, f"{rule}: {why}", bench=bench, **told)
 
 
 def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:

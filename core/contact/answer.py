@@ -116,7 +116,7 @@ class FirstContact(Shown):
         outlines = bench_outlines(dance.dragon, handles)
         if enlarged:
             if benches is None or self.point is None:
-                raise InvalidValue("enlarged", "must be False where no two benches meet, got True")
+                raise InvalidValue("enlarged", "must be False where no two benches meet", got="True")
             width = float(dance.dragon.widths[list(benches)].max())
             centre = dance.path.frame.centre
             half = max(plots.ENLARGED_WIDTHS * width, plots.ENLARGED_MARGINS * self.margin)

@@ -132,7 +132,7 @@ def clearance_profile(dance: Dance, times: ArrayLike, *, budget: Budget | None =
     """
     dragon, clock = dance.dragon, dance.clock
     if dragon.benches < 3:
-        raise InvalidValue("dragon.benches", f"must be at least 3, so that two share no handle, got {dragon.benches}")
+        raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=dragon.benches)
     time = dance.times(times)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)

@@ -144,8 +144,8 @@ def pitch_check(
     if found.benches is None or found.head_radius is None:
         return None
     if found.benches[1] >= dragon.benches:
-        rule = f"must be that of the search, with bench {found.benches[1]}"
-        raise InvalidValue("dragon", f"{rule}, got one of {dragon.benches} benches")
+        rule, got = "must be that of the search, with bench {bench}", f"one of {dragon.benches} benches"
+        raise InvalidValue("dragon", rule, got=got, bench=found.benches[1])
     poses = []
     for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
         # On a spiral that starts at this radius, the head is there at time 0.

@@ -10,14 +10,13 @@ import numpy as np
 
 from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, Search
-from core.dance import end_theta
 from core.design.pitch_bands import BORDER_WIDTH
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import SIZE_MAX, InvalidValue, asked_of, checked_number, checked_size, said
+from core.errors import SIZE_MAX, InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities
 from core.kernels import Budget, Ended, Halted
-from core.paths.spiral import START_TURNS_MAX, Spiral
+from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
 from core.sampling import bisected
 from core.shown import Shown, worded
 
@@ -139,8 +138,9 @@ class _PitchSearch:
                 state, found = self.ways.march(SIZE_MAX)
                 if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
                     raise _too_near(self.search, found.benches[0], self.margin)
-                rule = f"must be larger for this dragon, which reaches such a circle at no pitch up to {SIZE_MAX:g} m"
-                raise InvalidValue.of("turning_radius", rule, self.radius, "m")
+                rule = "must be larger for this dragon, which reaches such a circle at no pitch up to {most}"
+                got, most = Quantity(self.radius, "m"), Quantity(SIZE_MAX, "m", 6)
+                raise InvalidValue("turning_radius", rule, got=got, most=most)
             return SIZE_MAX, SIZE_MAX
         _, growth = bisected(clears, 0.5 * lowest, growth, relative=TOP_WIDTH, middle=lambda a, b: math.sqrt(a * b))
         for factor in RANGES:
@@ -292,8 +292,9 @@ def minimum_pitch(
     radius = checked_size("turning_radius", turning_radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
     if radius > SIZE_MAX * turns:
-        rule = f"must be at least {radius / SIZE_MAX:g} turns to start outside the circle at a pitch of {SIZE_MAX:g} m"
-        raise InvalidValue.of("start_turns", rule, turns, "turns")
+        rule = "must be at least {least} to start outside the circle at a pitch of {pitch}"
+        limits = quantities("turns", 6, least=radius / SIZE_MAX) | quantities("m", 6, pitch=SIZE_MAX)
+        raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), **limits)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     ways = Ways(dragon, radius, turns, margin, checked_stray(stray, dragon), budget)
     straight = Straight(ways.search.dragon)
@@ -312,9 +313,10 @@ def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
         return too_near(search.nominal, straight.at, margin)
     if not search.stray:
         return too_near(search.dragon, a, margin)
-    near = f"come within {said(margin)} m" if margin else "touch"
-    why = f"on a straight line, and so on every wide enough spiral, benches {a} and {a + 2} may then {near}"
-    return InvalidValue("stray", f"must be smaller, got {said(search.stray)} m: {why}")
+    near = "come within {margin}" if margin else "touch"
+    why = f"on a straight line, and so on every wide enough spiral, benches {{a}} and {{b}} may then {near}"
+    told = quantities("m", got=search.stray, margin=margin)
+    return InvalidValue("stray", f"must be smaller: {why}", a=a, b=a + 2, **told)
 
 
 def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:

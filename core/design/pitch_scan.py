@@ -14,8 +14,19 @@ from core.contact.fold import clear_to_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
-from core.dragon import Dragon
-from core.errors import SIZE_MIN, InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, too_much
+from core.dragon import Dragon, told_chords
+from core.errors import (
+    SIZE_MIN,
+    Given,
+    InvalidValue,
+    Quantity,
+    TooMuchWork,
+    asked_of,
+    checked_number,
+    checked_size,
+    quantities,
+    too_much,
+)
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import Spiral
 from core.shown import WithArrays, counted, extent
@@ -156,7 +167,7 @@ def pitch_scan(
             stops.budget.afford()
             return stops.radius(Spiral(pitch, start_turns))
         except Halted as halted:
-            raise too_much(stops.budget, "pitches", _too_much(dragon, pitch), len(pitches), "") from halted
+            raise _too_much(stops.budget, dragon, pitches, pitch) from halted
 
     known: dict[float, float | None] = {}
     jumps: list[float] = []
@@ -178,11 +189,11 @@ def pitch_scan(
     return _scan(known, jumps)
 
 
-def _too_much(dragon: Dragon, pitch: float) -> str:
-    """Advice when the budget ends before the scan does; pitch: the next one [m]."""
-    missing = f"the first contacts from a pitch of {pitch:g} m on were not found {{then}}"
-    chords = f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
-    return f"must be fewer, or benches: {missing}; the {dragon.benches} chords are {chords}"
+def _too_much(budget: Budget, dragon: Dragon, pitches: Floats, pitch: float) -> TooMuchWork:
+    """The error if the budget ends before the scan does; pitch: the next one [m]."""
+    missing = "the first contacts from a pitch of {pitch} on were not found {then}"
+    rule = f"must be fewer, or benches: {missing}; the {{benches}} chords are {{shortest}} to {{longest}} long"
+    return too_much(budget, "pitches", rule, len(pitches), pitch=Quantity(pitch, "m", 6), **told_chords(dragon))
 
 
 def _checked_pitches(pitches: object) -> Floats:
@@ -192,12 +203,12 @@ def _checked_pitches(pitches: object) -> Floats:
     except ValueError as error:
         raise InvalidValue("pitches", words) from error
     if column.dtype.kind not in "iuf" or column.ndim != 1:
-        raise InvalidValue("pitches", f"{words}, got {pitches!r:.60}")
+        raise InvalidValue("pitches", words, got=Given(pitches))
     wrong = np.flatnonzero(~(np.diff(column) >= 0.0))
     if wrong.size:
         k = int(wrong[0]) + 1
-        rule = f"must be at least {column[k - 1]:g} m, the one before it"
-        raise InvalidValue.of(f"pitches.{k}", rule, float(column[k]), "m")
+        rule, got = "must be at least {before}, the one before it", Quantity(float(column[k]), "m")
+        raise InvalidValue(f"pitches.{k}", rule, got=got, before=Quantity(float(column[k - 1]), "m", 6))
     return np.array([checked_size(f"pitches.{k}", float(pitch)) for k, pitch in enumerate(column)])
 
 
@@ -233,8 +244,8 @@ def scan_near_minimum(
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, budget=budget)
     if SCAN_FROM * least.pitch < SIZE_MIN:
-        rule = f"must allow pitches of {SIZE_MIN / SCAN_FROM:g} m and more"
-        raise InvalidValue.of("turning_radius", rule, turning_radius, "m")
+        told = quantities("m", 6, pitch=SIZE_MIN / SCAN_FROM) | quantities("m", got=turning_radius)
+        raise InvalidValue("turning_radius", "must allow pitches of {pitch} and more", **told)
     pitches = np.sort(np.append(pitches_near(least, samples), least.pitch_bracket))
     terms = {"start_turns": start_turns, "margin": margin}
     try:

@@ -25,8 +25,17 @@ from core.contact.coils import STRETCH, TwoCoils, beyond, free_arc
 from core.contact.first_contact import contact_within
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
-from core.dragon import Dragon, Stray, checked_stray
-from core.errors import InvalidValue, TooMuchWork, asked_of, checked_number, checked_size, said, too_much
+from core.dragon import Dragon, Stray, checked_stray, told_chords
+from core.errors import (
+    InvalidValue,
+    Quantity,
+    TooMuchWork,
+    asked_of,
+    checked_number,
+    checked_size,
+    quantities,
+    too_much,
+)
 from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.spiral import Spiral
@@ -133,7 +142,7 @@ def shortest_turn(
     border, floor = _follow_border(dragon, turn_at, radius)
     evaluations, limit = 1, decided(radius, None)
     if limit is not None:
-        raise InvalidValue.of("turning_radius", _refusal(limit, *kept), radius, "m")
+        raise _refusal(radius, limit, *kept)
     feasible = infeasible = radius
     while limit is None and infeasible > floor:
         feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
@@ -166,9 +175,10 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
     raises: InvalidValue (turning_radius) if a chord cannot follow even at the circle
     """
     if not follows(dragon, turn_at(radius)):
-        bend = f"a turn that begins on the circle bends to a radius of {1.0 / turn_at(radius).sharpest[0]:.4g} m"
-        rule = f"must be larger: {bend}, too tight for the longest chord ({float(dragon.chords.max()):g} m)"
-        raise InvalidValue.of("turning_radius", rule, radius, "m")
+        bend = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
+        sharpest, chord = 1.0 / turn_at(radius).sharpest[0], float(dragon.chords.max())
+        told = quantities("m", got=radius) | quantities("m", 4, bend=sharpest) | quantities("m", 6, chord=chord)
+        raise InvalidValue("turning_radius", f"must be larger: {bend}", **told)
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
     if follows(dragon, turn_at(low)):
         return None, low
@@ -227,20 +237,21 @@ def coils_of(danced: Turn) -> TwoCoils:
 
 def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
     """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
-    rule = f"must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry:g} m were not all"
-    chords = f"{float(dragon.chords.min()):g} to {float(dragon.chords.max()):g} m long"
-    rule += f" decided {{then}}; the {dragon.benches} chords are {chords}"
-    return too_much(budget, "turning_radius", rule, radius, "m")
+    rule = "must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry} were not all"
+    rule += " decided {then}; the {benches} chords are {shortest} to {longest} long"
+    sizes = {"entry": Quantity(entry, "m", 6), **told_chords(dragon)}
+    return too_much(budget, "turning_radius", rule, Quantity(radius, "m"), **sizes)
 
 
-def _refusal(touch: Touch, margin: float, stray: float) -> str:
-    """Reason in words why no turn can begin on the circle."""
-    benches, time = touch
+def _refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
+    """The error if no turn can begin on the circle."""
+    (benches, time), told = touch, quantities("m", got=radius, margin=margin, stray=stray)
     if benches is None or time is None:
-        what = f"benches come so near to the margin of {said(margin)} m that it is not decided whether they keep it"
+        what = "benches come so near to the margin of {margin} that it is not decided whether they keep it"
     else:
-        near = f"come within {said(margin)} m" if margin else "touch"
-        near = f"may {near} with strays up to {said(stray)} m" if stray else near
-        side = f"{time:.6f} s after" if time >= 0.0 else f"{-time:.6f} s before"
-        what = f"benches {benches[0]} and {benches[1]} {near} {side} the entry at 1 m/s"
-    return f"must be larger, or the pitch: in a turn that begins on the circle {what}"
+        near = "come within {margin}" if margin else "touch"
+        near = f"may {near} with strays up to {{stray}}" if stray else near
+        what = f"benches {{a}} and {{b}} {near} {{time}} {'after' if time >= 0.0 else 'before'} the entry at 1 m/s"
+        told |= {"a": benches[0], "b": benches[1], "time": Quantity(round(abs(time), 6), "s")}
+    rule = f"must be larger, or the pitch: in a turn that begins on the circle {what}"
+    return InvalidValue("turning_radius", rule, **told)

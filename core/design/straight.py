@@ -8,7 +8,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import SIZE_MAX, InvalidValue, said
+from core.errors import SIZE_MAX, InvalidValue, Parameter, Quantity, quantities
 from core.kernels.constants import FREE, NO_BOUND
 from core.values import Floats
 
@@ -164,23 +164,24 @@ def too_near(dragon: Dragon, a: int, margin: float) -> InvalidValue:
     b = a + 2
     chord, front, rear = (float(size) for size in (dragon.chords[a + 1], dragon.overhangs[a], dragon.overhangs[b]))
     gap = chord - front - rear
-    hardly, pair = gap > margin, f"benches {a} and {b}"
+    hardly, pair = gap > margin, "benches {a} and {b}"
     if hardly:
         near = "are nearer than that" if margin else "touch"
-        why = f"at a pitch of {SIZE_MAX:g} m {pair} {near}, and on a straight line they are {gap:.9g} m apart"
+        why = f"at a pitch of {{pitch}} {pair} {near}, and on a straight line they are {{gap}} apart"
     else:
-        apart = f"are {gap:.9g} m apart" if gap > 0.0 else "touch"
+        apart = "are {gap} apart" if gap > 0.0 else "touch"
         why = f"on a straight line, and so on every wide enough spiral, {pair} {apart}"
-    overhangs = f"their overhangs {said(front)} m and {said(rear)} m"
-    why += f": the chord of bench {a + 1} between them is {chord:.9g} m, {overhangs}"
+    why += ": the chord of bench {between} between them is {chord}, their overhangs {front} and {rear}"
+    told = quantities("m", front=front, rear=rear) | quantities("m", 6, pitch=SIZE_MAX)
+    told |= quantities("m", 9, gap=gap, chord=chord) | {"a": a, "b": b, "between": a + 1}
     if gap > 0.0 and margin:
-        rule = "smaller" if hardly else f"less than {gap:.9g} m"
-        return InvalidValue("margin", f"must be {rule}, got {said(margin)} m: {why}")
+        rule = "must be smaller" if hardly else "must be less than {gap}"
+        return InvalidValue("margin", f"{rule}: {why}", got=Quantity(margin, "m"), **told)
     if all((column[1:] == column[1]).all() for column in (dragon.lengths, dragon.widths)) and front == rear:
         body = float(dragon.lengths[a + 1])
-        quarter = f"less than a quarter of {{body}} ({said(body)} m / 4 = {said(0.25 * body)} m)"
-        rule = f"must be {'smaller' if hardly else quarter}, got {said(front)} m: {why}"
-        return InvalidValue("dragon.overhang", rule, body="dragon.body_length")
-    field, other = f"dragon.overhangs.{a}", f"dragon.overhangs[{b}]"
-    rule = "must be smaller" if hardly else f"must be less than the chord of bench {a + 1} ({chord:.9g} m)"
-    return InvalidValue(field, f"+ {other} {rule}, got {said(front)} m + {said(rear)} m: {why}")
+        told |= quantities("m", got=front, length=body, quarter=0.25 * body)
+        rule = "must be smaller" if hardly else "must be less than a quarter of {body} ({length} / 4 = {quarter})"
+        return InvalidValue("dragon.overhang", f"{rule}: {why}", body=Parameter("dragon.body_length"), **told)
+    rule = "must be smaller" if hardly else "must be less than the chord of bench {between} ({chord})"
+    got, told["other"] = f"{Quantity(front, 'm')} + {Quantity(rear, 'm')}", Parameter(f"dragon.overhangs.{b}")
+    return InvalidValue(f"dragon.overhangs.{a}", f"+ {{other}} {rule}: {why}", got=got, **told)

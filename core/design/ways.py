@@ -7,13 +7,13 @@ import math
 from core import kernels
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
 from core.contact.search import Search, before_fold
-from core.dance import EndReason, RunEnd, end_theta
+from core.dance import EndReason, RunEnd
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, TooMuchWork, too_much
+from core.errors import SIZE_MIN, Quantity, TooMuchWork, quantities, too_much
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Marched
-from core.paths.spiral import Spiral
+from core.paths.spiral import Spiral, end_theta
 
 # Half width of the bracket around a contact [m of head travel].
 CONTACT_WIDTH = 2e-11
@@ -135,6 +135,8 @@ class Ways:
         if all((column[1:] == column[1:2]).all() for column in (dragon.lengths, dragon.widths, dragon.overhangs)):
             field = "dragon.head_length" if k == 0 and dragon.uniform_from else "dragon.body_length"
         rule = "must be larger, or benches fewer: their minimum pitch was not found {then}"
-        shortest = f"the shortest of {dragon.benches} chords is {float(dragon.chords[k]):g} m long"
-        circle = f"the turning circle {2.0 * self.radius:g} m across, and the last pitch tried was {self.tried:g} m"
-        return too_much(self.search.budget, field, f"{rule}; {shortest}, {circle}", float(dragon.lengths[k]), "m")
+        shortest = "the shortest of {benches} chords is {chord} long"
+        circle = "the turning circle {diameter} across, and the last pitch tried was {pitch}"
+        sizes = quantities("m", 6, chord=dragon.chords[k], diameter=2.0 * self.radius, pitch=self.tried)
+        told, got = {"benches": dragon.benches, **sizes}, Quantity(float(dragon.lengths[k]), "m")
+        return too_much(self.search.budget, field, f"{rule}; {shortest}, {circle}", got, **told)

@@ -7,7 +7,7 @@ cdef class Budget:
     cdef public volatile bint stopped
     cdef public bint brief, limited
     cdef public Budget part
-    cdef public str then
+    cdef public object then
 
     cpdef void spend(self, double work) noexcept nogil
     cpdef bint uses_up(self, double work) noexcept nogil

@@ -57,7 +57,7 @@ class Budget:
     def stop(self, then="before it was stopped"):
         """End the question with this budget, and all later ones that use it. Any thread may call it.
 
-        then: the end of the error's sentence, such as "before it was stopped"
+        then: the end of the sentence, such as "before it was stopped"; a Quantity with that text tells its limit
         """
         self.then = then
         self.stopped = True

@@ -67,7 +67,7 @@ def cut(name: str, coefficients: Floats, ends: Floats, budget: Budget) -> Floats
             rule = "must not make the curve stop or turn on the spot, as between points {first} and {second}"
             raise InvalidValue(name, rule, first=k, second=k + 1)
         if sum(map(len, done)) + 2 * int(left.sum()) > CUBICS_MAX:
-            raise InvalidValue(name, f"must make a curve of at most {CUBICS_MAX} cubics: take fewer points")
+            raise InvalidValue(name, "must make a curve of at most {most} cubics: take fewer points", most=CUBICS_MAX)
         coefficients, ends = halves[left].reshape(-1, 4, 2), np.repeat(half[left], 2)
         lengths, piece = arcs[left].reshape(-1), np.repeat(piece[left], 2)
         place = (place[left, None] + half[left, None] * [0.0, 1.0]).reshape(-1)

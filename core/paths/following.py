@@ -8,7 +8,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue
+from core.errors import InvalidValue, quantities
 from core.paths.path import Path
 from core.paths.route import Route
 from core.sampling import bisected
@@ -40,8 +40,10 @@ def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     tightest, bench = tightest_bend(dragon)
     chord = float(dragon.chords[bench])
     x, y = path.position(s)
-    rule = f"must not bend tighter than a radius of {tightest:.4g} m for the chord of bench {bench} ({chord:g} m)"
-    raise InvalidValue("path", f"{rule}, got {1.0 / curvature:.4g} m near ({x:.4g}, {y:.4g}) m, s = {s:.4g} m")
+    rule = "must not bend tighter than a radius of {least} for the chord of bench {bench} ({chord})"
+    told = quantities("m", 4, least=tightest, bend=1.0 / curvature, s=s) | quantities("m", 6, chord=chord)
+    place = f"({x:.4g}, {y:.4g}) m"
+    raise InvalidValue("path", f"{rule}, got {{bend}} near {{at}}, s = {{s}}", bench=bench, at=place, **told)
 
 
 def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
@@ -61,7 +63,7 @@ def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
     low, straight = tail_begin, float(dragon.chords.sum())
     high = low + 0.5 * math.pi * straight
     if not has_room(high):
-        taken = f"{straight:.9g} m of it from handle 0 to handle {dragon.benches} (more along bends)"
-        found = f"got {path.end - path.begin:.9g} m"
-        raise InvalidValue("path", f"is too short for the whole dragon, which takes {taken}, {found}")
+        rule = "is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last}"
+        told = quantities("m", 9, got=path.end - path.begin, least=straight)
+        raise InvalidValue("path", f"{rule} (more along bends)", last=dragon.benches, **told)
     return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)

@@ -10,9 +10,9 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_number, checked_size, listed
+from core.errors import Given, InvalidValue, checked_number, checked_size, listed
 from core.kernels import Budget
-from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points
+from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, too_near
 from core.paths.route import Route
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point
@@ -136,7 +136,7 @@ def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
     for k, leg in enumerate(given):
         name = f"path.straight.{k}"
         if checked_number(name, leg, "", 0, legs - 1) != int(leg):
-            raise InvalidValue(name, f"must be a whole number, got {leg!r}")
+            raise InvalidValue(name, "must be a whole number", got=Given(leg))
     return frozenset(map(int, given))
 
 
@@ -145,8 +145,8 @@ def _by_point(error: InvalidValue, firsts: list[int]) -> InvalidValue:
     if not error.field.startswith("path.pieces."):
         return error
     first = firsts[int(error.field.split(".")[2])]
-    words = error.renamed(lambda _: "path.points", lambda point: first + point).message
-    return InvalidValue.in_words("path.points", words)
+    points = {word: first + point for word, point in error.values.items() if isinstance(point, int)}
+    return error.renamed(lambda _: "path.points", **points)
 
 
 def _refuse_near(points: tuple[Point, ...]) -> None:
@@ -154,7 +154,7 @@ def _refuse_near(points: tuple[Point, ...]) -> None:
         gap = math.dist(a, b)
         if gap < WAYPOINT_GAP:
             name = f"path.points.{k}"
-            raise InvalidValue(name, f"must be at least {WAYPOINT_GAP:g} m from the point before it, got {gap:g} m")
+            raise too_near(name, gap)
 
 
 def _heading(a: Point, b: Point) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, listed
+from core.errors import InvalidValue, Quantity, checked_angle, checked_number, checked_point, checked_size, listed
 from core.kernels import Budget
 from core.kernels.constants import S_END, S_START
 from core.paths.cubics import cut
@@ -29,11 +29,17 @@ def _settle(piece: object, **checked: float | Point | tuple[Point, ...]) -> None
         object.__setattr__(piece, name, value)
 
 
+def too_near(name: str, gap: float) -> InvalidValue:
+    """The error for a point at this distance from the one before it [m]."""
+    rule, least = "must be at least {least} from the point before it", Quantity(WAYPOINT_GAP, "m", 6)
+    return InvalidValue(name, rule, got=Quantity(gap, "m", 6), least=least)
+
+
 def checked_points(name: str, value: object) -> tuple[Point, ...]:
     """The value as two points or more. raises: InvalidValue"""
     given = listed(name, value, "a list of points [x, y] in metres")
     if len(given) < 2:
-        raise InvalidValue(name, f"must be at least 2 points, got {len(given)}")
+        raise InvalidValue(name, "must be at least 2 points", got=len(given))
     return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(given))
 
 
@@ -158,8 +164,7 @@ class Waypoints(Shown):
         short = np.flatnonzero(steps < WAYPOINT_GAP)
         if short.size:
             k = int(short[0])
-            rule = f"must be at least {WAYPOINT_GAP:g} m from the point before it, got {steps[k]:g} m"
-            raise InvalidValue(f"{name}.points.{k + 1}", rule)
+            raise too_near(f"{name}.points.{k + 1}", float(steps[k]))
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
         rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)
@@ -179,4 +184,5 @@ Piece = Line | Arc | Coil | Waypoints
 
 def _refuse_short(name: str, length: float) -> None:
     if length < LENGTH_MIN:
-        raise InvalidValue(name, f"must be at least {LENGTH_MIN:g} m long, got {length:g} m")
+        least = Quantity(LENGTH_MIN, "m", 6)
+        raise InvalidValue(name, "must be at least {least} long", got=Quantity(length, "m", 6), least=least)

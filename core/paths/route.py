@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_number, listed, said, too_much
+from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_number, listed, said, too_much
 from core.kernels import Budget, Halted
 from core.kernels.constants import K_END, K_START, POINT_CURVATURE, PX, PY, S_END, S_START, TX, TY
 from core.paths.frame import WORLD
@@ -61,14 +61,14 @@ class Route(Shown):
         for k, piece in enumerate(self.pieces):
             name = f"path.pieces.{k}"
             if not isinstance(piece, Piece):
-                raise InvalidValue(name, f"must be a Line, Arc, Coil or Waypoints, got {piece!r}")
+                raise InvalidValue(name, "must be a Line, Arc, Coil or Waypoints", got=Given(piece))
             joints.append((s, count))
             try:
                 budget.look()
                 rows.append(piece.rows(name, s, budget))
             except Halted as halted:
                 rule = "must come after fewer pieces, or have fewer points: the route was not laid out {then}"
-                raise too_much(budget, name, rule, k, "") from halted
+                raise too_much(budget, name, rule, k) from halted
             rows[-1][:, kernels.PART] = k
             count, s = count + len(rows[-1]), float(rows[-1][-1, S_END])
         self.table = np.concatenate(rows)
@@ -114,13 +114,15 @@ class Route(Shown):
         gap = math.hypot(x2 - x, y2 - y)
         kink = abs(math.atan2(tx * ty2 - ty * tx2, tx * tx2 + ty * ty2))
         name = f"path.pieces.{k}"
-        where = f"the joint of path.pieces[{k - 1}] and path.pieces[{k}]"
+        told: dict[str, Value] = {"gap": Quantity(gap, "m", 3), "kink": Quantity(kink, "rad", 3)}
+        told |= {"at": f"({x:.9g}, {y:.9g}) m", "other": f"({x2:.9g}, {y2:.9g}) m"}
+        told |= {"before": Parameter(f"path.pieces.{k - 1}"), "after": Parameter(name)}
         if gap > JOINT_GAP:
-            words = f"must close: ({x:.9g}, {y:.9g}) m is {gap:.3g} m from ({x2:.9g}, {y2:.9g}) m"
-            raise InvalidValue.in_words(name, f"{where} {words}")
+            words, why = "the joint of {before} and {after} must close", "{at} is {gap} from {other}"
+            raise InvalidValue.in_words(name, words, reason=why, **told)
         if kink > JOINT_KINK:
-            words = f"must be smooth: at ({x:.9g}, {y:.9g}) m the direction turns by {kink:.3g} rad"
-            raise InvalidValue.in_words(name, f"{where} {words}")
+            words, why = "the joint of {before} and {after} must be smooth", "at {at} the direction turns by {kink}"
+            raise InvalidValue.in_words(name, words, reason=why, **told)
 
     @property
     def _given(self) -> tuple[object, ...]:

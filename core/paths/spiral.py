@@ -12,7 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
-from core.errors import InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
+from core.dragon import Dragon
+from core.errors import Given, InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
 from core.paths.frame import WORLD, Frame
 from core.paths.path import Columns, HeadState
 from core.paths.pieces import Coil
@@ -63,7 +64,7 @@ class Spiral(Shown):
         object.__setattr__(self, "centre", checked_point("path.centre", self.centre))
         object.__setattr__(self, "rotation", checked_angle("path.rotation", self.rotation))
         if not isinstance(self.clockwise, bool):
-            raise InvalidValue("path.clockwise", f"must be True or False, got {self.clockwise!r:.60}")
+            raise InvalidValue("path.clockwise", "must be True or False", got=Given(self.clockwise))
         turns = checked_number("path.start_turns", self.start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)
         object.__setattr__(self, "start_turns", turns)
         object.__setattr__(self, "growth", self.pitch / (2.0 * math.pi))
@@ -241,3 +242,24 @@ class Spiral(Shown):
         cos, sin = np.cos(theta), np.sin(theta)
         along: Floats = np.stack([theta * sin - cos, -theta * cos - sin], axis=-1)
         return self.frame.vectors(along / np.sqrt(1.0 + theta**2)[..., None])
+
+
+def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:
+    """The head angle [rad] at which the run ends, and the bench that folds (0 and None at the centre).
+
+    Bench k folds when handle k reaches the fold of its chord; at that moment handle k - 1 is one chord further in. So
+    limits are found from the tail forwards: the limit of handle k is the larger of its own fold and the place from
+    which handle k + 1 reaches its limit. In a uniform tail its own fold is always the larger one.
+    """
+    chords = dragon.chords[: dragon.uniform_from + 1].tolist()
+    chords2 = [(chord / path.growth) * (chord / path.growth) for chord in chords]
+    fold = {chord2: float(kernels.fold_theta(chord2)) for chord2 in set(chords2)}
+    limit, bench = 0.0, None
+    for k in range(dragon.uniform_from, -1, -1):
+        chord2 = chords2[k]
+        inherited = kernels.previous_theta(limit, chord2) if limit > fold[chord2] else kernels.NO_ROOT
+        if fold[chord2] >= inherited:
+            limit, bench = fold[chord2], k
+        else:
+            limit = inherited
+    return (limit * (1.0 + FOLD_ROUNDING), bench) if limit > 0.0 else (0.0, None)

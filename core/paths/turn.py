@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from core import kernels
-from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, checked_number, checked_size
+from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, Quantity, checked_number, checked_size, quantities
 from core.paths.pieces import LENGTH_MIN, Arc, Coil
 from core.paths.route import Route
 from core.shown import TABLE_DIGITS, worded
@@ -55,8 +55,8 @@ class Turn(Route):
         theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
         coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
         if turns * pitch <= radius or coil < LENGTH_MIN:
-            rule = f"must be more than {radius / pitch:.6g} turns, the radius of the turning circle"
-            raise InvalidValue.of("start_turns", rule, turns, "turns")
+            rule, least = "must be more than {least}, the radius of the turning circle", radius / pitch
+            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), least=Quantity(least, "turns", 6))
         cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
         entry = inner * np.array([cos, sin])
         ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
@@ -80,7 +80,7 @@ class Turn(Route):
             route = Route(pieces)
         except InvalidValue as error:  # every piece is valid, so the fault is in a joint
             rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
-            raise InvalidValue.of("start_turns", rule, turns, "turns") from error
+            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns")) from error
         super().__init__(pieces, start=route.joints[0])
         self.pitch, self.turning_radius, self.ratio, self.entry_radius = pitch, radius, ratio, inner
         self.radii, self.centres, self.angles = radii, (_point(first), _point(second)), angles
@@ -109,13 +109,15 @@ def _refuse_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
     if min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN:
         return
-    found = f"radii of {radii[0]:g} and {radii[1]:g} m and a shorter arc of {shorter:g} m"
-    rule = f"must leave arcs with radii from {SIZE_MIN:g} to {SIZE_MAX:g} m, {LENGTH_MIN:g} m long, not {found}"
+    rule = "must leave arcs with radii from {low} to {high}, {least} long, not radii of {r1} and {r2}"
+    rule += " and a shorter arc of {shorter}"
+    told = quantities("", 6, low=SIZE_MIN, r1=radii[0])
+    told |= quantities("m", 6, high=SIZE_MAX, least=LENGTH_MIN, r2=radii[1], shorter=shorter)
     equal = 0.5 * sum(radii)
     if SIZE_MIN <= equal <= SIZE_MAX and equal * min(angles) >= LENGTH_MIN:
-        raise InvalidValue.of("ratio", rule, ratio, "")
+        raise InvalidValue("ratio", rule, got=Quantity(ratio, ""), **told)
     name, given = ("turning_radius", radius) if entry_radius is None else ("entry_radius", entry_radius)
-    raise InvalidValue.of(name, rule, given, "m")
+    raise InvalidValue(name, rule, got=Quantity(given, "m"), **told)
 
 
 def _angle(vector: Floats) -> float:

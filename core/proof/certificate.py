@@ -188,7 +188,8 @@ def verify(certificate: Certificate, *, progress: Progress = lambda share: None)
     """
     stated = certificate.get("format") if isinstance(certificate, dict) else None
     if isinstance(stated, str) and stated != FORMAT:
-        raise ProofRefused.in_words("format", f"the certificate's format is not {FORMAT!r}: {stated[:SHOWN_MOST]!r}")
+        words, given = "the certificate's format is not {format}: {stated}", stated[:SHOWN_MOST]
+        raise ProofRefused.in_words("format", words, format=repr(FORMAT), stated=repr(given))
     refuse_malformed(certificate)
     content = {name: value for name, value in certificate.items() if name != "digest"}
     if certificate["digest"] != digest(content):
@@ -199,8 +200,9 @@ def verify(certificate: Certificate, *, progress: Progress = lambda share: None)
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"
-        words = error.named(place).message
-        raise ProofRefused.in_words(place, f"the certificate is malformed: {words}") from error
+        told = error.named(place)
+        words = f"the certificate is malformed: {told.template}"
+        raise ProofRefused.in_words(place, words, got=told.got, reason=told.reason, **told.values) from error
 
 
 def _verified(content: Certificate, progress: Progress) -> Proof:
@@ -208,11 +210,12 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
     claim = CLAIMS[values.pop("kind")](_dragon(content["dragon"]), **values)
     chain, repeats_from, sweeps = claim.chain, content["repeats_from"], content["sweeps"]
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
-        raise ProofRefused.in_words("repeats_from", f"the benches from {repeats_from} on are not alike")
+        raise ProofRefused.in_words("repeats_from", "the benches from {first} on are not alike", first=repeats_from)
     statement = claim.verify_overlap(content.get("overlap", {}))
     proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress, claim.follows)
     if len(proven) != len(sweeps):
-        raise ProofRefused.in_words("sweeps", f"the certificate has {len(sweeps)} sweeps, not {len(proven)}")
+        words, counts = "the certificate has {sweeps} sweeps, not {proven}", (len(sweeps), len(proven))
+        raise ProofRefused.in_words("sweeps", words, sweeps=counts[0], proven=counts[1])
     tiles = [tile for sweep in proven for tile in sweep["stretches"]]
     return Proof(statement, len(tiles), sum(len(tile[2]) for tile in tiles))
 
@@ -233,5 +236,5 @@ def _text(value: Any) -> str:
 def _dragon(runs: Sequence[Any]) -> Dragon:
     counts = [run[0] for run in runs]
     if not (min(counts) > 0 and sum(counts) <= BENCHES_MAX):
-        raise ProofRefused.in_words("dragon", f"a dragon has 1 to {BENCHES_MAX} benches")
+        raise ProofRefused.in_words("dragon", "a dragon has 1 to {most} benches", most=BENCHES_MAX)
     return Dragon.of(*(np.repeat([run[column] for run in runs], counts) for column in (1, 2, 3)))

@@ -11,10 +11,10 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.contact.search import MARGIN_MAX
-from core.dance import checked_head_speed, end_theta
+from core.dance import checked_head_speed
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, ProofRefused, checked_number, checked_size, said
-from core.paths.spiral import Spiral
+from core.errors import SIZE_MIN, ProofRefused, Quantity, checked_number, checked_size, quantities, said
+from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unproven, above, below
@@ -130,8 +130,8 @@ class MinimumPitchClaim(SpiralClaim):
     def _way(self, chain: Chain) -> tuple[float, float]:
         circle = self.turning_radius / chain.growth
         if circle > chain.start:
-            words = f"with pitch {said(self.pitch)} m the start lies within the turning circle"
-            raise ProofRefused.in_words("claim", words)
+            words = "with pitch {pitch} the start lies within the turning circle"
+            raise ProofRefused.in_words("claim", words, pitch=Quantity(self.pitch, "m"))
         return above(chain.start), below(circle)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
@@ -147,8 +147,9 @@ class MinimumPitchClaim(SpiralClaim):
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
-        free = f"keeps the margin of {said(self.margin)} m too" if self.margin else "is free of contact too"
-        raise ProofRefused.in_words("claim", f"{PITCH_STEP} m less than pitch {said(self.pitch)} m {free}")
+        free = "keeps the margin of {margin} too" if self.margin else "is free of contact too"
+        told = quantities("m", step=float(PITCH_STEP), pitch=self.pitch, margin=self.margin)
+        raise ProofRefused.in_words("claim", f"{{step}} less than pitch {{pitch}} {free}", **told)
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
         """The fold on the way with PITCH_STEP less, as doubles find it; empty if no bench folds [rad]."""
@@ -216,8 +217,8 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
             if pose.within(partner, chain.margin):
                 return [bench, bench + partner]
         place = pose.places[1]
-    how = f"come nearer to one another than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
-    raise ProofRefused.in_words("claim", f"no two benches {how} {when}")
+    how, told = "come nearer to one another than {margin}" if chain.margin > 0 else "overlap", float(chain.margin)
+    raise ProofRefused.in_words("claim", f"no two benches {how} {{when}}", margin=Quantity(told, "m"), when=when)
 
 
 def verify_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
@@ -259,4 +260,4 @@ def refusing(field: str) -> Iterator[None]:
     try:
         yield
     except (OverlapFound, Unproven) as why:
-        raise ProofRefused.in_words(field, f"not proven: {why}") from None
+        raise ProofRefused.in_words(field, "not proven: {why}", why=str(why)) from None

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.dance import Dance, EndReason
-from core.errors import InvalidValue, said
+from core.errors import Given, InvalidValue, said
 from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, verify_near
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
@@ -50,8 +50,8 @@ class ClearClaim(DanceClaim):
         _settle_span(self, self.stop)
         endings = ("stop", "fold", "centre") if self.path["kind"] == "spiral" else ("stop", "end")
         if self.until not in endings:
-            rule = f"must be {' or '.join(endings)} on a {self.path['kind']}, got {self.until}"
-            raise InvalidValue("until", rule)
+            told = {"endings": " or ".join(endings), "kind": str(self.path["kind"])}
+            raise InvalidValue("until", "must be {endings} on a {kind}", got=Given(self.until, str(self.until)), **told)
 
     @cached_property
     def chain(self) -> AnyChain:

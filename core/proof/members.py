@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from core.errors import ProofRefused, said, spoken
+from core.errors import Given, Parameter, ProofRefused, Quantity, Value, quantities
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
 from core.proof.dances import ENDINGS, ClearClaim, ContactClaim
 from core.proof.ground import ONE_BY_ONE, SIDES
-from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION
+from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, malformed
 from core.proof.paths import PIECES, POINTS, TURN
 from core.proof.strays import ToleranceClaim
 
@@ -53,9 +53,8 @@ def refuse_malformed(certificate: Any) -> None:
         _each(lambda name, value: _object(name, value, sweep))("sweeps", certificate["sweeps"])
 
 
-def _malformed(name: str, must: str, got: Any) -> ProofRefused:
-    told = f"{spoken(name) or 'it'} {must}, got {_shown(got)}"
-    return ProofRefused.in_words(name, f"the certificate is malformed: {told}")
+def _malformed(name: str, must: str, got: Any, **values: Value) -> ProofRefused:
+    return malformed(name, must, Given(got, _shown(got)), **values)
 
 
 def _shown(value: Any) -> str:
@@ -74,11 +73,11 @@ def _object(name: str, value: Any, members: dict[str, Rule]) -> None:
     for member in members:
         if member not in value:
             missing = f"{inside}{member}"
-            raise ProofRefused.in_words(missing, f"the certificate is malformed: {spoken(missing)} is missing")
+            raise malformed(missing, "is missing")
     for member in value:
         if member not in members:
             unknown = f"{inside}{str(member)[:SHOWN_MOST]}"
-            raise ProofRefused.in_words(unknown, f"the certificate is malformed: {spoken(unknown)} is unknown")
+            raise malformed(unknown, "is unknown")
     for member, rule in members.items():
         rule(f"{inside}{member}", value[member])
 
@@ -88,7 +87,7 @@ def _each(rule: Rule, count: int | None = None) -> Rule:
 
     def checked(name: str, value: Any) -> None:
         if not isinstance(value, list) or (not value if count is None else len(value) != count):
-            raise _malformed(name, f"must be a list{' with entries' if count is None else f' of {count}'}", value)
+            raise _malformed(name, f"must be a list {'with entries' if count is None else 'of {count}'}", value, count=count or 0)
         for k, entry in enumerate(value):
             rule(f"{name}.{k}", entry)
 
@@ -114,13 +113,14 @@ def _number(name: str, value: Any, what: str = "a number", least: float = -NUMBE
     if not isinstance(value, int | float) or isinstance(value, bool):
         raise _malformed(name, f"must be {what}", value)
     if not least <= value <= NUMBER_MOST:  # also refuses NaN
-        raise _malformed(name, f"must be {what} from {least:g} to {NUMBER_MOST:g}", value)
+        span = quantities("", 6, least=least, most=NUMBER_MOST)
+        raise _malformed(name, f"must be {what} from {{least}} to {{most}}", value, **span)
 
 
 def _positive(name: str, value: Any) -> None:
     _number(name, value)
     if not value > 0:
-        raise _malformed(name, f"must be positive (leave it out for no {name.split('.')[-1]})", value)
+        raise _malformed(name, "must be positive (leave it out for no {member})", value, member=name.split(".")[-1])
 
 
 def _whole(name: str, value: Any) -> None:
@@ -132,13 +132,14 @@ def _whole(name: str, value: Any) -> None:
 def _precision(name: str, value: Any) -> None:
     _whole(name, value)
     if not PRECISION_LEAST <= value <= PRECISION_MOST:
-        raise _malformed(name, f"must be from {PRECISION_LEAST} to {PRECISION_MOST} bits", value)
+        most = Quantity(PRECISION_MOST, "bits")
+        raise _malformed(name, "must be from {least} to {most}", value, least=PRECISION_LEAST, most=most)
 
 
 def _one_of(*words: str) -> Rule:
     def checked(name: str, value: Any) -> None:
         if not isinstance(value, str) or value not in words:
-            raise _malformed(name, f"must be {', '.join(words[:-1])} or {words[-1]}", value)
+            raise _malformed(name, "must be {words}", value, words=f"{', '.join(words[:-1])} or {words[-1]}")
 
     return checked
 
@@ -181,11 +182,11 @@ def _strayed_stretch(name: str, value: Any) -> None:
     for k, sides in enumerate(value[2]):
         place, nine = f"{name}.2.{k}", len(ONE_BY_ONE)
         if not isinstance(sides, list) or len(sides) not in (1, nine):
-            raise _malformed(place, f"must be a list of 1 or {nine} sides", sides)
+            raise _malformed(place, "must be a list of 1 or {nine} sides", sides, nine=nine)
         for i, side in enumerate(sides):
             _whole(f"{place}.{i}", side)
             if not side < 2 * SIDES:
-                raise _malformed(f"{place}.{i}", f"must be a side, from 0 to {2 * SIDES - 1}", side)
+                raise _malformed(f"{place}.{i}", "must be a side, from 0 to {last}", side, last=2 * SIDES - 1)
 
 
 def _stretch(letters: str, positive: bool) -> Rule:
@@ -201,13 +202,15 @@ def _stretch(letters: str, positive: bool) -> Rule:
         _number(f"{name}.0", high)
         _number(f"{name}.1", low)
         _text(f"{name}.2", faces)
+        front = {"front": Parameter(f"{name}.0"), "at": Quantity(high, "rad" if positive else "m")}
         if positive and not 0.0 < low < high:
-            raise _malformed(f"{name}.1", f"must lie between 0 and {spoken(name)}[0], {said(high)} rad", low)
+            raise _malformed(f"{name}.1", "must lie between 0 and {front}, {at}", low, **front)
         if not low < high:
-            raise _malformed(f"{name}.1", f"must be less than {spoken(name)}[0], {said(high)} m", low)
+            raise _malformed(f"{name}.1", "must be less than {front}, {at}", low, **front)
         if not set(letters).issuperset(faces):
-            skipped = "" if DIRECTION in letters or last < DIRECTION else f" but {DIRECTION}"
-            raise _malformed(f"{name}.2", f"must be faces, digits from 0 to {last}{skipped}", faces)
+            rule = "must be faces, digits from 0 to {last}"
+            rule += "" if DIRECTION in letters or last < DIRECTION else " but {skipped}"
+            raise _malformed(f"{name}.2", rule, faces, last=last, skipped=DIRECTION)
         if faces.count(DIRECTION) or rest:
             _each(_number, faces.count(DIRECTION))(f"{name}.3", rest[0] if rest else None)
 

@@ -7,9 +7,18 @@ from collections.abc import Iterable, Sequence
 
 from flint import acb, arb
 
+from core.errors import Parameter, ProofRefused, Value
+
 
 class Unproven(Exception):
     """The balls are too wide to decide; over a shorter stretch they may be narrow enough."""
+
+
+def malformed(name: str, rule: str, got: Value | None = None, **values: Value) -> ProofRefused:
+    """The error for a member, or for the certificate itself if the name is empty. rule: template of what is wrong"""
+    subject = Parameter(name or "it")
+    words = f"the certificate is malformed: {{field}} {rule}"
+    return ProofRefused.in_words(name, words, got=got, **{"field": subject, **values})
 
 
 # Rotations that bring the faces +x, +y, -x, -y of a bench's own frame to +x.

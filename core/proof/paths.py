@@ -14,7 +14,7 @@ from typing import Any
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, Parameter, said
 from core.paths import pieces
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -48,12 +48,12 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
     recorded = []
     for k, piece in enumerate(path.pieces):
         if isinstance(piece, pieces.Waypoints):
-            must = f"path.pieces[{k}] must be a line, an arc or a coil"
+            piece_at, must = Parameter(f"path.pieces.{k}"), "{piece} must be a line, an arc or a coil"
             if len(path.pieces) == 1:
                 must = "path must be a spiral, a turn or a route of lines, arcs and coils"
-            got = "got waypoints: on such a path a dance is checked in double precision, with bounds on its rounding"
-            words = f"{must} for a proof in ball arithmetic, {got}"
-            raise InvalidValue.in_words(f"path.pieces.{k}", words)
+            must += " for a proof in ball arithmetic"
+            why = "on such a path a dance is checked in double precision, with bounds on its rounding"
+            raise InvalidValue.in_words(piece_at.name, must, got="waypoints", reason=why, piece=piece_at)
         kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
         recorded.append({"kind": kind} | {name: _plain(name, getattr(piece, name)) for name in names})
     return {"kind": "route", "start": path.start, "pieces": recorded}

@@ -11,7 +11,7 @@ from flint import acb, arb
 
 from core.dance import Dance
 from core.dragon import checked_stray
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, Quantity, said
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
@@ -45,7 +45,7 @@ class ToleranceClaim(SpiralClaim):
         start, stop = dance.span(self.start, self.stop)
         stray = checked_stray(self.stray, self.dragon)
         if not stray > 0.0:
-            raise InvalidValue("stray", f"must be positive, got {said(stray)} m: prove clear without one")
+            raise InvalidValue("stray", "must be positive: prove clear without one", got=Quantity(stray, "m"))
         settle(self, pitch=path.pitch, start_turns=path.start_turns, head_speed=dance.head_speed)
         settle(self, start=start, stop=stop, stray=stray)
 

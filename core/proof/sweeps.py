@@ -7,10 +7,10 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeGuard
 
-from core.errors import ProofRefused, said, spoken
+from core.errors import Parameter, ProofRefused, quantities
 from core.proof.chain import Chain, SpiralStretch
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
-from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven
+from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven, malformed
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch
 
@@ -106,9 +106,9 @@ def _sides(stretch: SpiralStretch, partner: int) -> list[int]:
     for place, instant in zip((stretch.low, stretch.high), seen, strict=True):
         if min(best_side(*grounds, pair, [instant])[1] for pair in ONE_BY_ONE) <= 0.0:
             a, b = _met(stretch, partner)
-            strayed = f"with strays up to {said(float(stretch.chain.stray))} m"
-            where = f"when handle {a} is at {stretch.chain.named(place)}"
-            raise ProofRefused.in_words("claim", f"not proven: {strayed} benches {a} and {b} may touch {where}")
+            words = "not proven: with strays up to {stray} benches {a} and {b} may touch when handle {a} is at {place}"
+            told = quantities("m", stray=float(stretch.chain.stray)) | {"place": stretch.chain.named(place)}
+            raise ProofRefused.in_words("claim", words, a=a, b=b, **told)
     raise Unproven(f"benches {stretch.bench} and {stretch.bench + partner} are not shown to stay apart")
 
 
@@ -132,8 +132,9 @@ def found(chain: AnyChain) -> Source:
             except Unproven as why:
                 width = (high - start) / 2
                 if width < WIDTH_LEAST:
-                    place = f"where handle {bench} is at {chain.named(high)}"
-                    raise ProofRefused.in_words("claim", f"not proven {place}: {why}") from None
+                    words = "not proven where handle {handle} is at {place}: {why}"
+                    told = {"place": chain.named(high), "why": str(why)}
+                    raise ProofRefused.in_words("claim", words, handle=bench, **told) from None
                 continue
             yield stretch, tile
             high, width = start, width * WIDTH_GROWTH
@@ -146,15 +147,15 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
         if bench >= len(sweeps):
-            raise ProofRefused.in_words("sweeps", f"the certificate is malformed: sweeps[{bench}] is missing")
+            raise malformed("sweeps", "is missing", field=Parameter(f"sweeps.{bench}"))
         if sweeps[bench]["bench"] != bench:
-            raise ProofRefused.in_words("sweeps", f"sweep {bench} is of another bench: {sweeps[bench]['bench']}")
+            words, other = "sweep {sweep} is of another bench: {bench}", sweeps[bench]["bench"]
+            raise ProofRefused.in_words("sweeps", words, sweep=bench, bench=other)
         for k, (high, low, faces, *rest) in enumerate(sweeps[bench]["stretches"]):
             most = max(0, chain.count - bench - 2)
             if len(faces) > most:
-                place = f"sweeps.{bench}.stretches.{k}.2"
-                words = f"must have at most {most} faces, one for each bench behind, got {len(faces)}"
-                raise ProofRefused.in_words(place, f"the certificate is malformed: {spoken(place)} {words}")
+                rule = "must have at most {most} faces, one for each bench behind"
+                raise malformed(f"sweeps.{bench}.stretches.{k}.2", rule, len(faces), most=most)
             stretch = stretch_of(chain, bench, low, high, chain.count - bisect_left(places, low))
             while len(stretch.placed) < min(len(faces) + 2, chain.count - bench):
                 stretch.grow()

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, asked_of, checked_number, said
+from core.errors import SIZE_MAX, SIZE_MIN, Given, InvalidValue, Parameter, Value, asked_of, checked_number, quantities
 from core.kernels import Budget
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
@@ -101,8 +101,7 @@ def overlaps(
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
     if not isinstance(engine, str) or engine not in list(Engine):
-        words = ", ".join(Engine)
-        raise InvalidValue("engine", f"must be one of {words}, got {engine!r:.60}")
+        raise InvalidValue("engine", "must be one of {engines}", got=Given(engine), engines=", ".join(Engine))
     (pairs,) = found_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
@@ -158,7 +157,7 @@ def verdicts(
     pose_after = checked_array("benches", after, "(2, 3): x, y, heading", 3)
     for pose in (pose_before, pose_after):
         if pose.shape != (2, 3):
-            raise InvalidValue("benches", f"must have shape (2, 3): x, y, heading, got {pose.shape}")
+            raise InvalidValue("benches", "must have shape {shape}", got=str(pose.shape), shape="(2, 3): x, y, heading")
     checked_columns("benches", pose_after, POSE)
     poses = np.array([pose_before, pose_after])
     return {engine: Verdict(*JUDGES[engine](poses, size, margin)) for engine in able(margin)}
@@ -183,8 +182,8 @@ def separation(poses_a: ArrayLike, sizes_a: ArrayLike, poses_b: ArrayLike, sizes
     try:
         shape = np.broadcast_shapes(a.shape, b.shape)
     except ValueError as error:
-        words = f"shapes of a and b must broadcast, got {a.shape[:-1]} and {b.shape[:-1]} rectangles"
-        raise InvalidValue.in_words("poses_b", words) from error
+        got = f"{a.shape[:-1]} and {b.shape[:-1]} rectangles"
+        raise InvalidValue.in_words("poses_b", "shapes of a and b must broadcast", got=got) from error
     return frames_separation(np.broadcast_to(a, shape), np.broadcast_to(b, shape))
 
 
@@ -197,12 +196,13 @@ def checked_benches(
     """
     pose = checked_array("benches", poses, "(n, 3): x, y, heading", 3)
     if pose.ndim != 2:
-        raise InvalidValue("benches", f"must have shape (n, 3): x, y, heading, got {pose.shape}")
+        raise InvalidValue("benches", "must have shape {shape}", got=str(pose.shape), shape="(n, 3): x, y, heading")
     length = checked_array("lengths", lengths, "(n,)", None)
     width = checked_array("widths", widths, "(n,)", None)
     for name, column in (("lengths", length), ("widths", width)):
         if column.size != len(pose):
-            raise InvalidValue(name, f"must have one number for each of {len(pose)} benches, got {column.size}")
+            rule = "must have one number for each of {benches} benches"
+            raise InvalidValue(name, rule, got=column.size, benches=len(pose))
     checked_columns("benches", np.column_stack([pose, length, width]), POSE + SIZE)
     return pose, np.stack([length, width], axis=-1), checked_number("margin", margin, "m", 0.0, SIZE_MAX)
 
@@ -220,12 +220,13 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
         wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= high)))
         if wrong.size:
             k = int(wrong[0])
-            limit = f"from {low:g} to {high:g} {unit}"
+            rule = "must be from {least} to {most}"
             if not np.isfinite(column[k]):
-                limit = "a finite number"
+                rule = "must be a finite number"
             elif low > 0.0 and column[k] <= 0.0:
-                limit = "positive"
-            raise InvalidValue(f"{subject}.{k}.{name}", f"must be {limit}, got {said(column[k])} {unit}")
+                rule = "must be positive"
+            told = quantities("", 6, least=low) | quantities(unit, 6, most=high) | quantities(unit, got=column[k])
+            raise InvalidValue(f"{subject}.{k}.{name}", rule, **told)
 
 
 def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
@@ -236,9 +237,9 @@ def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) ->
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
-        raise InvalidValue(name, f"must be numbers of shape {shape}") from error
+        raise InvalidValue(name, "must be numbers of shape {shape}", shape=shape) from error
     if (array.ndim != 1) if last is None else (array.shape[-1:] != (last,)):
-        raise InvalidValue(name, f"must have shape {shape}, got {array.shape}")
+        raise InvalidValue(name, "must have shape {shape}", got=str(array.shape), shape=shape)
     return array
 
 
@@ -250,5 +251,6 @@ def _checked_frames(suffix: str, poses: ArrayLike, sizes: ArrayLike) -> Floats:
     try:
         return frames(pose, size)
     except ValueError as error:
-        words = f"poses{suffix} and sizes{suffix} must broadcast, got shapes {pose.shape} and {size.shape}"
-        raise InvalidValue.in_words(f"sizes{suffix}", words) from error
+        words, got = "{poses} and {sizes} must broadcast", f"shapes {pose.shape} and {size.shape}"
+        names: dict[str, Value] = {"poses": Parameter(f"poses{suffix}"), "sizes": Parameter(f"sizes{suffix}")}
+        raise InvalidValue.in_words(f"sizes{suffix}", words, got=got, **names) from error

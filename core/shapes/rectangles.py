@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooLarge, asked_of, said
+from core.errors import InvalidValue, Quantity, TooLarge, asked_of
 from core.kernels import Budget
 from core.shown import WithArrays, worded
 from core.values import Floats
@@ -150,7 +150,7 @@ def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
     poses = bench_poses(handles)
     if poses.shape[-2] != dragon.benches:
         count = poses.shape[-2] + 1
-        raise InvalidValue("handles", f"must be {dragon.benches + 1}, one more than benches, got {count}")
+        raise InvalidValue("handles", "must be {count}, one more than benches", got=count, count=dragon.benches + 1)
     return corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
 
 
@@ -161,7 +161,7 @@ def _checked_handles(handles: object) -> Floats:
         raise InvalidValue("handles", "must be places of shape (..., n + 1, 2) in metres") from error
     if places.dtype.kind not in "iuf" or places.ndim < 2 or places.shape[-1] != 2:
         words = "must be places of shape (..., n + 1, 2) in metres"
-        raise InvalidValue("handles", f"{words}, got {places.dtype.name} of shape {places.shape}")
+        raise InvalidValue("handles", words, got=f"{places.dtype.name} of shape {places.shape}")
     return places.astype(np.float64, copy=False)
 
 
@@ -198,7 +198,8 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
         counts = (meetings.found, meetings.met)
         for count, limit, what in zip(counts, most, words, strict=True):
             if count > limit:
-                raise TooLarge("benches", f"must have at most {limit} pairs {what}, got more among {len(frame)}")
+                rule, got = "must have at most {most} pairs {which}", f"more among {len(frame)}"
+                raise TooLarge("benches", rule, got=got, most=limit, which=what)
         if meetings.found <= len(pairs):
             return pairs[: meetings.found]
         pairs = np.empty((meetings.found, 2), dtype=np.int64)
@@ -315,8 +316,8 @@ def angle_sum_pairs(poses: Floats, sizes: Floats, margin: float, chained: bool, 
     raises: InvalidValue for a margin that is not 0
     """
     if margin != 0.0:
-        rule = f"must be 0 m for the angle-sum rule, which knows only inside and outside, got {said(margin)} m"
-        raise InvalidValue("margin", rule)
+        rule = "must be 0 m for the angle-sum rule, which knows only inside and outside"
+        raise InvalidValue("margin", rule, got=Quantity(margin, "m"))
     for frame, corner in zip(frames(poses, sizes), paper_corners(poses, sizes), strict=True):
         pairs = meeting_pairs(frame, margin, chained, exact=False, budget=budget)
         batches = [pairs[k : k + ANGLE_BATCH] for k in range(0, len(pairs), ANGLE_BATCH)]

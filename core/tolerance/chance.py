@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from core import kernels
 from core.dance import Dance
-from core.errors import InvalidValue, asked_of, checked_type, said, too_much
+from core.errors import Given, InvalidValue, Quantity, asked_of, checked_type, said, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
 from core.shown import WithArrays, counted, worded
@@ -141,8 +141,8 @@ def contact_probability(
     if count > INSTANTS_MAX:
         field, factor = ("step", 1) if model.step else ("correlation_time", INSTANTS_PER_TIME)
         least = factor * (until - begin) / (INSTANTS_MAX - 1)
-        rule = f"must be at least {least:.3g} s: a dance has at most {INSTANTS_MAX} instants"
-        raise InvalidValue.of(f"model.{field}", rule, factor * widest, "s")
+        rule, got = "must be at least {least}: a dance has at most {most} instants", Quantity(factor * widest, "s")
+        raise InvalidValue(f"model.{field}", rule, got=got, least=Quantity(least, "s", 3), most=INSTANTS_MAX)
     budget = budget or Budget()
     step = (until - begin) / (count - 1)
     times = np.linspace(begin, until, count)
@@ -159,7 +159,7 @@ def contact_probability(
     except Halted as halted:
         rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"
         many = ("samples", rule, len(which)) if len(which) > 1 else ("dragon.benches", rule, dance.dragon.benches)
-        raise too_much(halted.budget, *many, "") from halted
+        raise too_much(halted.budget, *many) from halted
     safe = None if model.pitch_error else tolerance(dance, start=begin, stop=until, budget=budget).stray
     touched = np.flatnonzero(found.instant < count)
     contacts, total = touched.size, len(which)
@@ -304,11 +304,11 @@ def _checked_samples(samples: object) -> range:
         return range(int(samples))
     if isinstance(samples, range) and samples and min(samples) >= 0 and max(samples) < SAMPLES_MAX:
         return samples
-    rule = f"must be a whole number from 1 to {SAMPLES_MAX}, or a range of numbers below {SAMPLES_MAX}"
-    raise InvalidValue("samples", f"{rule}, got {samples!r:.60}")
+    rule = "must be a whole number from 1 to {most}, or a range of numbers below {most}"
+    raise InvalidValue("samples", rule, got=Given(samples), most=SAMPLES_MAX)
 
 
 def _checked_seed(seed: object) -> int:
     if isinstance(seed, Integral) and not isinstance(seed, bool) and 0 <= int(seed) <= SEED_MAX:
         return int(seed)
-    raise InvalidValue("seed", f"must be a whole number from 0 to {SEED_MAX}, got {seed!r:.60}")
+    raise InvalidValue("seed", "must be a whole number from 0 to {most}", got=Given(seed), most=SEED_MAX)

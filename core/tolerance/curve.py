@@ -11,7 +11,7 @@ import numpy as np
 from core import plots
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import InvalidValue, TooMuchWork, asked_of, checked_size, said, too_much
+from core.errors import Given, InvalidValue, Quantity, TooMuchWork, asked_of, checked_size, too_much
 from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.shown import WithArrays, extent
@@ -79,13 +79,13 @@ def tolerance_curve(
     raises: InvalidValue, also for a pitch at which the dance begins inside the circle or folds before it; TooMuchWork
     """
     radius = checked_size("turning_radius", turning_radius)
-    rule = f"must be a list of 1 to {CURVE_MOST} numbers in metres"
+    rule = "must be a list of 1 to {most} numbers in metres"
     try:
         column = np.asarray(pitches, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
-        raise InvalidValue("pitches", f"{rule}, got {pitches!r:.60}") from error
+        raise InvalidValue("pitches", rule, got=Given(pitches), most=CURVE_MOST) from error
     if column.ndim != 1 or not 1 <= column.size <= CURVE_MOST:
-        raise InvalidValue("pitches", f"{rule}, got an array of shape {column.shape}")
+        raise InvalidValue("pitches", rule, got=f"an array of shape {column.shape}", most=CURVE_MOST)
     answers = []
     for k, pitch in enumerate(column.tolist()):
         dance = Dance(dragon, Spiral(pitch, start_turns))
@@ -94,8 +94,8 @@ def tolerance_curve(
         except TooMuchWork:
             if k == 0 or budget is None:
                 raise
-            rule = f"must be fewer: the tolerance was found for only {k} of them {{then}}"
-            raise too_much(budget, "pitches", rule, column.size, "") from None
+            rule = "must be fewer: the tolerance was found for only {found} of them {then}"
+            raise too_much(budget, "pitches", rule, column.size, found=k) from None
         progress((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))
 
@@ -110,10 +110,11 @@ def time_on_circle(dance: Dance, radius: float) -> float:
     first = spiral.pitch * spiral.start_turns
     if radius >= first:
         where = "inside" if radius > first else "on"
-        rule = f"must be smaller: at a pitch of {said(spiral.pitch)} m the dance starts {where} that circle"
-        raise InvalidValue.of("turning_radius", rule, radius, "m")
+        rule, pitch = f"must be smaller: at a pitch of {{pitch}} the dance starts {where} that circle", spiral.pitch
+        raise InvalidValue("turning_radius", rule, got=Quantity(radius, "m"), pitch=Quantity(pitch, "m"))
     time = dance.clock.time(spiral.travel_to(radius))
     if time > dance.end.time:
-        rule = f"must be larger: {dance.end.why} at {dance.end.time:.6f} s, before the head is on that circle"
-        raise InvalidValue.of("turning_radius", rule, radius, "m")
+        rule = f"must be larger: {dance.end.template} at {{end}}, before the head is on that circle"
+        told = {"got": Quantity(radius, "m"), "end": Quantity(round(dance.end.time, 6), "s"), **dance.end.told}
+        raise InvalidValue("turning_radius", rule, **told)
     return time

@@ -48,7 +48,7 @@ from numpy.typing import NDArray
 
 from core import kernels
 from core.dragon import Dragon
-from core.errors import InvalidValue, said
+from core.errors import InvalidValue, Quantity
 from core.kernels.constants import DIRECTIONS
 from core.values import Floats
 
@@ -132,8 +132,8 @@ def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Rea
     numbers: dict[tuple[float, float, float], int] = {}
     of = [numbers.setdefault(size, len(numbers)) for size in zip(*columns, strict=True)]
     if len(numbers) > SIZES_MAX:
-        rule = f"must have at most {SIZES_MAX} different sizes of benches with a stray of {said(stray)} m"
-        raise InvalidValue("dragon.lengths", f"{rule}, got {len(numbers)}")
+        rule, most = "must have at most {most} different sizes of benches with a stray of {stray}", SIZES_MAX
+        raise InvalidValue("dragon.lengths", rule, got=len(numbers), most=most, stray=Quantity(stray, "m"))
     kinds = np.array(of, dtype=np.int64)
     hulls = bench_hulls(np.stack([supports(*size, stray) for size in numbers], axis=1))
     half_lengths, half_widths = np.abs(hulls).max(axis=(1, 2)).T

@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 
 from core.dance import Dance
-from core.errors import SIZE_MAX, InvalidValue, checked_number, said
+from core.dragon import wider_pin
+from core.errors import SIZE_MAX, InvalidValue, Parameter, Quantity, checked_number, quantities
 from core.shown import Shown
 
 # Least number of instants in a correlation time [1].
@@ -57,11 +58,11 @@ class Wobble(Shown):
             object.__setattr__(self, "step", step)
             most = self.correlation_time / INSTANTS_PER_TIME
             if step > most and not math.isclose(step, most):
-                rule = f"must be at most {most:.9g} s, 1 / {INSTANTS_PER_TIME} of {{time}}, got {said(step)} s"
-                raise InvalidValue("model.step", rule, time="model.correlation_time")
+                rule, got = "must be at most {most}, 1 / {instants} of {time}", Quantity(step, "s")
+                told = quantities("s", 9, most=most) | {"time": Parameter("model.correlation_time")}
+                raise InvalidValue("model.step", rule, got=got, instants=INSTANTS_PER_TIME, **told)
         if self.pin > self.hole:
-            rule = f"must be no wider than its {{hole}} ({said(self.hole)} m), got {said(self.pin)} m"
-            raise InvalidValue("model.pin", rule, hole="model.hole")
+            raise wider_pin("model.pin", "model.hole", self)
 
     @property
     def play(self) -> float:
@@ -78,16 +79,18 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
     """raises: InvalidValue for a model whose sizes do not fit a dance"""
     bench = int(dance.dragon.chords.argmin())
     most = SIZE_PART * float(dance.dragon.chords[bench])
-    of = f"{SIZE_PART} of the chord of bench {bench} ({most:.9g} m)"
+    of, told = "{part} of the chord of bench {bench} ({most})", quantities("m", 9, most=most)
+    told |= {"part": SIZE_PART, "bench": bench}
     for name, size in (("lateral", model.lateral), ("forward", model.forward)):
         if size > most:
-            raise InvalidValue.of(f"model.{name}", f"must be at most {of}", size, "m")
+            raise InvalidValue(f"model.{name}", f"must be at most {of}", got=Quantity(size, "m"), **told)
     if model.play > most:
-        rule = f"must leave a play of at most {of} around its {{pin}}, got {model.play:.9g} m of play"
-        raise InvalidValue("model.hole", rule, pin="model.pin")
+        rule, got = f"must leave a play of at most {of} around its {{pin}}", f"{Quantity(model.play, 'm', 9)} of play"
+        raise InvalidValue("model.hole", rule, got=got, pin=Parameter("model.pin"), **told)
     if model.pitch_error > 0.0:
         spiral, rule = dance.path.spiral, "must be 0 on a path that is not a spiral"
         most = PITCH_PART * spiral.pitch if spiral else 0.0
         if model.pitch_error > most:
-            rule = f"must be at most {PITCH_PART} of the pitch ({most:.9g} m)" if spiral else rule
-            raise InvalidValue.of("model.pitch_error", rule, model.pitch_error, "m")
+            rule = "must be at most {part} of the pitch ({most})" if spiral else rule
+            told = quantities("m", got=model.pitch_error) | quantities("m", 9, most=most) | {"part": PITCH_PART}
+            raise InvalidValue("model.pitch_error", rule, **told)

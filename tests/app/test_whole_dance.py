@@ -87,7 +87,8 @@ def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path: Path) ->
     (tmp_path / "benches.csv").write_text(TABLE.replace("Wu;2,2", "Wu;220"), encoding="utf-8")
     refused = run("check", str(tmp_path / "dance.toml"))
     assert refused.returncode == 2
-    assert "line 6: length must be from 0.001 to 50 m, got 220 m: 220 cm is 2.2 m" in refused.stderr.replace("\n", " ")
+    told = "line 6: length must be from 0.001 to 50 m, got 220 m: lengths are in metres, and 220 cm is 2.2 m"
+    assert told in refused.stderr.replace("\n", " ")
 
 
 def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path: Path) -> None:

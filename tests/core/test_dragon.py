@@ -177,9 +177,7 @@ def test_strays_that_cannot_be_are_refused(given: object, message: str) -> None:
 
 
 def test_a_pin_wider_than_its_hole_is_refused() -> None:
-    with pytest.raises(
-        InvalidValue, match=r"stray.pin must be no wider than its hole \(stray.hole = 0.05 m\), got 0.06 m"
-    ):
+    with pytest.raises(InvalidValue, match=r"stray.pin must be no wider than its stray.hole \(0.05 m\), got 0.06 m"):
         Stray(0.0, 0.05, 0.06)
 
 

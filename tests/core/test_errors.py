@@ -5,7 +5,9 @@ Numbers of users: in range they become floats, else the error names the value, i
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -19,12 +21,18 @@ from core.errors import (
     SIZE_MAX,
     SIZE_MIN,
     BenchDragonError,
+    Given,
     InvalidValue,
+    Parameter,
+    Quantity,
     TooLarge,
     TooMuchWork,
     checked_number,
     checked_size,
     checked_type,
+    filled,
+    listed,
+    quantities,
     said,
     said_bound,
     spoken,
@@ -41,28 +49,42 @@ def test_every_error_has_a_code_of_its_own_and_stands_in_the_tree() -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
-def test_a_number_that_breaks_a_rule_is_named_with_its_unit_and_why(kind: type[BenchDragonError]) -> None:
-    error = kind.of("times.3", "must be at most 9 s: the run ends there", 12.5, "s")
+def test_an_error_is_a_template_what_was_given_and_a_reason(kind: type[BenchDragonError]) -> None:
+    told = quantities("s", got=12.5, limit=9.0)
+    error = kind("times.3", "must be at most {limit}: the run ends there", **told, unused="a word that is not there")
     assert error.message == str(error) == "times[3] must be at most 9 s, got 12.5 s: the run ends there"
-    assert (error.field, error.got) == ("times.3", 12.5)
-    other = error.named("stop", 25.0)
-    assert (type(other), other.field, other.got) == (kind, "stop", 25.0)
+    assert (error.field, error.template, error.reason) == (
+        "times.3",
+        "{field} must be at most {limit}",
+        "the run ends there",
+    )
+    assert (error.got, error.values) == (
+        Quantity(12.5, "s"),
+        {"field": Parameter("times.3"), "limit": Quantity(9.0, "s")},
+    )
+    other = error.named("stop", Quantity(25.0, "s"))
+    assert (type(other), other.field, other.got) == (kind, "stop", Quantity(25.0, "s"))
     assert other.message == "stop must be at most 9 s, got 25 s: the run ends there"
+    assert error.message == "times[3] must be at most 9 s, got 12.5 s: the run ends there"
 
 
-def test_a_message_without_a_number_changes_its_first_words_alone() -> None:
-    error = InvalidValue("path.pieces.1", "must close up with path.pieces[0]")
-    assert error.named("path").message == "path must close up with path.pieces[0]"
-    assert error.message == "path.pieces[1] must close up with path.pieces[0]"
-    long = TooLarge.in_words("benches", "the dragon is too long").named("dragon")
-    assert (long.field, long.message, str(long)) == ("dragon", "the dragon is too long", "the dragon is too long")
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_an_error_reaches_another_process_whole(kind: type[BenchDragonError]) -> None:
+    error = kind("pitch", "must be at least {low}: {why}", got=Given("x"), low=Quantity(1.0, "m"), why="so it is")
+    for other in (pickle.loads(pickle.dumps(error)), copy.copy(error)):
+        assert (type(other), vars(other), str(other), other.args) == (kind, vars(error), str(error), error.args)
+
+
+def test_a_sentence_of_its_own_stays_the_same_under_another_name() -> None:
+    long = TooLarge.in_words("benches", "the dragon has {benches} benches", benches=9).named("dragon")
+    assert (long.field, long.message, str(long)) == ("dragon", *2 * ("the dragon has 9 benches",))
 
 
 def test_the_other_parameters_of_a_message_get_their_new_names_too() -> None:
-    error = InvalidValue("times.stop", "must not be before {start}", start="times.start")
-    assert error.message == "times.stop must not be before times.start"
-    renamed = error.renamed(lambda name: f"--{name.removeprefix('times.')}")
-    assert (renamed.field, renamed.message) == ("--stop", "--stop must not be before --start")
+    error = InvalidValue("times.stop", "must not be before {start} by {count}", start=Parameter("times.start"), count=2)
+    assert error.message == "times.stop must not be before times.start by 2"
+    renamed = error.renamed(lambda name: f"--{name.removeprefix('times.')}", count=3)
+    assert (renamed.field, renamed.message) == ("--stop", "--stop must not be before --start by 3")
 
 
 def test_what_was_stopped_stays_so_under_another_name() -> None:
@@ -70,20 +92,6 @@ def test_what_was_stopped_stays_so_under_another_name() -> None:
     error.stopped = True
     assert error.named("width").stopped
     assert not TooMuchWork("pitch", "was not found").named("width").stopped
-
-
-@pytest.mark.parametrize("number", [432.9179242286, -432.9179242286, 0.1, -0.1, 1e-12, 5.0])
-@pytest.mark.parametrize("decimals", [0, 3, 9])
-def test_a_bound_is_rounded_to_the_side_on_which_it_is_true(number: float, decimals: int) -> None:
-    low, high = (float(said_bound(number, decimals, side)) for side in (-1, 1))
-    assert low <= number <= high
-    assert high - low <= 1.000001 * 10.0**-decimals
-
-
-def test_numbers_and_fields_are_written_as_people_do() -> None:
-    assert [said(number) for number in (9.0, -0.0, 1e300, 0.1 + 0.2)] == ["9", "0", "1e+300", "0.30000000000000004"]
-    assert spoken("path.pieces.0.points.12") == "path.pieces[0].points[12]"
-    assert spoken("dragon.width") == "dragon.width"
 
 
 @pytest.mark.parametrize("value", [0.0, 2, 3.0, np.float64(1.5), np.int64(2), Fraction(1, 2)], ids=repr)
@@ -152,3 +160,34 @@ def test_a_value_of_another_type_is_refused_by_what_it_must_be() -> None:
         checked_type("path", "spiral", (Spiral, dict))
     with pytest.raises(InvalidValue, match=r"^path must be a Spiral, got the class Spiral$"):
         checked_type("path", Spiral, Spiral)
+
+
+def test_what_a_caller_gave_may_hold_braces() -> None:
+    assert InvalidValue("pitch", "must be a number", got=Given({"low": 1}), low=2).message.endswith("got {'low': 1}")
+    assert filled("{a} and {b}", {"a": "{b}", "b": 1.0}) == "{b} and 1"
+
+
+@pytest.mark.parametrize("number", [432.9179242286, -432.9179242286, 0.1, -0.1, 1e-12, 5.0])
+@pytest.mark.parametrize("decimals", [0, 3, 9])
+def test_a_bound_is_rounded_to_the_side_on_which_it_is_true(number: float, decimals: int) -> None:
+    low, high = (float(said_bound(number, decimals, side)) for side in (-1, 1))
+    assert low <= number <= high
+    assert high - low <= 1.000001 * 10.0**-decimals
+
+
+def test_numbers_and_fields_are_written_as_people_do() -> None:
+    assert [said(number) for number in (9.0, -0.0, 1e300, 0.1 + 0.2)] == ["9", "0", "1e+300", "0.30000000000000004"]
+    assert spoken("path.pieces.0.points.12") == "path.pieces[0].points[12]"
+    assert spoken("dragon.width") == "dragon.width"
+
+
+@pytest.mark.parametrize("value", [[1, 2], (1, 2), range(1, 3), iter([1, 2])])
+def test_a_sequence_is_listed(value: Any) -> None:
+    assert listed("points", value, "a list of points") == [1, 2]
+
+
+@pytest.mark.parametrize("value", ["ab", b"ab", {"a": 1}, 7, None])
+def test_what_is_no_sequence_is_refused_with_what_it_must_be(value: Any) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        listed("points", value, "a list of points")
+    assert refused.value.message == f"points must be a list of points, got {value!r}"

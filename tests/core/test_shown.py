@@ -117,9 +117,9 @@ def values() -> list[Any]:
 
 
 def public() -> list[type]:
-    """The public classes but enumerations, errors, names of kinds and the budget, which is no result."""
+    """The public results: all classes but enumerations, errors and their values, names of kinds, and the budget."""
     every = (getattr(core, name) for name in core.__all__)
-    others = (Enum, BenchDragonError, core.Budget)
+    others = (Enum, BenchDragonError, core.Budget, core.Given, core.Parameter, core.Quantity)
     return [one for one in every if isinstance(one, type) and not issubclass(one, others)]
 
 

@@ -61,7 +61,7 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(
     page.locator("#rows tr", has_text="2 · body 2 (Wu)").wait_for()
     put(page, TABLE.replace("2.2,0.3", "2.2,30", 1))
     expect(page.locator("#csv-error")).to_have_text(
-        "Line 3: “Width” must be from 0.001 to 5 m; it is 30 m. 30 cm is 0.3 m."
+        "Line 3: “Width” must be from 0.001 to 5 m; it is 30 m. Lengths are in metres, and 30 cm is 0.3 m."
     )
     page.locator("[data-lang=zh]").click()
     expect(page.locator("#csv-error")).to_have_text(re.compile("^第 3 行：“板宽”应在 0.001 至 5 m 之间"))

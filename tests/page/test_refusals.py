@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import re
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -12,6 +14,7 @@ import httpx
 from app.service.main import create_app
 from app.settings import Settings
 
+ROOT = Path(__file__).parent.parent.parent
 # Latin letters that are no unit, no name and no symbol, outside of quotes.
 ENGLISH = re.compile(
     r"(?<![A-Za-z])(?!GeoJSON|HTTP|TOML|JSON|KMZ?|DXF|DWG|ASCII|XML|name|length|width|overhang)[A-Za-z]{3,}"
@@ -39,6 +42,9 @@ QUERIES = (
     ("maximum-head-speed", {"ratio": 50}),
     ("maximum-head-speed", {"entry_radius": 1}),
     ("shortest-turn", {"pitch": 0.5}),
+    ("clearance", {"benches": 2}),
+    ("minimum-pitch", {"benches": 20, "width": 1.6, "start_turns": 5}),
+    ("minimum-pitch", {"unknown": 1}),
 )
 PLAIN = [[-40, 0], [0, 5], [40, 0]]
 PATHS = (
@@ -52,6 +58,7 @@ PATHS = (
     {"points": [[0.1 * k, 0] for k in range(1001)]},
     {"points": PLAIN, "start": 2e6},
     {"points": PLAIN, "radius": 0},
+    {"points": PLAIN, "start": 10},
 )
 SQUARE = [[-50, -50], [50, -50], [50, 50], [-50, 50], [-50, -50]]
 BOW = [[0, 0], [5, 5], [5, 0], [0, 5], [0, 0]]
@@ -125,8 +132,8 @@ def late() -> httpx.Response:
         return other.submit(asyncio.run, asked()).result()
 
 
-def refusals(server: str) -> list[str]:
-    """Refusals of the service: wrong numbers, paths, squares, tables, passages and files."""
+def refusals(server: str) -> list[dict[str, Any]]:
+    """Refusals of the service, and each of their errors: wrong numbers, paths, squares, tables, passages and files."""
     few, octets = {"dragon": {"benches": 9}}, {"Content-Type": "application/octet-stream"}
     with httpx.Client(base_url=server, timeout=60.0) as client:
         wrong = [(call, {name: text}) for call, names in FIELDS.items() for name in names for text in WRONG]
@@ -146,21 +153,59 @@ def refusals(server: str) -> list[str]:
         answers += [client.get("/jobs/" + 48 * "0"), late()]
     found = [answer.json() for answer in answers if answer.status_code >= 400]
     assert len(found) > len(answers) - 25  # a few of the wrong texts are right for some field
-    told = [words for one in found for words in (one["detail"], *(error["detail"] for error in one["errors"]))]
-    return list(dict.fromkeys(told))
+    return list({words["detail"]: words for one in found for words in (one, *one["errors"])}.values())
 
 
 def test_every_refusal_is_a_sentence_in_both_languages(visit: Any, server: str) -> None:
     page = visit("?benches=9")
-    details = refusals(server)
-    assert len(details) > 100
-    spoken = """async (details) => {
+    found = refusals(server)
+    assert len(found) > 100
+    spoken = """async (refusals) => {
       const { refusalWords, setLanguage } = await import("/page/text.js");
-      return ["zh", "en"].map((one) => setLanguage(one) && details.map((detail) => refusalWords(detail).textContent));
+      return ["zh", "en"].map((one) => setLanguage(one) && refusals.map((told) => refusalWords(told).textContent));
     }"""
-    chinese, english = page.evaluate(spoken, details)
+    chinese, english = page.evaluate(spoken, found)
     assert [words for words in chinese if ENGLISH.search(QUOTED.sub("", words)) or not words.endswith("。")] == []
     assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
+
+
+def test_a_refusal_is_its_template_with_the_values(server: str) -> None:
+    for told in refusals(server):
+        values = told["values"]
+
+        def filled(text: str, values: dict[str, Any] = values) -> str:
+            return re.sub(r"\{(\w+)\}", lambda word: values[word[1]]["text"] if word[1] in values else word[0], text)
+
+        given = f", got {told['got']['text']}" if "got" in told else ""
+        whole = filled(told["template"]) + given + (f": {filled(told['reason'])}" if "reason" in told else "")
+        assert told["detail"].startswith(whole[:290]), told
+        # A template is the same for all values: it holds none of them.
+        for value in (*values.values(), *([told["got"]] if "got" in told else [])):
+            assert "parameter" in value or len(value["text"]) < 4 or value["text"] not in told["template"], told
+
+
+def test_the_page_knows_only_templates_that_the_program_has(visit: Any) -> None:
+    page = visit("?benches=9")
+    known = page.evaluate(
+        """async () => {
+          const { REASONS, RULES, WHOLE } = await import("/page/words/refusals.js");
+          return [REASONS, RULES, WHOLE].flatMap(Object.keys);
+        }"""
+    )
+    assert len(known) > 100
+    files = [file for room in ("app", "core") for file in (ROOT / room).rglob("*.py")]
+    nodes = (node for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
+    said = "\n".join(str(node.value) for node in nodes if isinstance(node, ast.Constant))
+    own = ("within ", "HTTP ")
+    parts = ((key, part.strip()) for key in known if not key.startswith(own) for part in re.split(r"\{\w+\}|: ", key))
+    assert [(key, part) for key, part in parts if len(part) > 2 and not _told(part, said)] == []
+
+
+def _told(part: str, said: str) -> bool:
+    """Whether nearly all pairs of words of a template stand in the texts of the program: some are joined there."""
+    words = part.split()
+    pairs = [" ".join(words[k : k + 2]) for k in range(max(1, len(words) - 1))]
+    return all(word in said for word in words) and sum(pair not in said for pair in pairs) <= 3
 
 
 def test_every_proof_is_told_in_chinese(visit: Any, server: str) -> None:

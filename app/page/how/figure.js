@@ -15,7 +15,7 @@ const NARROWEST = 160;
 
 export class Figure {
   data = null;
-  /** The detail of a refusal; null if there is none. */
+  /** The problem of a refusal; null if there is none. */
   #refused = null;
   #texts = [];
   #outputs = new Map();
@@ -85,7 +85,7 @@ export class Figure {
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
-      this.#refused = error.errors[0]?.detail ?? error.message;
+      this.#refused = error.told;
     }
     this.figure.setAttribute("aria-busy", "false");
     this.draw();

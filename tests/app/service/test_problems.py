@@ -103,7 +103,8 @@ def test_every_error_of_core_is_a_problem_of_the_client(kind: type[core.BenchDra
     app = create_app(Settings())
     app.add_api_route("/fail", fail)
     answer = ask(app, "/fail")
-    assert (answer.status_code, answer.json()["errors"]) == (422, [{"name": "pitch", "detail": "pitch is wrong"}])
+    (error,) = answer.json()["errors"]
+    assert (answer.status_code, error["name"], error["detail"]) == (422, "pitch", "pitch is wrong")
     assert answer.json()["type"] == f"urn:problem-type:bench-dragon:{kind.code}"
 
 

@@ -106,7 +106,7 @@ def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
         ({"samples": {"count": 0}}, "samples.count must be at least 1, got 0"),
         (
             {"over": {"pitch": {"start": -1, "stop": 2, "count": 3, "scale": "log"}}},
-            "over.pitch: start and stop must be positive",
+            "start and stop must be positive on a log scale",
         ),
     ],
 )

@@ -18,6 +18,12 @@ from app.wire.messages import names_at
 from app.wire.question import Wire, unit_of
 
 
+def told(answer: httpx.Response) -> list[tuple[str, str, str]]:
+    """Kind of the place, place and sentence of each error."""
+    places = (("name" if "name" in one else "pointer", one) for one in answer.json()["errors"])
+    return [(place, one[place], one["detail"]) for place, one in places]
+
+
 @pytest.mark.parametrize(
     ("call", "name", "words"),
     [
@@ -33,7 +39,7 @@ from app.wire.question import Wire, unit_of
 def test_a_query_is_told_of_names_of_its_own_call(client: httpx.Client, call: str, name: str, words: str) -> None:
     answer = client.get(f"/{call}")
     assert answer.status_code == 422
-    assert answer.json()["errors"] == [{"name": name, "detail": f'"{name}" is unknown here: {words}'}]
+    assert told(answer) == [("name", name, f'"{name}" is unknown here: {words}')]
 
 
 @pytest.mark.parametrize(
@@ -61,8 +67,7 @@ def test_a_body_is_told_of_names_of_its_own_place(
 ) -> None:
     answer = client.post(f"/{call}", json=body)
     assert answer.status_code == 422
-    (item,) = answer.json()["errors"]
-    assert item == {"pointer": pointer, "detail": f'"{pointer.split("/")[-1]}" is unknown here: {words}'}
+    assert told(answer) == [("pointer", pointer, f'"{pointer.split("/")[-1]}" is unknown here: {words}')]
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
@@ -71,7 +76,7 @@ def test_a_number_that_is_not_finite_is_shown_as_it_was_written(client: httpx.Cl
     answer = client.post("/trajectory", content=body, headers=headers)
     assert answer.status_code == 422
     detail = f"pitch must be a finite number [m], got {number}"
-    assert answer.json()["errors"] == [{"pointer": "/path/pitch", "detail": detail}]
+    assert told(answer) == [("pointer", "/path/pitch", detail)]
 
 
 @pytest.mark.parametrize(
@@ -88,7 +93,32 @@ def test_a_length_written_in_centimetres_is_told_in_metres(
 ) -> None:
     answer = client.get("/collision-time", params={name: text})
     assert answer.status_code == 422
-    assert answer.json()["errors"] == [{"name": name, "detail": f"{name} must be a number {words}"}]
+    assert told(answer) == [("name", name, f"{name} must be a number {words}")]
+
+
+def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(client: httpx.Client) -> None:
+    problem = client.get("/collision-time?pitch=55&benches=x").json()
+    benches, pitch = problem["errors"]
+    assert pitch == {
+        "name": "pitch",
+        "detail": "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m",
+        "template": "{field} must be at most {most}",
+        "got": {"text": "55 m", "value": 55.0, "unit": "m"},
+        "reason": "lengths are in metres, and {cm} is {m}",
+        "values": {
+            "field": {"text": "pitch", "parameter": "pitch"},
+            "most": {"text": "10 m", "value": 10.0, "unit": "m"},
+            "cm": {"text": "55 cm", "value": 55.0, "unit": "cm"},
+            "m": {"text": "0.55 m", "value": 0.55, "unit": "m"},
+        },
+    }
+    parts = {
+        "template": "{field} must be a whole number",
+        "got": {"text": '"x"', "value": "x"},
+        "values": {"field": {"text": "benches", "parameter": "benches"}},
+    }
+    assert benches == {"name": "benches", "detail": 'benches must be a whole number, got "x"', **parts}
+    assert {word: problem[word] for word in parts} == parts
 
 
 def test_the_names_of_a_place_are_those_of_its_type() -> None:

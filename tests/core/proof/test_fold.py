@@ -11,8 +11,8 @@ import pytest
 from flint import arb, ctx
 
 from core import Dragon, LimitedBy, Spiral, minimum_pitch
-from core.dance import end_theta
 from core.errors import ProofRefused
+from core.paths.spiral import end_theta
 from core.proof import Certificate, prove_minimum_pitch, verify
 from core.proof.chain import Chain, delta, rises_to
 from core.proof.fold import verify_fold

@@ -1,0 +1,32 @@
+"""Check of the names that a caller gave."""
+
+from __future__ import annotations
+
+from unicodedata import category
+
+from core.errors import Given, InvalidValue, Value
+
+# Longest name of a bench or an area [characters].
+NAME_MAX = 200
+# Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
+NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
+
+
+def checked_name(field: str, name: object, what: str = "") -> None:
+    """Refuse a name that is not one line of plain text, because it appears in sentences and figures.
+
+    what: the beginning of the message, if it is not the field
+    raises: InvalidValue
+    """
+    got: Value = Given(name, f"{name!a:.60}" if isinstance(name, str) else "")
+    if not isinstance(name, str):
+        rule = "must be a string"
+    elif len(name) > NAME_MAX:
+        rule, got = "must have at most {most} characters", len(name)
+    elif any(category(one) in NOT_PLAIN for one in name):
+        rule = "must be one line of plain text"
+    else:
+        return
+    if what:
+        raise InvalidValue.in_words(field, f"{{what}} {rule}", got=got, what=what, most=NAME_MAX)
+    raise InvalidValue(field, rule, got=got, most=NAME_MAX)
