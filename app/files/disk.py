@@ -16,6 +16,7 @@ from app.wire.messages import OBJECT
 from app.wire.question import shown
 from app.wire.texts import Unreadable, json_of, text_of, toml_of
 from core import InvalidValue
+from core.errors import Given, Parameter
 
 # Endings of a file that describes a dance.
 DANCE_ENDINGS = (".toml", ".json")
@@ -31,12 +32,14 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     if endings and ending not in endings:
         *most, last = endings
         words = f"{', '.join(most)} or {last}" if most else last
-        raise InvalidValue.in_words(option, f"--{option} must end in {words}, got {ending or 'no ending'}")
+        told = {"got": ending or "no ending", "option": option, "endings": words}
+        raise InvalidValue.in_words(option, "--{option} must end in {endings}", **told)
     if file.is_dir():
         raise _refused(errno.EISDIR, file)
     target = file.resolve()
     if not target.parent.is_dir():
-        raise InvalidValue.in_words(option, f"--{option} must be in a folder that exists, got {file}")
+        words = "--{option} must be in a folder that exists"
+        raise InvalidValue.in_words(option, words, got=str(file), option=option)
     # An existing file may be replaced only by a user who may write both it and its folder.
     touched = [target] if target.exists() else []
     if not touched or target.is_file():
@@ -79,9 +82,10 @@ def read_json(file: Path) -> dict[str, Any]:
     try:
         found = json_of(_standard_input() if str(file) == "-" else file.read_bytes())
     except Unreadable as error:
-        raise InvalidValue.in_words("file", f"{file} {error}") from error
+        raise error.of("file", str(file)) from error
     if not isinstance(found, dict):
-        raise InvalidValue.in_words("file", f"{file} must hold a JSON object, got {shown(found)}")
+        words = "{file} must hold a JSON object"
+        raise InvalidValue.in_words("file", words, got=Given(found, shown(found)), file=str(file))
     return found
 
 
@@ -94,9 +98,8 @@ def read_dance(file: Path) -> dict[str, Any]:
     """
     ending = file.suffix.lower()
     if ending not in DANCE_ENDINGS and file.is_file():
-        raise InvalidValue.in_words(
-            "file", f"{file} must end in {' or '.join(DANCE_ENDINGS)}, got {ending or 'no ending'}"
-        )
+        words, endings = "{file} must end in {endings}", " or ".join(DANCE_ENDINGS)
+        raise InvalidValue.in_words("file", words, got=ending or "no ending", file=str(file), endings=endings)
     piped = _standard_input() if str(file) == "-" else b""
     if ending != ".toml" and (not piped.strip() or piped.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")):
         asked = read_json(file)
@@ -104,7 +107,7 @@ def read_dance(file: Path) -> dict[str, Any]:
         try:
             asked = toml_of(piped or file.read_bytes())
         except Unreadable as error:
-            raise InvalidValue.in_words("file", f"{file} {error}") from error
+            raise error.of("file", str(file)) from error
     if not asked:
         print(f"{file} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
@@ -119,9 +122,10 @@ def read_dance(file: Path) -> dict[str, Any]:
         try:
             asked["dragon"] = {"csv": text_of(place.read_bytes())}
         except OSError as error:
-            raise InvalidValue("dragon", f"of {file}: {place}: {error.strerror}") from error
+            told = {"file": str(file), "table": str(place), "why": str(error.strerror)}
+            raise InvalidValue("dragon", "of {file}: {table}: {why}", **told) from error
         except Unreadable as error:
-            raise InvalidValue.in_words("dragon", f"{place} {error}") from error
+            raise error.of("dragon", str(place)) from error
     if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
         asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked
@@ -139,12 +143,17 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
                 return told
         found = seen[drawing] = seen.get(drawing) or read_map(drawing)
     except OSError as error:
-        raise InvalidValue(name, f"of {file}: {drawing}: {error.strerror}") from error
+        told = {"file": str(file), "drawing": str(drawing), "why": str(error.strerror)}
+        raise InvalidValue(name, "of {file}: {drawing}: {why}", **told) from error
     except InvalidValue as error:
-        raise error if error.field != "file" else InvalidValue(name, f"of {file}: {error.message}") from error
+        if error.field != "file":
+            raise
+        words, told = f"{{part}} of {{dance}}: {error.template}", {"part": Parameter(name), "dance": str(file)}
+        raise InvalidValue.in_words(name, words, got=error.got, reason=error.reason, **error.values, **told) from error
     part = found.geometry if name == "venue" else found.path
     if part is None:
-        raise InvalidValue(name, f"of {file}: {drawing} holds no {name}")
+        told = {"file": str(file), "drawing": str(drawing), "part": name}
+        raise InvalidValue(name, "of {file}: {drawing} holds no {part}", **told)
     return part
 
 

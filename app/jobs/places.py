@@ -14,10 +14,10 @@ from app.jobs.job import JobState
 from app.jobs.store import Store
 from app.settings import Settings
 from core import BenchDragonError, InvalidValue
+from core.errors import Given
 
 # Longest wait for an answer of a service [s].
 PATIENCE = 60.0
-NO_RESULT = "job {} is {}, so it has no result"
 
 
 class NoJob(BenchDragonError):
@@ -31,8 +31,8 @@ class InFolder:
 
     def __init__(self, folder: Path) -> None:
         if not (folder / "jobs.sqlite").is_file():
-            rule = f"--data must be a data folder of the service, got {folder} without jobs"
-            raise InvalidValue.in_words("data", rule)
+            words = "--data must be a data folder of the service, got {folder} without jobs"
+            raise InvalidValue.in_words("data", words, folder=str(folder))
         self.store = Store(folder)
 
     def list(self) -> list[dict[str, Any]]:
@@ -41,7 +41,7 @@ class InFolder:
     def show(self, job: str) -> dict[str, Any]:
         found = self.store.get(job)
         if found is None:
-            raise NoJob.in_words("job", f"there is no job {job} in {self.store.folder}")
+            raise NoJob.in_words("job", "there is no job {job} in {folder}", job=job, folder=str(self.store.folder))
         return found.status()
 
     def cancel(self, job: str) -> str:
@@ -55,7 +55,8 @@ class InFolder:
         known = self.show(job)
         file = self.store.result(job)
         if known["status"] != JobState.SUCCESSFUL or not file.is_file():
-            raise NoJob.in_words("job", f"{NO_RESULT.format(job, known['status'])}: {known['message']}")
+            words, told = "job {job} is {status}, so it has no result: {why}", {"why": str(known["message"])}
+            raise NoJob.in_words("job", words, job=job, status=str(known["status"]), **told)
         return file.read_bytes()
 
 
@@ -64,7 +65,7 @@ class OfService:
 
     def __init__(self, url: str, token: str) -> None:
         if not url.startswith(("http://", "https://")):
-            raise InvalidValue.in_words("url", f"--url must begin with http:// or https://, got {url}")
+            raise InvalidValue.in_words("url", "--url must begin with http:// or https://", got=Given(url, url))
         self.url, self.token = url.rstrip("/"), token
 
     def _ask(self, path: str, method: str = "GET") -> bytes:
@@ -77,9 +78,10 @@ class OfService:
                 detail = orjson.loads(error.read())["detail"]
             except (orjson.JSONDecodeError, KeyError, TypeError):
                 detail = f"{error.code} {HTTPStatus(error.code).phrase}"
-            raise NoJob.in_words("job", detail) from error
+            raise NoJob.in_words("job", "{answer}", answer=str(detail)) from error
         except URLError as error:
-            raise InvalidValue.in_words("url", f"--url {self.url} does not answer: {error.reason}") from error
+            words = "--url {url} does not answer: {why}"
+            raise InvalidValue.in_words("url", words, url=self.url, why=str(error.reason)) from error
 
     def list(self) -> list[dict[str, Any]]:
         return cast(list[dict[str, Any]], orjson.loads(self._ask("/jobs"))["jobs"])

@@ -79,8 +79,9 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     try:
         return _of_dance(toml_of(data), say)
     except Unreadable as error:
-        rule = "must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: it {why}"
-        raise InvalidValue("file", rule, got="none of these", why=str(error)) from error
+        told = error.of("file", "it")
+        rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {told.template}: {told.reason}"
+        raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **told.values) from error
 
 
 def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:

@@ -94,7 +94,8 @@ async def validation_problem(request: Request, error: RequestValidationError) ->
 
 def unreadable(error: Unreadable) -> Response:
     """Answer to a body that cannot be read as JSON."""
-    told = BenchDragonError.in_words("", "The body {why}. Send an object such as {}.", why=str(error))
+    reason = f"{error.reason}. Send an object such as {{}}." if error.reason else "send an object such as {}."
+    told = error.of("", "The body").because(reason)
     status, code = (422, "invalid-value") if isinstance(error, Unfit) else (400, "broken-json")
     return problem(status, code, told, [item_of(told, pointer="")])
 

@@ -126,8 +126,8 @@ class Cluster:
         """Submit a piece again: a failing cluster raises many kinds of errors. raises: NoAnswer after many in a row"""
         self._failures += 1
         if self._failures >= FAILURES and self._client.status == "running":
-            words = f"workers of {self._address} cannot answer: {type(error).__name__}: {error}"
-            raise NoAnswer.in_words("workers", words) from error
+            words, why = "workers of {address} cannot answer: {why}", f"{type(error).__name__}: {error}"
+            raise NoAnswer.in_words("workers", words, address=self._address, why=why) from error
         self._lost.append(piece)
 
     def _look(self) -> None:
@@ -161,7 +161,7 @@ class Cluster:
                 return client
             except (OSError, TimeoutError, ValueError) as error:
                 if time.monotonic() >= until:
-                    words = "start one there, or name another, and run the sweep again: it continues"
-                    told = f"no Dask scheduler answers at {self._address}: {words}"
-                    raise NoScheduler.in_words("dask", told) from error
+                    words = "no Dask scheduler answers at {address}"
+                    why = "start one there, or name another, and run the sweep again: it continues"
+                    raise NoScheduler.in_words("dask", words, reason=why, address=self._address) from error
                 time.sleep(AGAIN)

@@ -44,7 +44,7 @@ def arrived(piece: ShardPiece, attempted: tuple[bytes | None, str]) -> Done:
     """The result of attempt(). raises: NoAnswer"""
     rows, why = attempted
     if rows is None:
-        raise NoAnswer("workers", f"cannot answer: {why}")
+        raise NoAnswer("workers", "cannot answer: {why}", why=why)
     return Done(piece, rows)
 
 

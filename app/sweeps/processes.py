@@ -131,5 +131,6 @@ class Processes:
             self._idle.remove(worker)
         self._failed_starts += not worker.ready
         if self._failed_starts >= STARTS:
-            raise CannotStart.in_words("workers", f"{STARTS} processes in a row ended before they were ready")
+            words = "{count} processes in a row ended before they were ready"
+            raise CannotStart.in_words("workers", words, count=STARTS)
         self._all.add(_Worker(self._events))

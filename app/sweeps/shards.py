@@ -63,8 +63,8 @@ class ShardPiece:
         raises: OtherVersion
         """
         if core.__version__ != self.version:
-            words = f"must be {self.version} on every worker, as at the start of the sweep, got {core.__version__}"
-            raise OtherVersion("bench-dragon", words)
+            words = "must be {version} on every worker, as at the start of the sweep"
+            raise OtherVersion("bench-dragon", words, got=core.__version__, version=self.version)
         question, request = self.question, self.spec.request
         columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
         nothing = (None,) * len(columns)

@@ -129,7 +129,7 @@ class Spec(_Told):
         try:
             return cls.of((toml_of if file.suffix.lower() == ".toml" else json_of)(file.read_bytes()))
         except Unreadable as error:
-            raise InvalidValue.in_words("spec", "{file} {why}", file=str(file), why=str(error)) from error
+            raise error.of("spec", str(file)) from error
 
     @property
     def asks(self) -> Question:

@@ -14,7 +14,7 @@ from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
 from app.wire.paths import KINDS
-from app.wire.question import Wire, shown, unit_of
+from app.wire.question import SHOWN_MAX, Wire, shown, unit_of
 from core import InvalidValue
 from core.errors import Given, Parameter, Quantity, Value, spoken
 
@@ -83,7 +83,9 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     number = _number(value, text=error["loc"][0] == "query")
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
-    got: Value = Given(value, words) if number is None else Quantity(number, unit, shown=words)
+    got: Value = Given(value, words)
+    if number is not None:
+        got = Quantity(number, unit, shown=words if len(words) < SHOWN_MAX else "")
     told: dict[str, Value] = {"got": got, "unit": unit}
     bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
     told |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}

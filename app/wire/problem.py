@@ -15,7 +15,9 @@ from core.errors import BenchDragonError, Given, Parameter, Quantity, Value
 PROBLEM_TYPE = "application/problem+json"
 # Errors beyond this number in one request are counted, not listed.
 ERRORS_MAX = 20
-# Longest detail and place [characters]; longer ones are cut, so that a problem has less than 20 kB.
+# Longest problem [bytes]: the last errors are left out of a longer one.
+BYTES_MAX = 20_000
+# Longest detail and place [characters]; longer ones are cut.
 DETAIL_MAX, PLACE_MAX = 300, 200
 # Largest number that every reader of JSON takes exactly, if it is whole; a larger one stands in the text alone.
 NUMBER_MAX = 2**53
@@ -87,7 +89,10 @@ def problem_of(
     told = sentence_of(error)
     told["detail"] = plain(f"{error}{more}", 2 * DETAIL_MAX)
     kind, listed = f"urn:problem-type:bench-dragon:{code}", list(islice(errors, ERRORS_MAX))
-    return Problem(type=kind, title=title(status), status=status, errors=listed, **told)
+    problem = Problem(type=kind, title=title(status), status=status, errors=listed, **told)
+    while problem.errors and len(problem.to_json()) > BYTES_MAX:
+        problem.errors.pop()
+    return problem
 
 
 def item_of(error: BenchDragonError, *, pointer: str | None = None, name: str | None = None) -> ErrorItem:
@@ -111,7 +116,7 @@ def _part(value: Value) -> Part:
         return Part(text=plain(str(value)), parameter=plain(value.name, PLACE_MAX))
     if isinstance(value, Quantity):
         number = float(f"{value.value:.{value.digits}g}")
-        return Part(text=str(value), value=number if math.isfinite(number) else None, unit=value.unit or None)
+        return Part(text=plain(str(value)), value=number if math.isfinite(number) else None, unit=value.unit or None)
     inner = value.value if isinstance(value, Given) else None if isinstance(value, str) else value
     if isinstance(inner, str):
         inner = plain(inner)

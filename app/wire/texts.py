@@ -10,17 +10,28 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Self
 
 from app.wire.question import shown
+from core import InvalidValue
+from core.errors import Given, Value
 
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(r"\\u(?:0000|[dD][89a-fA-F])")
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
 
 
-class Unreadable(ValueError):
-    """Bytes that are no text, or text in no known form; the message begins with a verb, such as "is not JSON: ..."."""
+class Unreadable(InvalidValue):
+    """Bytes that are no text, or text in no known form; {text} in the template is the name of what was read."""
+
+    @classmethod
+    def told(cls, words: str, reason: str = "", **values: Value) -> Self:
+        """words: the rest of the template, such as "is not JSON"."""
+        return cls.in_words("text", f"{{text}} {words}", reason=reason, text="the text", **values)
+
+    def of(self, field: str, text: str) -> Self:
+        """The same error of a text with this name. field: the parameter that gives it"""
+        return self.renamed(lambda _: field, text=text)
 
 
 class Unfit(Unreadable):
@@ -33,8 +44,9 @@ def text_of(data: bytes) -> str:
     try:
         return data.decode("utf-16" if marked else "utf-8-sig")
     except UnicodeDecodeError as error:
-        byte, place = data[error.start], error.start
-        raise Unreadable(f"is not text in UTF-8: byte {byte:#04x} at position {place}") from error
+        byte, place = f"{data[error.start]:#04x}", error.start
+        reason = "byte {byte} at position {place}"
+        raise Unreadable.told("is not text in UTF-8", reason, byte=byte, place=place) from error
 
 
 def json_of(data: bytes) -> Any:
@@ -60,20 +72,22 @@ def _refusing() -> Iterator[None]:
     except Unreadable:
         raise
     except json.JSONDecodeError as error:
-        raise Unreadable(f"is not JSON: {error.msg.removesuffix(' at')} at character {error.pos}") from error
+        why = error.msg.removesuffix(" at")
+        raise Unreadable.told("is not JSON", "{why} at character {place}", why=why, place=error.pos) from error
     except tomllib.TOMLDecodeError as error:
-        raise Unreadable(f"is not TOML: {error}") from error
+        raise Unreadable.told("is not TOML", "{why}", why=str(error)) from error
     except RecursionError as error:
-        raise Unreadable("nests too many objects and lists in one another") from error
+        raise Unreadable.told("nests too many objects and lists in one another") from error
     except ValueError as error:  # Python reads no longer numbers.
-        raise Unreadable(f"has a whole number of more than {sys.get_int_max_str_digits()} digits") from error
+        most = sys.get_int_max_str_digits()
+        raise Unreadable.told("has a whole number of more than {most} digits", most=most) from error
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) < len(pairs):
         name = next(name for name, times in Counter(name for name, _ in pairs).items() if times > 1)
-        raise Unfit(f"has an object with the name {shown(name)} more than once")
+        raise Unfit.told("has an object with the name {name} more than once", name=Given(name, shown(name)))
     return found
 
 
@@ -86,4 +100,4 @@ def _refuse_no_text(value: Any) -> None:
         elif isinstance(one, list):
             left += one
         elif isinstance(one, str) and NO_TEXT.search(one):
-            raise Unfit(f"has a text with NUL or half of a character, near {one[:40]!a}")
+            raise Unfit.told("has a text with NUL or half of a character, near {near}", near=f"{one[:40]!a}")

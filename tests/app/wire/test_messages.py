@@ -15,6 +15,7 @@ from app.questions.collision_time import CollisionQuery
 from app.questions.overlaps import OverlapsRequest
 from app.questions.trajectory import TrajectoryRequest
 from app.wire.messages import names_at
+from app.wire.problem import BYTES_MAX
 from app.wire.question import Wire, unit_of
 
 
@@ -146,3 +147,35 @@ def test_a_name_has_the_same_unit_in_all_requests() -> None:
 
     collect(Wire)
     assert {name: found for name, found in units.items() if len(found) > 1} == {}
+
+
+@pytest.mark.parametrize("text", ["龙" * 500, "\x01" * 300, '"\\' * 300, "{field}"])
+def test_a_problem_stays_short_whatever_its_values_hold(client: httpx.Client, text: str) -> None:
+    answer = client.post("/trajectory", json={f"{k}{text}": 1 for k in range(50)})
+    assert answer.status_code == 422
+    assert len(answer.content) <= BYTES_MAX
+    assert answer.json()["detail"].endswith(" is unknown here: leave it out (and 49 more)") or len(text) > 100
+    assert answer.json()["errors"]
+
+
+def test_a_number_of_many_digits_is_told_by_its_value(client: httpx.Client) -> None:
+    problem = client.get("/collision-time", params={"pitch": f"{'0' * 3000}55"}).json()
+    assert problem["detail"] == "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m"
+    assert problem["got"] == {"text": "55 m", "value": 55.0, "unit": "m"}
+
+
+@pytest.mark.parametrize(
+    ("body", "template", "reason"),
+    [
+        (b'{"a": 1,}', "{text} is not JSON", "{why} at character {place}. Send an object such as {}."),
+        (b'{"a": \xff}', "{text} is not text in UTF-8", "byte {byte} at position {place}. Send an object such as {}."),
+        (b'{"a": 1, "a": 2}', "{text} has an object with the name {name} more than once", "send an object such as {}."),
+    ],
+)
+def test_a_body_that_cannot_be_read_has_a_template_of_its_own(
+    client: httpx.Client, body: bytes, template: str, reason: str
+) -> None:
+    problem = client.post("/check", content=body, headers={"Content-Type": "application/json"}).json()
+    assert (problem["template"], problem["reason"]) == (template, reason)
+    assert problem["values"]["text"]["text"] == "The body"
+    assert problem["errors"][0]["pointer"] == ""

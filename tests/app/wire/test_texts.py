@@ -42,7 +42,8 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
 def test_what_cannot_be_read_is_told_by_its_fault(read: Callable[[bytes], Any], data: bytes, words: str) -> None:
     with pytest.raises(Unreadable) as refused:
         read(data)
-    assert str(refused.value) == words
+    assert str(refused.value) == f"the text {words}"
+    assert str(refused.value.of("file", "dance.json")) == f"dance.json {words}"
     assert not isinstance(refused.value, Unfit)
 
 
@@ -57,7 +58,8 @@ def test_what_cannot_be_read_is_told_by_its_fault(read: Callable[[bytes], Any], 
 def test_json_that_fits_no_request_is_refused(data: bytes, words: str) -> None:
     with pytest.raises(Unfit) as refused:
         json_of(data)
-    assert str(refused.value) == words
+    assert str(refused.value) == f"the text {words}"
+    assert str(refused.value.of("file", "dance.json")) == f"dance.json {words}"
 
 
 def test_a_whole_character_in_two_escapes_is_text() -> None:

@@ -65,6 +65,14 @@ def test_a_pitch_without_contact_between_two_others_separates_two_pieces() -> No
     assert scan.jumps == ()
 
 
+def test_each_pitch_may_take_the_whole_work_of_a_search() -> None:
+    stops = Stops(SMALL, 0.0)
+    stops.radius(Spiral(0.55))
+    assert stops.search is not None
+    stops.search.work = 1.0  # as if the first pitch had taken all of it
+    assert stops.radius(Spiral(0.5)) == Stops(SMALL, 0.0).radius(Spiral(0.5))
+
+
 def test_a_run_that_is_undecided_just_before_its_fold_stops_there() -> None:
     """In the last nanometre of travel the clearance falls from 0.27395 to 0.27289 mm."""
     dragon, spiral = TO_THE_FOLD["30 micrometres apart"]

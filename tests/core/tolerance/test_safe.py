@@ -51,6 +51,17 @@ def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() 
     assert "are held apart by it" in found.certificate.method
 
 
+def test_a_pose_shows_where_benches_that_the_one_between_holds_apart_meet_after_all() -> None:
+    line = Route([Line((0.0, 0.0), (60.0, 0.0))])
+    found = tolerance(Dance(Dragon(3, 1.6, 1.6, 1.0, 0.275), line))
+    safe, shown = found.stray_bracket
+    assert found.independent < safe < 0.5 * 1.05  # half of a chord [m]: more is not asked about
+    assert found.exhibit is not None
+    assert found.exhibit.benches == (0, 2)
+    assert shown is not None
+    assert safe < shown < 1.2 * safe  # the bound for three benches is not as tight as that for two
+
+
 def test_on_a_wide_spiral_the_next_turn_limits_the_stray_and_not_the_next_bench_but_one() -> None:
     dance = Dance(Dragon(60), Spiral(2.0))
     found = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
