@@ -21,6 +21,7 @@ from core.errors import (
     checked_number,
     checked_size,
     quantities,
+    span,
 )
 from core.names import checked_name
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
@@ -46,7 +47,7 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        told = quantities("", 6, least=low) | quantities("m", 6, most=SIZE_MAX) | quantities("m", got=column[k])
+        told = span("m", low, SIZE_MAX) | quantities("m", got=column[k])
         raise InvalidValue(f"{name}.{k}", "must be from {least} to {most}", **told)
     return column
 

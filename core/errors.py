@@ -44,7 +44,7 @@ WORD = re.compile(r"\{(\w+)\}")
 class Quantity(NamedTuple):
     """A number with its unit in a message.
 
-    digits: significant ones in the message; by default all of them; shown: the number in the message, in place of those
+    digits: significant ones in the message; by default all of them; shown: the whole text there, in place of both
 
     >>> str(Quantity(12.5, "s")), str(Quantity(1 / 3, "m", 4)), str(Quantity(3.0, ""))
     ('12.5 s', '0.3333 m', '3')
@@ -57,7 +57,7 @@ class Quantity(NamedTuple):
 
     def __str__(self) -> str:
         number = said(self.value) if self.digits == 17 else f"{self.value:.{self.digits}g}"
-        return f"{self.shown or number} {self.unit}".rstrip()
+        return self.shown or f"{number} {self.unit}".rstrip()
 
 
 class Parameter(NamedTuple):
@@ -78,6 +78,11 @@ class Given(NamedTuple):
     def __str__(self) -> str:
         return self.shown or f"{self.value!r:.60}"
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # What a caller gave may be anything, also what no other process can have.
+        plain = self.value is None or isinstance(self.value, (str, int, float))
+        return Given, (self.value, self.shown) if plain else (None, str(self))
+
 
 # What may stand in a template. A number or a text stands there as it is.
 Value = Quantity | Parameter | Given | int | float | str
@@ -89,11 +94,7 @@ def quantities(unit: str, digits: int = 17, /, **numbers: float) -> dict[str, Va
 
 
 def filled(template: str, values: Mapping[str, Value]) -> str:
-    """A template with the values in the places of their words.
-
-    >>> filled("at most {limit}, not {other}", {"limit": Quantity(9.0, "s")})
-    'at most 9 s, not {other}'
-    """
+    """A template with the values in the places of their words; other words stay."""
     return WORD.sub(lambda word: told_as(values[word[1]]) if word[1] in values else word[0], template)
 
 
@@ -123,16 +124,17 @@ def said_bound(number: float, decimals: int, side: int) -> str:
 def bound(number: float, decimals: int, side: int, unit: str) -> Quantity:
     """A bound in a message, rounded as said_bound() does."""
     text = said_bound(number, decimals, side)
-    return Quantity(float(text), unit, shown=text)
+    return Quantity(float(text), unit, shown=f"{text} {unit}")
 
 
 def spoken(field: str) -> str:
-    """A dotted field as messages write it.
-
-    >>> spoken("path.pieces.0.points.2")
-    'path.pieces[0].points[2]'
-    """
+    """A dotted field as messages write it: path.pieces[0] for path.pieces.0."""
     return re.sub(r"\.(\d+)", r"[\1]", field)
+
+
+def span(unit: str, low: float, high: float) -> dict[str, Value]:
+    """Values of "from {least} to {most}", with the unit in the message only once."""
+    return {"least": Quantity(low, unit, shown=f"{low:g}"), "most": Quantity(high, unit, 6)}
 
 
 class BenchDragonError(Exception):
@@ -148,8 +150,6 @@ class BenchDragonError(Exception):
 
     >>> start = Parameter("times.start")
     >>> error = InvalidValue("times.stop", "must be after {start}: it is earlier", got=3.0, start=start)
-    >>> error.template, error.reason
-    ('{field} must be after {start}', 'it is earlier')
     >>> error.renamed(lambda name: name.removeprefix("times.")).message
     'stop must be after start, got 3: it is earlier'
     """
@@ -258,8 +258,8 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     try:
         number = float(value)
     except OverflowError as error:  # an int of Python may have any number of digits
-        span = {**limits, "least": Quantity(low, "", 6)}
-        raise InvalidValue(name, "must be from {least} to {most}", got="1e308 or more", **span) from error
+        rule = "must be from {least} to {most}"
+        raise InvalidValue(name, rule, got="1e308 or more", **span(unit, low, high)) from error
     if low <= number <= high and math.isfinite(number) and not (open_low and number == low):
         return number
     if not math.isfinite(number):

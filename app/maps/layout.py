@@ -18,10 +18,11 @@ from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, area_of, 
 from app.maps.marks import line_of
 from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
+from app.wire.messages import fault_of
 from app.wire.paths import POINTS_MAX, AnyPath
 from app.wire.question import Coordinates
 from core import InvalidValue, Route, Spiral, Venue
-from core.errors import Quantity
+from core.errors import Parameter, Quantity
 from core.names import NAME_MAX, NOT_PLAIN
 from core.shown import counted
 from core.values import Floats
@@ -86,8 +87,10 @@ def checked_path(path: object) -> Spiral | Route:
         found: Spiral | Route = TypeAdapter[Any](AnyPath).validate_python(path).to_path()
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
-        place = ".".join(str(part) for part in ("path", *first["loc"][1:]))
-        raise InvalidValue("file", "must describe a path: {place}: {why}", place=place, why=first["msg"]) from error
+        fault = fault_of({**first, "loc": ("file", "path", *first["loc"])}, None)
+        told = {**fault.values, "file": Parameter("file")}
+        why = f"{fault.template}: {fault.reason}".removesuffix(": ")
+        raise InvalidValue.in_words("file", "{file} must describe a path", got=fault.got, reason=why, **told) from error
     return found
 
 

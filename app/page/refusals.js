@@ -42,7 +42,7 @@ export function refusalIn(told, chinese, say) {
   /** The name of a parameter on the page. */
   function label(dotted) {
     const name = lastOf(dotted);
-    return fieldOf(name) || NAMES[name] ? `“${say(NAMES[name] ?? name)}”` : dotted;
+    return fieldOf(name) || NAMES[name] ? `“${say(NAMES[name] ?? name)}”` : dotted.replace(/\.(\d+)/g, "[$1]");
   }
 
   /** The place of the error, with the number of a point or of a thing. */
@@ -88,14 +88,15 @@ export function refusalIn(told, chinese, say) {
   }
 
   /** The sentence in the words of the service, for what is not known here. */
-  const plain = (words) => filled(words).replace(/\.?$/, ".");
+  const plain = (words) => filled(words).replace(/([?.])?$/, (_, mark) => mark ?? ".");
 
   if (template.startsWith(IN_LINE)) {
     const inner = refusalIn({ ...told, template: template.slice(IN_LINE.length) }, chinese, say);
     return { textContent: say("csvLine", { line: values.line.text, words: inner.textContent }), lang };
   }
   if (template.startsWith(TABLE)) return refusalIn({ ...told, template: template.slice(TABLE.length) }, chinese, say);
-  const whole = WHOLE[values.then ? `within ${values.then.unit ?? "work"}${parameter === "file" ? " file" : ""}` : template];
+  const name = lastOf(parameter);
+  const whole = WHOLE[`${template} (${name})`] ?? WHOLE[values.then ? `within ${values.then.unit ?? "work"}${parameter === "file" ? " file" : ""}` : template];
   if (whole?.[column]) return { textContent: filled(whole[column]) + (chinese ? "。" : "."), lang };
   const rule = template.startsWith(`${FIELD}must `) && template.slice(FIELD.length + "must ".length);
   const [english = rule, translated] = RULES[rule] ?? [];

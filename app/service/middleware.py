@@ -93,9 +93,9 @@ class RequestLimits(Layer):
         if "transfer-encoding" in headers and "content-length" in headers:
             detail = "The length of a body is stated twice: send Content-Length or Transfer-Encoding, not both."
             return Refused(400, detail, {"name": "Content-Length"}, CLOSE)
-        return self._refused(most, stated) if stated.isdecimal() and int(stated) > most else None
+        return self._refused(most, int(stated)) if stated.isdecimal() and int(stated) > most else None
 
-    def _refused(self, most: int, got: str) -> Refused:
+    def _refused(self, most: int, got: int | str) -> Refused:
         words, why = "The body must be at most {most} bytes", "ask for less in one request."
         return Refused(413, words, {"pointer": ""}, CLOSE, got=got, reason=why, most=most)
 

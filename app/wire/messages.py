@@ -85,7 +85,7 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
     got: Value = Given(value, words)
     if number is not None:
-        got = Quantity(number, unit, shown=words if len(words) < SHOWN_MAX else "")
+        got = Quantity(number, unit, shown=f"{words} {unit}".rstrip() if len(words) < SHOWN_MAX else "")
     told: dict[str, Value] = {"got": got, "unit": unit}
     bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
     told |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}
@@ -111,6 +111,12 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return "must be a string", told
         case "string_pattern_mismatch" if unit:
             return "must be a number [{unit}] in digits, such as 0.4503", told
+        case "string_pattern_mismatch":
+            return "must match the pattern {pattern}", told | {"pattern": limits["pattern"]}
+        case "string_too_short":
+            return "must have at least {least} characters", told | {"least": limits["min_length"]}
+        case "string_too_long":
+            return "must have at most {most} characters", told | {"most": limits["max_length"]}
         case "missing" | "union_tag_not_found":
             return "is missing", {}
         case "model_type" | "model_attributes_type" | "dict_type":
@@ -121,7 +127,7 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
         case "too_short":
             least, given = limits["min_length"], limits["actual_length"]
             rule = f"must have at least {{least}} {'entry' if least == 1 else 'entries'}"
-            return rule, {"least": least, "got": given or "none"}
+            return rule, {"least": least, "got": given or Given(0, "none")}
         case "too_long":
             return "must have at most {most} entries", {"most": limits["max_length"], "got": "more"}
         case "union_tag_invalid":

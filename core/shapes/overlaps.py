@@ -10,7 +10,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.errors import SIZE_MAX, SIZE_MIN, Given, InvalidValue, Parameter, Value, asked_of, checked_number, quantities
+from core.errors import (
+    SIZE_MAX,
+    SIZE_MIN,
+    Given,
+    InvalidValue,
+    Parameter,
+    Value,
+    asked_of,
+    checked_number,
+    quantities,
+    span,
+)
 from core.kernels import Budget
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
@@ -225,7 +236,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
                 rule = "must be a finite number"
             elif low > 0.0 and column[k] <= 0.0:
                 rule = "must be positive"
-            told = quantities("", 6, least=low) | quantities(unit, 6, most=high) | quantities(unit, got=column[k])
+            told = span(unit, low, high) | quantities(unit, got=column[k])
             raise InvalidValue(f"{subject}.{k}.{name}", rule, **told)
 
 

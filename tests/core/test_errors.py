@@ -75,6 +75,12 @@ def test_an_error_reaches_another_process_whole(kind: type[BenchDragonError]) ->
         assert (type(other), vars(other), str(other), other.args) == (kind, vars(error), str(error), error.args)
 
 
+def test_an_error_about_what_no_other_process_can_have_is_told_there_all_the_same() -> None:
+    error = InvalidValue("width", "must be a number", got=Given(lambda: 1))
+    other = pickle.loads(pickle.dumps(error))
+    assert (type(other), other.message, str(other.got)) == (InvalidValue, error.message, str(error.got))
+
+
 def test_a_sentence_of_its_own_stays_the_same_under_another_name() -> None:
     long = TooLarge.in_words("benches", "the dragon has {benches} benches", benches=9).named("dragon")
     assert (long.field, long.message, str(long)) == ("dragon", *2 * ("the dragon has 9 benches",))

@@ -197,7 +197,8 @@ def test_the_page_knows_only_templates_that_the_program_has(visit: Any) -> None:
     nodes = (node for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
     said = "\n".join(str(node.value) for node in nodes if isinstance(node, ast.Constant))
     own = ("within ", "HTTP ")
-    parts = ((key, part.strip()) for key in known if not key.startswith(own) for part in re.split(r"\{\w+\}|: ", key))
+    gaps = re.compile(r"\{\w+\}|: | \(\w+\)$")
+    parts = ((key, part.strip()) for key in known if not key.startswith(own) for part in gaps.split(key))
     assert [(key, part) for key, part in parts if len(part) > 2 and not _told(part, said)] == []
 
 

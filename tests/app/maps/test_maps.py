@@ -278,7 +278,7 @@ BOMB = '<!DOCTYPE k [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a
         (b'{"type": "Point", "coordinates": [1e400, 2]}', "file"),
         (b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 9], [9, 0], [0, 9], [0, 0]]]}', "self-intersection"),
         (b'{"type": "Topology"}', "file.type must be one of"),
-        (b'path = {kind = "spiral", pitch = "wide"}', "file must describe a path: path"),
+        (b'path = {kind = "spiral", pitch = "wide"}', "pitch must be a number"),
         (json.dumps({"type": "MultiPoint", "coordinates": [[k, k] for k in range(20_000)]}).encode(), "at most 10000"),
     ],
 )
