@@ -32,7 +32,7 @@ def contest(
     """The contest kit (CUMCM 2024 A) in a folder: workbooks, answers, tables, figures, films and a report."""
     require("xlsx", "folder", "contest")
     if folder.exists() and not folder.is_dir():
-        raise InvalidValue.in_words("folder", f"FOLDER must be a folder, got the file {folder}")
+        raise InvalidValue.in_words("folder", "FOLDER must be a folder, got the file {file}", file=str(folder))
     folder.mkdir(parents=True, exist_ok=True)
     with show.steps() as progress:
         kit = write_kit(folder, asked, language, Wanted(films, gif), progress)

@@ -72,11 +72,11 @@ def figures(
         file, folder = folder, file
     folder = folder or Path()
     if folder.is_file():
-        raise InvalidValue.in_words("folder", f"FOLDER must be a folder, got the file {folder}")
+        raise InvalidValue.in_words("folder", "FOLDER must be a folder, got the file {file}", file=str(folder))
     kinds = kind or list(Kind)[: 2 if file else None]
     used = {name for one in kinds for name in (ASKED[one].flat or FigureOptions).model_fields}
-    why = f"does not apply to the figure {' or '.join(kinds)}: leave it out, or draw another --kind too"
-    unused(context, FigureOptions.model_fields.keys() - used, why)
+    why = "does not apply to the figure {kinds}: leave it out, or draw another --kind too"
+    unused(context, FigureOptions.model_fields.keys() - used, why, kinds=" or ".join(kinds))
     requests = {one: of_file(file, ASKED[one].body or FigureOptions, context) if file else asked for one in kinds}
     folder.mkdir(parents=True, exist_ok=True)
     if file and not kind:

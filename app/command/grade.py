@@ -86,8 +86,8 @@ def _named(files: list[Path]) -> Iterator[Path]:
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
             shown = [path for path in inside if not path.name.startswith(("~$", "."))]
             if not shown:
-                rule = f"must hold a file that ends in {', '.join(ENDINGS)}, got a folder without any"
-                raise InvalidValue.in_words("files", f"{file} {rule}")
+                words, told = "{folder} must hold a file that ends in {endings}", {"endings": ", ".join(ENDINGS)}
+                raise InvalidValue.in_words("files", words, got="a folder without any", folder=str(file), **told)
             yield from shown
         else:
             yield file

@@ -22,6 +22,7 @@ from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 from core.dance import DEFAULT_SPAN
+from core.errors import Given, Value
 
 Model = TypeVar("Model", bound=BaseModel)
 Number = TypeVar("Number", int, float)
@@ -37,10 +38,10 @@ def given(context: typer.Context, *names: str) -> list[str]:
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
 
 
-def unused(context: typer.Context, names: Iterable[str], why: str) -> None:
-    """Refuse named options that were given but have no use here. why: the rest of the message, with what to change"""
+def unused(context: typer.Context, names: Iterable[str], why: str, **values: Value) -> None:
+    """Refuse named options that were given but have no use here. why: the rest of the template, with what to change"""
     for name in given(context, *names):
-        raise InvalidValue.in_words(name, f"--{name.replace('_', '-')} {why}")
+        raise InvalidValue.in_words(name, f"--{{option}} {why}", option=name.replace("_", "-"), **values)
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:
@@ -50,9 +51,8 @@ def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Numbe
         try:
             found.append(kind(word))
         except ValueError as error:
-            what = "a whole number" if kind is int else "a number"
-            rule = f"{option}[{k}] must be {what}, as in --{option} 0,1,2"
-            raise InvalidValue.in_words(f"{option}.{k}", f"{rule}, got {word!r:.60}") from error
+            rule = f"must be a {'whole number' if kind is int else 'number'}, as in --{{option}} 0,1,2"
+            raise InvalidValue(f"{option}.{k}", rule, got=Given(word), option=option) from error
     return found
 
 

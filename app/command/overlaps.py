@@ -35,8 +35,9 @@ def overlaps(
         unused(context, InstantQuery.model_fields, why)
         told = {} if file.suffix.lower() == ".toml" else read_json(file)
         if "benches" not in told:
-            words = "must be JSON with benches, each a rectangle with x, y, heading, length and width"
-            raise InvalidValue.in_words("file", f"{file} {words}: ask check or clearance about a dance")
+            words = "{file} must be JSON with benches, each a rectangle with x, y, heading, length and width"
+            why = "ask check or clearance about a dance"
+            raise InvalidValue.in_words("file", words, reason=why, file=str(file))
         benches = checked(OverlapsRequest, told)
     with show.waiting("overlaps"):
         answer = together.overlaps(benches, Terms()) if file else together.of_dance(asked, Terms())

@@ -24,6 +24,7 @@ from app.wire.messages import checked
 from app.wire.question import Coordinates, Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
+from core.errors import Given
 from core.shown import counted
 
 
@@ -41,7 +42,7 @@ def places(
 ) -> None:
     """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ or DXF (extra dxf)."""
     if units not in (None, "metres", "degrees"):
-        raise InvalidValue.in_words("units", f"--units must be metres or degrees, got {units!r:.60}")
+        raise InvalidValue.in_words("units", "--units must be metres or degrees", got=Given(units))
     if output:
         checked_output("output", output, (".json",))
     told: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}

@@ -31,8 +31,8 @@ from app.wire.messages import checked
 from app.wire.paths import Circle, TurnFields
 from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.texts import Unreadable, json_of
-from core import InvalidValue, Outcome
-from core.errors import ProofRefused, said
+from core import Outcome
+from core.errors import ProofRefused, Quantity, said
 from core.tolerance.curve import time_on_circle
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ def check_or_prove(
     try:
         certificate = json_of(data)
     except Unreadable as error:
-        raise InvalidValue.in_words("check", f"{check} {error}") from error
+        raise error.of("check", str(check)) from error
     _print(_checked(certificate))
 
 
@@ -150,8 +150,9 @@ def collision_time(asked: CollisionClaim, output: Output = Path("collision-time.
         if time is None:
             time = core.first_contact(dance, margin=asked.margin).time
         if time is None:
-            near = f"no two benches come nearer than {said(asked.margin)} m" if asked.margin else "nothing touches"
-            raise ProofRefused.in_words("time", f"{near}, so there is no collision time to prove: prove clear")
+            near = "no two benches come nearer than {margin}" if asked.margin else "nothing touches"
+            words, margin = f"{near}, so there is no collision time to prove", Quantity(asked.margin, "m")
+            raise ProofRefused.in_words("time", words, reason="prove clear", margin=margin)
         certificate = prove_collision_time(dance, time, **_terms(asked, progress))
     _finish(certificate, output)
 
@@ -262,19 +263,18 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
         from core.proof import prove_clear, prove_contact
 
         found = core.first_contact(dance, **times)
-        stop = times.pop("stop")
+        stop, margin = times.pop("stop"), Quantity(times["margin"], "m")
         asked: dict[str, Any] = {"every_pair": every_pair, "progress": progress}
         if found.outcome is Outcome.CLEAR:
             return prove_clear(dance, stop, **times, **asked)
         if found.outcome is Outcome.CONTACT and found.time is not None:
             return prove_contact(dance, found.time, **times, **asked)
         if found.benches is None:
-            near = f"come nearer than {said(times['margin'])} m" if times["margin"] else "touch"
-            raise ProofRefused.in_words("time", f"the search did not decide whether two benches {near}")
-        a, b = found.benches
-        near = f"are nearer than {said(times['margin'])} m" if times["margin"] else "overlap"
-        words = f"benches {a} and {b} {near} already at the start, {said(times['start'])} s"
-        raise ProofRefused.in_words("start", words)
+            near = "come nearer than {margin}" if margin.value else "touch"
+            raise ProofRefused.in_words("time", f"the search did not decide whether two benches {near}", margin=margin)
+        near, (a, b) = "are nearer than {margin}" if margin.value else "overlap", found.benches
+        words, told = f"benches {{a}} and {{b}} {near} already at the start, {{start}}", Quantity(times["start"], "s")
+        raise ProofRefused.in_words("start", words, a=a, b=b, margin=margin, start=told)
 
 
 def _checked(certificate: Any) -> Proof:

@@ -78,7 +78,7 @@ def trajectory(
     dance = dance_of(asked, context, settings.benches_max)
     handles, times = _handles(context.params["handles"], dance.dragon), asked.times
     if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
-        raise InvalidValue.in_words("times", f"--times replaces --{ranged[0]}: give one of the two")
+        raise InvalidValue.in_words("times", "--times replaces --{option}: give one of the two", option=ranged[0])
     if isinstance(times, str):
         asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
     instants = asked.times_of(dance, settings.cells_max)
@@ -105,7 +105,8 @@ def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
     found = numbers("handles", text, int)
     for k, handle in enumerate(found):
         if not 0 <= handle <= dragon.benches:
-            raise InvalidValue(f"handles.{k}", f"must be from 0 to {dragon.benches} for this dragon, got {handle}")
+            rule = "must be from 0 to {last} for this dragon"
+            raise InvalidValue(f"handles.{k}", rule, got=handle, last=dragon.benches)
     return found
 
 

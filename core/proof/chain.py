@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import said
+from core.errors import Quantity, said
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, Side
 from core.proof.pairs import Benches, Size, TouchingLine, Unproven, above, below
 
@@ -77,9 +77,9 @@ class Chain(Follower["Pose"]):
         self.needed = [kinds[size] for size in self.sizes]
 
     @staticmethod
-    def named(theta: float) -> str:
-        """A place in words."""
-        return f"theta = {said(theta)} rad"
+    def named(theta: float) -> Quantity:
+        """A place in a message."""
+        return Quantity(theta, "rad", shown=f"theta = {said(theta)} rad")
 
     def pose_at(self, bench: int, place: arb) -> Pose:
         """A bench and those behind it when its front handle is at a place [rad]."""
@@ -256,7 +256,7 @@ class SpiralStretch:
             deltas = delta(theta.upper(), needed).union(delta(theta.lower(), needed))
         by_theta, by_delta = slopes(theta, deltas)
         if not by_delta > 0:
-            raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
+            raise Unproven("handle {handle} is not enclosed", handle=self.bench + k + 1)
         rise = 1 - by_theta / by_delta
         self.rates.append(self.rates[k] * rise)
         self._hull = self._hull and bool(rise > 0)

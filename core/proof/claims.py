@@ -13,11 +13,11 @@ from flint import arb
 from core.contact.search import MARGIN_MAX
 from core.dance import checked_head_speed
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, ProofRefused, Quantity, checked_number, checked_size, quantities, said
+from core.errors import SIZE_MIN, ProofRefused, Quantity, Value, checked_number, checked_size, quantities, said
 from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
-from core.proof.pairs import Unproven, above, below
+from core.proof.pairs import Unfinished, Unproven, above, below
 from core.proof.sweeps import AnyChain, OverlapFound, Progress, found, swept
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisected
@@ -25,6 +25,7 @@ from core.sampling import bisected
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"
 PITCH_STEP = "1e-6"
+STEP: dict[str, Value] = {"step": Quantity(float(PITCH_STEP), "m", shown=f"{PITCH_STEP} m")}
 # A fold is proven between two places of the head, each at this relative distance from the place that doubles find [1].
 # Doubles are within 1e-12 of it; if the fold only just exists, 12. finds no wall from farther away.
 FOLD_WITHIN = (1e-9, 1e-11)
@@ -86,11 +87,11 @@ class CollisionTimeClaim(SpiralClaim):
         return above(self.chain.start), below(before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
+        return {"benches": near_pair(self.chain, self._after, self.time)}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        verify_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        verify_near(self.chain, self._after, a, b, "at {when}", when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > 0)
         words = contact_words([a, b], self.margin, 0.0, self.time, TIME_BRACKET, clear=clear)
         return f"{danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))}: {words}"
@@ -148,7 +149,7 @@ class MinimumPitchClaim(SpiralClaim):
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
         free = "keeps the margin of {margin} too" if self.margin else "is free of contact too"
-        told = quantities("m", step=float(PITCH_STEP), pitch=self.pitch, margin=self.margin)
+        told = quantities("m", pitch=self.pitch, margin=self.margin) | STEP
         raise ProofRefused.in_words("claim", f"{{step}} less than pitch {{pitch}} {free}", **told)
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
@@ -167,22 +168,22 @@ class MinimumPitchClaim(SpiralClaim):
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         less = self._less
         circle = self.turning_radius / less.growth
-        where = f"on the way with {PITCH_STEP} m less"
+        where = "on the way with {step} less"
         if "folds" in overlap:
             bench, (before, after) = overlap["folds"], overlap["head_theta"]
             if not (bench < less.count and circle <= after < before <= less.start):
-                raise Unproven(f"bench {bench} is not shown to fold {where}")
+                raise Unproven(f"bench {{bench}} is not shown to fold {where}", bench=bench, **STEP)
             verify_fold(less, bench, arb(before), arb(after))
             why = f"bench {bench} cannot follow so far (it folds)"
         elif "benches" in overlap:
             (a, b), theta = overlap["benches"], overlap["head_theta"]
             if not circle <= theta <= less.start:
-                raise Unproven(f"benches {a} and {b} are not shown to overlap {where}")
-            verify_near(less, arb(theta), a, b, where)
+                raise Unproven(f"benches {{a}} and {{b}} are not shown to overlap {where}", a=a, b=b, **STEP)
+            verify_near(less, arb(theta), a, b, where, **STEP)
             why = f"{near_words([a, b], self.margin)} on the way"
         else:
             if not circle > less.start:
-                raise Unproven(f"the start is not shown to lie within the circle with {PITCH_STEP} m less")
+                raise Unproven("the start is not shown to lie within the circle with {step} less", **STEP)
             why = "the start lies within the circle"
         danced = f"{dragon_words(self.dragon)} on the spiral inwards from {said(self.start_turns)} turns"
         until = f"until the head is {said(self.turning_radius)} m from the centre, and with {PITCH_STEP} m less {why}"
@@ -201,10 +202,15 @@ def settle(claim: object, **checked: float) -> None:
         object.__setattr__(claim, name, value)
 
 
-def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
+def soon_after(time: float, bracket: str = TIME_BRACKET) -> Quantity:
+    """The end of the bracket after a time in a message [s]."""
+    return Quantity(time + float(bracket), "s", shown=f"{said(time)} + {bracket} s")
+
+
+def near_pair(chain: AnyChain, head: arb, time: float) -> list[int]:
     """Two benches a < b that strictly overlap, or are nearer than the margin, and are not neighbours.
 
-    head: its place [rad], [m]; raises: ProofRefused if there are none
+    head: its place [rad], [m], soon after this time [s]; raises: ProofRefused if there are none
     """
     place = head
     for bench in range(chain.count - 2):
@@ -217,14 +223,15 @@ def near_pair(chain: AnyChain, head: arb, when: str) -> list[int]:
             if pose.within(partner, chain.margin):
                 return [bench, bench + partner]
         place = pose.places[1]
-    how, told = "come nearer to one another than {margin}" if chain.margin > 0 else "overlap", float(chain.margin)
-    raise ProofRefused.in_words("claim", f"no two benches {how} {{when}}", margin=Quantity(told, "m"), when=when)
+    how = "come nearer to one another than {margin}" if chain.margin > 0 else "overlap"
+    told = {"margin": Quantity(float(chain.margin), "m"), "when": soon_after(time)}
+    raise ProofRefused.in_words("claim", f"no two benches {how} at {{when}}", **told)
 
 
-def verify_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
+def verify_near(chain: AnyChain, head: arb, a: int, b: int, at: str, /, **told: Value) -> None:
     """Check that benches a < b strictly overlap, or are nearer than the margin, and are not neighbours.
 
-    head: its place [rad], [m]; raises: Unproven
+    head: its place [rad], [m]; at, told: template of that place, and its values; raises: Unproven
     """
     checked_pair(chain, a, b)
     pose = chain.pose_at(0, head)
@@ -232,14 +239,16 @@ def verify_near(chain: AnyChain, head: arb, a: int, b: int, when: str) -> None:
     pose = chain.pose_at(a, pose.places[a])
     pose.grow_to(b - a + 1)
     if not pose.within(b - a, chain.margin):
-        how = f"be nearer than {said(float(chain.margin))} m" if chain.margin > 0 else "overlap"
-        raise Unproven(f"benches {a} and {b} are not shown to {how} {when}")
+        how = "be nearer than {margin}" if chain.margin > 0 else "overlap"
+        told |= {"a": a, "b": b, "margin": Quantity(float(chain.margin), "m")}
+        raise Unproven(f"benches {{a}} and {{b}} are not shown to {how} {at}", **told)
 
 
 def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:
     """Two benches a < b if they share no handle. raises: Unproven"""
     if not 0 <= a < b - 1 < chain.count - 1:
-        raise Unproven(f"benches must be two of this dragon that share no handle, in order, got {a} and {b}")
+        words = "benches must be two of this dragon that share no handle, in order, got {a} and {b}"
+        raise Unproven(words, a=a, b=b)
     return a, b
 
 
@@ -259,5 +268,5 @@ def refusing(field: str) -> Iterator[None]:
     """Turn Unproven into ProofRefused."""
     try:
         yield
-    except (OverlapFound, Unproven) as why:
-        raise ProofRefused.in_words(field, "not proven: {why}", why=str(why)) from None
+    except Unfinished as why:
+        raise ProofRefused.in_words(field, f"not proven: {why.template}", **why.values) from None

@@ -11,7 +11,7 @@ from flint import arb
 
 from core.dance import Dance, EndReason
 from core.errors import Given, InvalidValue, said
-from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, verify_near
+from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, soon_after, verify_near
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
@@ -71,18 +71,18 @@ class ClearClaim(DanceClaim):
     def _ending(self) -> str:
         if self.until == "stop":
             return ""
-        later, when = (self.stop + arb(END_BRACKET)) * self.head_speed, f"before {said(self.stop)} + {END_BRACKET} s"
+        later, when = (self.stop + arb(END_BRACKET)) * self.head_speed, soon_after(self.stop, END_BRACKET)
         chain = self.chain
         if isinstance(chain, RouteChain):
             if not chain.place_after(later) <= chain.path.pieces[-1].low:
-                raise Unproven(f"the route is not shown to end {when}")
-            return f", and the route ends {when}"
+                raise Unproven("the route is not shown to end before {when}", when=when)
+            return f", and the route ends before {when}"
         if self.until == "centre":
             if not chain.arc(chain.start) <= later:
-                raise Unproven(f"the head is not shown to reach the centre {when}")
-            return f", and the head reaches the centre {when}"
+                raise Unproven("the head is not shown to reach the centre before {when}", when=when)
+            return f", and the head reaches the centre before {when}"
         bench = folding(chain, chain.place_after(self.stop * arb(self.head_speed)), chain.place_after(later))
-        return f", and bench {bench} cannot follow any more (it folds) {when}"
+        return f", and bench {bench} cannot follow any more (it folds) before {when}"
 
 
 @dataclass(frozen=True)
@@ -114,11 +114,11 @@ class ContactClaim(DanceClaim):
         return _way(self.chain, arb(self.start) * self.head_speed, before)
 
     def find_overlap(self, progress: Progress) -> dict[str, Any]:
-        return {"benches": near_pair(self.chain, self._after, f"at {said(self.time)} + {TIME_BRACKET} s")}
+        return {"benches": near_pair(self.chain, self._after, self.time)}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         a, b = overlap["benches"]
-        verify_near(self.chain, self._after, a, b, f"at {said(self.time)} + {TIME_BRACKET} s")
+        verify_near(self.chain, self._after, a, b, "at {when}", when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {words}"

@@ -47,9 +47,9 @@ def verify_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     start.grow_to(bench + 1)
     wall = _wall(float(lowest), float(start.deltas[bench]))
     if not (start.deltas[bench] < wall and _moved(highest, arb(wall)) < needed):
-        raise Unproven(f"no wall is found behind bench {bench}")
+        raise Unproven("no wall is found behind bench {bench}", bench=bench)
     if not _stays_short(lowest, wall, needed):
-        raise Unproven(f"bench {bench} is not shown to fold")
+        raise Unproven("bench {bench} is not shown to fold", bench=bench)
 
 
 def _moved(theta: arb, d: arb) -> arb:

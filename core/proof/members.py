@@ -87,7 +87,8 @@ def _each(rule: Rule, count: int | None = None) -> Rule:
 
     def checked(name: str, value: Any) -> None:
         if not isinstance(value, list) or (not value if count is None else len(value) != count):
-            raise _malformed(name, f"must be a list {'with entries' if count is None else 'of {count}'}", value, count=count or 0)
+            must = "must be a list with entries" if count is None else "must be a list of {count}"
+            raise _malformed(name, must, value, count=count or 0)
         for k, entry in enumerate(value):
             rule(f"{name}.{k}", entry)
 
@@ -202,11 +203,10 @@ def _stretch(letters: str, positive: bool) -> Rule:
         _number(f"{name}.0", high)
         _number(f"{name}.1", low)
         _text(f"{name}.2", faces)
-        front = {"front": Parameter(f"{name}.0"), "at": Quantity(high, "rad" if positive else "m")}
-        if positive and not 0.0 < low < high:
-            raise _malformed(f"{name}.1", "must lie between 0 and {front}, {at}", low, **front)
-        if not low < high:
-            raise _malformed(f"{name}.1", "must be less than {front}, {at}", low, **front)
+        if not low < high or (positive and not low > 0.0):
+            rule = "must lie between 0 and {front}, {at}" if positive else "must be less than {front}, {at}"
+            at = Quantity(high, "rad" if positive else "m")
+            raise _malformed(f"{name}.1", rule, low, front=Parameter(f"{name}.0"), at=at)
         if not set(letters).issuperset(faces):
             rule = "must be faces, digits from 0 to {last}"
             rule += "" if DIRECTION in letters or last < DIRECTION else " but {skipped}"

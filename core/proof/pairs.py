@@ -7,10 +7,21 @@ from collections.abc import Iterable, Sequence
 
 from flint import acb, arb
 
-from core.errors import Parameter, ProofRefused, Value
+from core.errors import Parameter, ProofRefused, Value, filled
 
 
-class Unproven(Exception):
+class Unfinished(Exception):
+    """What keeps a proof from its end. template, values: as of BenchDragonError"""
+
+    def __init__(self, template: str, /, **values: Value) -> None:
+        super().__init__(template)
+        self.template, self.values = template, values
+
+    def __str__(self) -> str:
+        return filled(self.template, self.values)
+
+
+class Unproven(Unfinished):
     """The balls are too wide to decide; over a shorter stretch they may be narrow enough."""
 
 

@@ -49,7 +49,7 @@ class RouteStretch:
         alpha, beta = self._from_ends(k, half_angle(low, high, chord), low.union(high))
         (sine, cosine), (rear_sine, rear_cosine) = alpha.sin_cos(), beta.sin_cos()
         if not (cosine > 0 and rear_cosine > 0):
-            raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
+            raise Unproven("handle {handle} is not enclosed", handle=self.bench + k + 1)
         ratio = cosine / rear_cosine
         across = ratio * rear_sine
         self.placed.append((speed * acb(cosine, (sine + across) / 2), speed * (sine - across) / chord))
@@ -61,7 +61,7 @@ class RouteStretch:
         half_way = (before.places[k] - after.places[k]) / 2
         cosine = alpha.cos()
         if not cosine > 0:
-            raise Unproven(f"handle {self.bench + k + 1} is not enclosed")
+            raise Unproven("handle {handle} is not enclosed", handle=self.bench + k + 1)
         ratio = cosine / (-alpha).cos()
         rotating = (alpha.sin() - ratio * (-alpha).sin()) / after.sizes[k].chord
 

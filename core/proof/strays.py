@@ -89,7 +89,8 @@ class ToleranceClaim(SpiralClaim):
         handle, pair = acb(*overlap["head"]), Benches([chain.sizes[a], chain.sizes[b]])
         for k, place in enumerate(nominal.points):
             if not abs(handle - rotation * place) < most:
-                raise Unproven(f"handle {k} of the pose is not shown to be within {said(most)} m of its place")
+                words = "handle {handle} of the pose is not shown to be within {most} of its place"
+                raise Unproven(words, handle=k, most=Quantity(most, "m"))
             if k < chain.count:
                 sine, cosine = arb(headings[k]).sin_cos()
                 along = acb(cosine, sine)
@@ -99,7 +100,7 @@ class ToleranceClaim(SpiralClaim):
                     pair.along.append(along)
                 handle = rear
         if not pair.overlapping(1):
-            raise Unproven(f"benches {a} and {b} are not shown to overlap in the pose")
+            raise Unproven("benches {a} and {b} are not shown to overlap in the pose", a=a, b=b)
         return [a, b]
 
 

@@ -10,7 +10,7 @@ from typing import Any, TypeGuard
 from core.errors import Parameter, ProofRefused, quantities
 from core.proof.chain import Chain, SpiralStretch
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
-from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unproven, malformed
+from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unfinished, Unproven, malformed
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch
 
@@ -31,12 +31,13 @@ Tile = tuple[float, float, str | list[Face], list[float]]
 Source = Callable[[int, float, float, Sequence[float]], Iterator["tuple[AnyStretch, Tile]"]]
 
 
-class OverlapFound(Exception):
+class OverlapFound(Unfinished):
     """Benches a < b strictly overlap, or are nearer than the margin, when the front handle of a is at this place."""
 
     def __init__(self, chain: AnyChain, a: int, b: int, place: float) -> None:
         how = "are nearer than the margin" if chain.margin > 0 else "overlap"
-        super().__init__(f"benches {a} and {b} {how} when handle {a} is at {chain.named(place)}")
+        words = f"benches {{a}} and {{b}} {how} when handle {{a}} is at {{place}}"
+        super().__init__(words, a=a, b=b, place=chain.named(place))
         self.a, self.b, self.place = a, b, place
 
 
@@ -80,7 +81,11 @@ def _face(stretch: AnyStretch, partner: int) -> tuple[Face, float]:
     for face, direction in tries:
         if stretch.apart(partner, face, direction):
             return face, direction
-    raise Unproven(f"benches {stretch.bench} and {stretch.bench + partner} are not shown to be apart")
+    raise _unshown("benches {a} and {b} are not shown to be apart", stretch, partner)
+
+
+def _unshown(template: str, stretch: AnyStretch, partner: int) -> Unproven:
+    return Unproven(template, a=stretch.bench, b=stretch.bench + partner)
 
 
 def _met(stretch: AnyStretch, partner: int) -> tuple[int, int]:
@@ -109,7 +114,7 @@ def _sides(stretch: SpiralStretch, partner: int) -> list[int]:
             words = "not proven: with strays up to {stray} benches {a} and {b} may touch when handle {a} is at {place}"
             told = quantities("m", stray=float(stretch.chain.stray)) | {"place": stretch.chain.named(place)}
             raise ProofRefused.in_words("claim", words, a=a, b=b, **told)
-    raise Unproven(f"benches {stretch.bench} and {stretch.bench + partner} are not shown to stay apart")
+    raise _unshown("benches {a} and {b} are not shown to stay apart", stretch, partner)
 
 
 def _apart(stretch: AnyStretch, partner: int, face: Face, direction: float) -> bool:
@@ -132,9 +137,9 @@ def found(chain: AnyChain) -> Source:
             except Unproven as why:
                 width = (high - start) / 2
                 if width < WIDTH_LEAST:
-                    words = "not proven where handle {handle} is at {place}: {why}"
-                    told = {"place": chain.named(high), "why": str(why)}
-                    raise ProofRefused.in_words("claim", words, handle=bench, **told) from None
+                    words = f"not proven where handle {{at}} is at {{place}}: {why.template}"
+                    told = {"at": bench, "place": chain.named(high), **why.values}
+                    raise ProofRefused.in_words("claim", words, **told) from None
                 continue
             yield stretch, tile
             high, width = start, width * WIDTH_GROWTH
@@ -160,13 +165,15 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
             while len(stretch.placed) < min(len(faces) + 2, chain.count - bench):
                 stretch.grow()
             if not stretch.complete:
-                raise Unproven(f"pairs are missing from [{high!r}, {low!r}] of bench {bench}")
+                raise Unproven(
+                    "pairs are missing from [{high}, {low}] of bench {bench}", high=high, low=low, bench=bench
+                )
             directions = iter(rest[0] if rest else ())
             for partner, face in enumerate(faces, 2):
                 direction = next(directions) if face == DIRECTION else 0.0
                 if not _apart(stretch, partner, face, direction):
-                    pair = f"benches {bench} and {bench + partner}"
-                    raise Unproven(f"{pair} are not apart by face {face} over [{high!r}, {low!r}]")
+                    words = "benches {a} and {b} are not apart by face {face} over [{high}, {low}]"
+                    raise Unproven(words, a=bench, b=bench + partner, face=str(face), high=high, low=low)
             yield stretch, (high, low, faces, rest[0] if rest else [])
 
     return source
@@ -194,15 +201,16 @@ def swept(
         end = high
         for stretch, tile in source(bench, high, low, places):
             if stretch.high < end or (tiles and stretch.high > end) or not chain.floor < stretch.low < stretch.high:
-                raise Unproven(f"the stretches of bench {bench} do not join at {chain.named(end)}")
+                raise Unproven("the stretches of bench {bench} do not join at {end}", bench=bench, end=chain.named(end))
             if not stretch.rising and len(places) > 1 and not stretch.rear[1] <= places[1]:
-                raise Unproven(f"handle {bench + 1} may turn back far outside")
+                raise Unproven("handle {handle} may turn back far outside", handle=bench + 1)
             tiles.append(list(tile) if tile[3] else list(tile[:3]))
             rears.append(stretch.rear)
             end = stretch.low
             progress((bench + min(1.0, (high - end) / (high - low))) / (repeats_from + 1))
         if not end <= low:
-            raise Unproven(f"the sweep of bench {bench} ends at {chain.named(end)}, short of {chain.named(low)}")
+            told = {"end": chain.named(end), "low": chain.named(low)}
+            raise Unproven("the sweep of bench {bench} ends at {end}, short of {low}", bench=bench, **told)
         sweeps.append({"bench": bench, "stretches": tiles})
         high, low = max(rear[1] for rear in rears), min(rear[0] for rear in rears)
     return sweeps
