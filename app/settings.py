@@ -85,8 +85,8 @@ class Settings(BaseModel):
             first = error.errors()[0]
             name = variables[str(first["loc"][0])]
             limits = {word: Quantity(limit, "", 6) for word, limit in first.get("ctx", {}).items() if word in LIMITS}
-            rule = RULES.get(first["type"], first["msg"])
-            raise InvalidValue(name, rule, got=Given(first["input"]), **limits) from error
+            rule = RULES.get(first["type"], "{why}")
+            raise InvalidValue(name, rule, got=Given(first["input"]), why=first["msg"], **limits) from error
 
     body_bytes_max: int = Field(4_000_000, ge=1, description="Longest request body [bytes]")
     grade_bytes_max: int = Field(20_000_000, ge=1, description="Longest file in POST /grade [bytes]")
