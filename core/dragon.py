@@ -20,8 +20,8 @@ from core.errors import (
     Value,
     checked_number,
     checked_size,
+    from_to,
     quantities,
-    span,
 )
 from core.names import checked_name
 from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
@@ -47,7 +47,7 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        told = span("m", low, SIZE_MAX) | quantities("m", got=column[k])
+        told = from_to("m", low, SIZE_MAX) | quantities("m", got=column[k])
         raise InvalidValue(f"{name}.{k}", "must be from {least} to {most}", **told)
     return column
 

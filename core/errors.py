@@ -99,6 +99,7 @@ def filled(template: str, values: Mapping[str, Value]) -> str:
 
 
 def told_as(value: Value) -> str:
+    """A value as it stands in a sentence."""
     return said(value) if isinstance(value, float) else str(value)
 
 
@@ -132,7 +133,7 @@ def spoken(field: str) -> str:
     return re.sub(r"\.(\d+)", r"[\1]", field)
 
 
-def span(unit: str, low: float, high: float) -> dict[str, Value]:
+def from_to(unit: str, low: float, high: float) -> dict[str, Value]:
     """Values of "from {least} to {most}", with the unit in the message only once."""
     return {"least": Quantity(low, unit, shown=f"{low:g}"), "most": Quantity(high, unit, 6)}
 
@@ -259,7 +260,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
         number = float(value)
     except OverflowError as error:  # an int of Python may have any number of digits
         rule = "must be from {least} to {most}"
-        raise InvalidValue(name, rule, got="1e308 or more", **span(unit, low, high)) from error
+        raise InvalidValue(name, rule, got="1e308 or more", **from_to(unit, low, high)) from error
     if low <= number <= high and math.isfinite(number) and not (open_low and number == low):
         return number
     if not math.isfinite(number):

@@ -36,7 +36,7 @@ from app.jobs.wire import (
 from app.questions.registry import CALLS, QUESTIONS
 from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
-from app.service.middleware import client_of
+from app.service.middleware import client_of, limit
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
 from app.service.token import TOKEN, WITHOUT, guard
@@ -91,16 +91,14 @@ def take(request: Request, task: Task) -> Response:
     try:
         job = keeper.store.create(task.call, task.to_bytes(), client_of(request), limits)
     except FullForClient as error:
-        words = f"Your limit of {{most}} unfinished job{'s'[: limits.jobs_client_max != 1]} is reached"
-        why, most = "wait for one, or dismiss it.", limits.jobs_client_max
-        raise Refused(429, words, None, COME_AGAIN, reason=why, most=most) from error
+        words, most = "Your limit of {most} is reached", limit(limits.jobs_client_max, "unfinished job")
+        raise Refused(429, words, None, COME_AGAIN, reason="wait for one, or dismiss it.", most=most) from error
     except FullOfBytes as error:
         detail = "The kept jobs take all the room that they may have: remove those that you do not need."
         raise Refused(507, detail) from error
     except Full as error:
-        words = f"The limit of {{most}} kept job{'s'[: limits.jobs_max != 1]} is reached"
-        why = "remove some, or try again later."
-        raise Refused(503, words, None, COME_AGAIN, reason=why, most=limits.jobs_max) from error
+        words, most = "The limit of {most} is reached", limit(limits.jobs_max, "kept job")
+        raise Refused(503, words, None, COME_AGAIN, reason="remove some, or try again later.", most=most) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
     headers = {**NOT_KEPT, "Location": f"{root}/jobs/{job.id}", "Preference-Applied": RESPOND_ASYNC}

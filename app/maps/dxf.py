@@ -13,7 +13,7 @@ import orjson
 
 from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
-from app.maps.features import Counted, Drawing, MapFeature, area_of, drawn_as, holds, inner_point, role_of
+from app.maps.features import LEAVE_OUT, Counted, Drawing, MapFeature, area_of, drawn_as, holds, inner_point, role_of
 from app.wire.degrees import Origin
 from core import InvalidValue
 from core.errors import Quantity
@@ -112,8 +112,8 @@ class _Reader:
         for entity in some:
             self.seen += 1
             if self.seen > ENTITIES_MAX:
-                rule = "must draw at most {most} entities, counting a block at each use: leave out everything that does"
-                raise InvalidValue("file", f"{rule} not belong to the square", got="more", most=ENTITIES_MAX)
+                rule = f"must draw at most {{most}} entities, counting a block at each use: {LEAVE_OUT}"
+                raise InvalidValue("file", rule, got="more", most=ENTITIES_MAX)
             if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
                 yield from self.entities(entity.virtual_entities(), depth + 1)
             else:

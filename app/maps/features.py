@@ -29,6 +29,8 @@ WORDS = {
 ROLES = {word: role for role, words in WORDS.items() for word in words}
 # Most points and most features of one map; a plan of a square has fewer.
 POINTS_MAX, FEATURES_MAX = 100_000, 10_000
+# Advice for a map that is too large.
+LEAVE_OUT = "leave out everything that does not belong to the square"
 
 
 def role_of(*words: object) -> str | None:
@@ -92,11 +94,8 @@ class Counted:
         self._points += sum(map(len, feature.rings))
         self.features.append(feature)
         if self._points > POINTS_MAX or len(self.features) > FEATURES_MAX:
-            rule = (
-                "must hold at most {features} features with {points} points in all: leave out everything that does not"
-            )
-            most = {"features": FEATURES_MAX, "points": POINTS_MAX}
-            raise InvalidValue("file", f"{rule} belong to the square", got="more", **most)
+            rule = f"must hold at most {{features}} features with {{points}} points in all: {LEAVE_OUT}"
+            raise InvalidValue("file", rule, got="more", features=FEATURES_MAX, points=POINTS_MAX)
 
     def leave_out(self, kind: str) -> None:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1

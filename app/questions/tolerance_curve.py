@@ -37,9 +37,8 @@ class CurveFields(WayToCircle):
             least = core.minimum_pitch(dragon, **circle, budget=terms.budget)
             low = allowed(least, self, dragon).pitch * (1.0 + ABOVE_MINIMUM)
         if high is not None and high <= low:
-            raise InvalidValue(
-                "to_pitch", "must be larger than the lowest pitch ({low})", **quantities("m", got=high, low=low)
-            )
+            told = quantities("m", got=high, low=low)
+            raise InvalidValue("to_pitch", "must be larger than the lowest pitch ({low})", **told)
         return np.linspace(low, WIDEST * low if high is None else high, self.samples)
 
 

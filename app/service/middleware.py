@@ -30,6 +30,7 @@ from app.service.problems import Refused, http_problem, server_problem
 from app.settings import Settings
 from core import Budget
 from core.errors import Quantity
+from core.shown import counted
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -222,6 +223,11 @@ class Deadline(Quantity):
         return f"within {super().__str__()}, the time that one answer may take here"
 
 
+def limit(most: int, thing: str) -> Quantity:
+    """A limit of the service in a sentence, such as 2 unfinished jobs."""
+    return Quantity(most, "", shown=counted(most, thing))
+
+
 class Lane:
     """A limit on simultaneous computations, in total and for each client."""
 
@@ -259,9 +265,9 @@ class Lane:
         now = time.monotonic()
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
         seconds = max(self.retry_after, math.ceil(min(left)))
-        words = f"{whose} limit of {{most}} {{lane}} computation{'s'[: most != 1]} at once is reached"
-        why, after = "try again in {seconds} s.", {"Retry-After": str(seconds)}
-        return Refused(status, words, None, after, reason=why, seconds=seconds, most=most, lane=self.name)
+        told = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
+        words, after = f"{whose} limit of {{most}} at once is reached", {"Retry-After": str(seconds)}
+        return Refused(status, words, None, after, reason="try again in {seconds}.", **told)
 
 
 class Lanes:

@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from app.wire.question import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
 from core import Dragon, InvalidValue
-from core.errors import Given, Parameter, Quantity, quantities, span
+from core.errors import Given, Parameter, Quantity, from_to, quantities
 
 # Separators of columns; a table uses the first of these that stands in its first line.
 SEPARATORS = "\t;,"
@@ -114,7 +114,7 @@ def _size(column: str, word: str, number: int, comma: bool) -> float:
     low, high = SIZES[column]
     if low <= size <= high:
         return size
-    told = span("m", low, high) | quantities("m", got=size, m=size / 100)
+    told = from_to("m", low, high) | quantities("m", got=size, m=size / 100)
     told |= {"field": Parameter(column), "cm": Quantity(size, "cm")}
     hint = "lengths are in metres, and {cm} is {m}" if low <= size / 100 <= high else ""
     raise _refused(number, "{field} must be from {least} to {most}", reason=hint, **told)

@@ -44,18 +44,18 @@ class Sentence(BaseModel):
     values: dict[str, Part] = Field(description="The values of the words of the template and of the reason")
 
 
-class Place(BaseModel):
+class ErrorPlace(BaseModel):
     """Where an error is."""
 
     pointer: str | None = Field(None, description="JSON pointer into the body")
     name: str | None = Field(None, description="Name of the query parameter or header")
 
 
-class ErrorItem(Sentence, Place):
+class ErrorItem(Sentence, ErrorPlace):
     """One thing that is wrong."""
 
 
-class Kind(BaseModel):
+class ProblemKind(BaseModel):
     """Kind of a problem."""
 
     type: str = Field(description="Stable identifier of the kind of problem")
@@ -63,7 +63,7 @@ class Kind(BaseModel):
     status: int = Field(description="HTTP status")
 
 
-class Problem(Sentence, Kind):
+class Problem(Sentence, ProblemKind):
     """RFC 9457 problem details; the parts of the sentence are those of the first error."""
 
     errors: list[ErrorItem] = Field(description="Each thing that is wrong, with its place")

@@ -12,7 +12,7 @@ import numpy as np
 from core import kernels
 from core.errors import Given, InvalidValue, checked_number, checked_size, listed
 from core.kernels import Budget
-from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, too_near
+from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, point_too_near
 from core.paths.route import Route
 from core.shown import REPR_MOST, Shown
 from core.values import Floats, Point
@@ -154,7 +154,7 @@ def _refuse_near(points: tuple[Point, ...]) -> None:
         gap = math.dist(a, b)
         if gap < WAYPOINT_GAP:
             name = f"path.points.{k}"
-            raise too_near(name, gap)
+            raise point_too_near(name, gap)
 
 
 def _heading(a: Point, b: Point) -> float:

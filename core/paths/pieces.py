@@ -29,7 +29,7 @@ def _settle(piece: object, **checked: float | Point | tuple[Point, ...]) -> None
         object.__setattr__(piece, name, value)
 
 
-def too_near(name: str, gap: float) -> InvalidValue:
+def point_too_near(name: str, gap: float) -> InvalidValue:
     """The error for a point at this distance from the one before it [m]."""
     rule, least = "must be at least {least} from the point before it", Quantity(WAYPOINT_GAP, "m", 6)
     return InvalidValue(name, rule, got=Quantity(gap, "m", 6), least=least)
@@ -164,7 +164,7 @@ class Waypoints(Shown):
         short = np.flatnonzero(steps < WAYPOINT_GAP)
         if short.size:
             k = int(short[0])
-            raise too_near(f"{name}.points.{k + 1}", float(steps[k]))
+            raise point_too_near(f"{name}.points.{k + 1}", float(steps[k]))
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
         rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)

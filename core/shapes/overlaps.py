@@ -19,8 +19,8 @@ from core.errors import (
     Value,
     asked_of,
     checked_number,
+    from_to,
     quantities,
-    span,
 )
 from core.kernels import Budget
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
@@ -236,7 +236,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
                 rule = "must be a finite number"
             elif low > 0.0 and column[k] <= 0.0:
                 rule = "must be positive"
-            told = span(unit, low, high) | quantities(unit, got=column[k])
+            told = from_to(unit, low, high) | quantities(unit, got=column[k])
             raise InvalidValue(f"{subject}.{k}.{name}", rule, **told)
 
 

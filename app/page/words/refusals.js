@@ -129,12 +129,6 @@ const FAULTS = [
   `venue: {polygon} must be a valid polygon, got ${fault} at {at}`,
   [`“{polygon}” is not a valid area: ${fault} at {at}. Move a corner near that place`, `“{polygon}”不是可用的区域：在 {at} 处${chinese}，请移动那里的一个角`],
 ]);
-const BUSY = ["", "s"].flatMap((s) => [
-  [`The limit of {most} {lane} computation${s} at once is reached`, [undefined, "服务正忙（已有 {most} 个计算），请 {seconds} s 后再试"]],
-  [`Your limit of {most} {lane} computation${s} at once is reached`, [undefined, "您已有 {most} 个计算在进行，请 {seconds} s 后再试"]],
-  [`Your limit of {most} unfinished job${s} is reached`, [undefined, "您有 {most} 个任务未完成，已达上限：请等待或取消一个"]],
-  [`The limit of {most} kept job${s} is reached`, [undefined, "保存的任务已达上限：请删除不需要的任务"]],
-]);
 const NOTHING = ["The file holds no polygon, line or point", "文件中没有多边形、线或点"];
 const TWO_POINTS = ["A path needs at least two points", "路径至少需要两个点"];
 const UNPACKED = ["This KMZ file cannot be unpacked", "文件不是可以解压的 KMZ"];
@@ -201,7 +195,10 @@ export const WHOLE = {
   "{field} must draw no line of more than {most} points": TOO_COMPLEX,
   "The body must be at most {most} bytes": ["The file is longer than {most} bytes", "文件超过 {most} 字节"],
   "The service failed on this request; its log has the reason.": [undefined, "服务在处理这一请求时出错，原因见其日志"],
-  ...Object.fromEntries(BUSY),
+  "The limit of {most} at once is reached": ["The service is busy with {most} computations: try again in {seconds}", "服务正忙（已有 {most} 个计算），请 {seconds} 后再试"],
+  "Your limit of {most} at once is reached": ["You have {most} computations running: try again in {seconds}", "您已有 {most} 个计算在进行，请 {seconds} 后再试"],
+  "Your limit of {most} is reached": ["You have {most} unfinished jobs, which is the limit: wait for one, or dismiss it", "您有 {most} 个任务未完成，已达上限：请等待或取消一个"],
+  "The limit of {most} is reached": ["The service keeps {most} jobs, which is the limit: remove some, or try again later", "保存的任务已达上限：请删除不需要的任务"],
   "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN.": ["Jobs and uploads need the token of this service: give it below, at “Token, if this service needs one”", "该服务的任务与上传需要令牌：请在下方“服务要求令牌？”处填写"],
   "This service has no token, so it lists no jobs: keep the address that Location gave you.": ["This service has no token, so it lists no jobs", "该服务未设令牌，因此不列出任务"],
   "This service takes no jobs: {why}.": [undefined, "该服务不接受任务"],
