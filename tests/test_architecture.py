@@ -134,6 +134,7 @@ ORDER = (
     "app.extras",
     "app.logs",
     "app.settings",
+    "app.start",
     "app.wire",
     "app.files",
     "app.jobs",

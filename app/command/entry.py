@@ -7,6 +7,8 @@ import signal
 import sys
 from types import FrameType
 
+from app.start import importing
+
 
 def _leave(number: int, frame: FrameType | None) -> None:
     os._exit(128 + number)  # as shells report a command that a signal stopped
@@ -18,7 +20,8 @@ def main() -> None:
     if heeded:
         # No exception here, because a module that is being imported may catch it or turn it into another one.
         signal.signal(signal.SIGINT, _leave)
-    from app.command.main import app
+    with importing():
+        from app.command.main import app
 
     try:
         if heeded:

@@ -86,7 +86,7 @@ def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess
     It runs in a new session, so signals from the service's terminal do not reach it.
     """
     environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS}
-    command = [sys.executable, "-m", module, *arguments]
+    command = [sys.executable, "-m", "app.start", module, *arguments]
     return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, start_new_session=True, stdout=stdout)
 
 

@@ -1,4 +1,4 @@
-"""The one process that runs the jobs of a data folder: python -m app.jobs.runner FOLDER
+"""The one process that runs the jobs of a data folder: python -m app.start app.jobs.runner FOLDER
 
 A job has a process for itself while it runs (app.jobs.work). A limit, a client that dismisses the job, or the system
 may kill it without harm to other jobs. The file that such a process has written counts as soon as the runner gives it
@@ -257,7 +257,3 @@ def main() -> None:
     if not lock.take(LOCK_SECONDS):
         raise SystemExit(f"Another runner still holds {folder}")
     Runner(Store(folder), settings).run()
-
-
-if __name__ == "__main__":
-    main()

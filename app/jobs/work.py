@@ -1,4 +1,4 @@
-"""A process that does jobs, one after another: python -m app.jobs.work FOLDER
+"""A process that does jobs, one after another: python -m app.start app.jobs.work FOLDER
 
 It asks the question of a job and writes the answer into a new file, to which the runner gives its final name. It
 changes nothing in the store, so its death at any moment loses nothing and leaves nothing half done. It takes another
@@ -135,7 +135,3 @@ def main() -> None:
         reports.say(**said, again=again)
         if not again:
             return
-
-
-if __name__ == "__main__":
-    main()

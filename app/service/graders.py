@@ -1,4 +1,4 @@
-"""Reading of files in separate processes: python -m app.service.graders
+"""Reading of files in separate processes: python -m app.start app.service.graders
 
 Python code reads a file for seconds, and only one thread of a process at a time runs Python code: beside four texts of
 20 MB another client waited 1.8 s (measured on 2026-11-22). So each file is read in another process, with low priority.
@@ -100,7 +100,3 @@ def main() -> None:
         while True:
             read, given = pickle.loads(receive(sys.stdin.buffer))
             send(sink, read(*given, Budget()))
-
-
-if __name__ == "__main__":
-    main()

@@ -18,6 +18,7 @@ import socket
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from importlib import import_module
 from tempfile import TemporaryDirectory, TemporaryFile
 from threading import Thread
 from typing import TYPE_CHECKING, Any
@@ -29,6 +30,7 @@ from uvicorn.supervisors import Multiprocess
 from app.jobs.keeper import scratch
 from app.logs import log_config
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
+from app.start import importing
 from core import InvalidValue
 from core.errors import Given
 
@@ -149,7 +151,8 @@ def _counts_folder(workers: int) -> Iterator[str | None]:
 
 def create_child_app() -> FastAPI:
     """create_app() in a process that ends when its parent ends, also when the parent is killed."""
-    from app.service.main import create_app
+    with importing():
+        from app.service.main import create_app
 
     logging.captureWarnings(Settings().log_json)
     parent = multiprocessing.parent_process()
@@ -183,6 +186,8 @@ def serve(host: str, port: int, workers: int) -> None:
     for line in unknown_variables():
         logger.warning(line)
     if workers == 1:
+        with importing():
+            import_module("app.service.main")
         uvicorn.run("app.service.main:create_app", **given)
         return
     config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **given)

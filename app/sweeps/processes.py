@@ -1,4 +1,7 @@
-"""The embedded engine: processes of this machine, each with one piece at a time."""
+"""The embedded engine: processes of this machine, each with one piece at a time.
+
+A process starts when a piece waits for one, so a sweep of one shard has one process however many it may have.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +69,7 @@ class _Worker:
 
 
 class Processes:
-    """A fixed number of processes; a dead one is replaced."""
+    """A number of processes at most; a dead one is replaced."""
 
     alone = True
 
@@ -74,13 +77,14 @@ class Processes:
         self._events: queue.SimpleQueue[tuple[_Worker, Any]] = queue.SimpleQueue()
         self._waiting: deque[ShardPiece] = deque()
         self._idle: list[_Worker] = []
-        self._all = {_Worker(self._events) for _ in range(workers or usable_cores())}
+        self._most = workers or usable_cores()
+        self._all: set[_Worker] = set()
         self._failed_starts = 0
 
     @property
     def workers(self) -> int:
-        """Number of processes."""
-        return len(self._all)
+        """Largest number of processes."""
+        return self._most
 
     @property
     def pids(self) -> list[int]:
@@ -111,11 +115,14 @@ class Processes:
     def _hand_out(self) -> None:
         while self._waiting and self._idle:
             self._idle.pop().give(self._waiting.popleft())
+        starting = sum(not worker.ready for worker in self._all)
+        for _ in range(min(len(self._waiting) - starting, self._most - len(self._all))):
+            self._all.add(_Worker(self._events))
 
     def _heard(self, worker: _Worker, answer: Any) -> list[Done]:
         piece, worker.piece = worker.piece, None
         if answer is GONE:
-            self._replace(worker)
+            self._forget(worker)
             return [Done(piece, None)] if piece else []
         self._idle.append(worker)
         if not worker.ready:
@@ -124,7 +131,7 @@ class Processes:
         assert piece is not None
         return [arrived(piece, answer)]
 
-    def _replace(self, worker: _Worker) -> None:
+    def _forget(self, worker: _Worker) -> None:
         end(worker.process, PATIENCE)
         self._all.discard(worker)
         if worker in self._idle:
@@ -133,4 +140,3 @@ class Processes:
         if self._failed_starts >= STARTS:
             words = "{count} processes in a row ended before they were ready"
             raise CannotStart.in_words("workers", words, count=STARTS)
-        self._all.add(_Worker(self._events))

@@ -7,7 +7,6 @@ pickle. The first answer, None, says that it is ready. It ends when its input en
 from __future__ import annotations
 
 import contextlib
-import gc
 import os
 import pickle
 import queue
@@ -16,6 +15,8 @@ import subprocess
 import sys
 import threading
 from typing import Any, BinaryIO, cast
+
+from app.start import importing
 
 LENGTH = struct.Struct("<Q")
 
@@ -53,10 +54,9 @@ def main() -> None:
     """Answer pieces until the input ends."""
     source, sink = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # The prints of libraries must not mix with answers.
-    from app.sweeps.engines import attempt
+    with importing():
+        from app.sweeps.engines import attempt
 
-    gc.collect()
-    gc.freeze()  # Imported objects stay, so the garbage collector need not check them again.
     send(sink, None)
     waiting: queue.SimpleQueue[bytes] = queue.SimpleQueue()
 
