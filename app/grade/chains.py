@@ -2,14 +2,18 @@
 
 The right dance comes from `core`. This module computes wrong ones: handles one arc apart instead of one chord,
 angles rounded in between, and turns whose arcs do not meet the spiral tangentially, which `core` refuses as paths.
+Handle by handle they take up to a second, and a class has the same instants: the latest ones are kept. State: these.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.grade.expected import Motion, motion
 from core import Dance, Dragon, Spiral, Turn
@@ -19,6 +23,8 @@ from core.values import Floats
 NEWTON_STEPS, FALSE_STEPS = 8, 40
 # Step of the search for the nearest place one chord away, in chords: where a path turns back, that place is far [1].
 WIDER = 0.05
+# Number of motions that are kept, and their most instants, those of result1: 1.6 MB.
+KEPT, KEPT_TIMES = 16, 301
 
 
 def link_speeds(position: Floats, tangent: Floats) -> Floats:
@@ -48,12 +54,18 @@ def rounded_angles(dance: Dance, path: Spiral, decimals: int) -> Motion:
     """Motion with every polar angle rounded to some decimals before the next one is computed."""
 
     def moved(times: Floats) -> Floats:
-        thetas = [np.round(path.theta(times * dance.head_speed), decimals)]
-        for chord in dance.dragon.chords:
-            thetas.append(np.round(thetas[-1] + _turned(thetas[-1], (chord / path.growth) ** 2), decimals))
-        return _on_spiral(path, np.stack(thetas, axis=1))
+        compute = _rounded if times.size <= KEPT_TIMES else _rounded.__wrapped__
+        return compute(dance, path, decimals, tuple(times.tolist())).copy()
 
     return moved
+
+
+@lru_cache(KEPT)
+def _rounded(dance: Dance, path: Spiral, decimals: int, times: tuple[float, ...]) -> Floats:
+    thetas = [np.round(path.theta(np.array(times) * dance.head_speed), decimals)]
+    for chord in dance.dragon.chords:
+        thetas.append(np.round(thetas[-1] + _turned(thetas[-1], (chord / path.growth) ** 2), decimals))
+    return _on_spiral(path, np.stack(thetas, axis=1))
 
 
 def _turned(theta: Floats, chord2: float) -> Floats:
@@ -90,35 +102,54 @@ class Bent:
     def length(self) -> float:
         return sum(radius * abs(turned) for _, radius, _, turned in self.arcs)
 
-    def place(self, s: Floats) -> tuple[Floats, Floats]:
-        """Points and tangents (..., 2) at places s [m], 0 at the entry."""
-        after = s - self.length
-        outside = np.where(s < 0.0, s, self.right.length + np.maximum(after, 0.0))
-        point, tangent = self.right.position(outside), self.right.tangent(outside)
-        begun = 0.0
-        for centre, radius, start, turned in self.arcs:
-            here = (s >= begun) & (s < begun + radius * abs(turned))
-            angle = start + math.copysign(1.0, turned) * (s - begun) / radius
-            spoke = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    def points(self, s: Floats) -> Floats:
+        """Points (..., 2) at places s [m], 0 at the entry."""
+        found = self.right.position(self._outside(s))
+        for (centre, radius, _, _), here, spoke in self._spokes(s):
+            found = np.where(here[..., None], np.array([centre.real, centre.imag]) + radius * spoke, found)
+        return found
+
+    def tangents(self, s: Floats) -> Floats:
+        """Directions of travel (..., 2) at places s [m]."""
+        found = self.right.tangent(self._outside(s))
+        for (_, _, _, turned), here, spoke in self._spokes(s):
             ahead = math.copysign(1.0, turned) * np.stack([-spoke[..., 1], spoke[..., 0]], axis=-1)
-            arc = np.array([centre.real, centre.imag]) + radius * spoke
-            point, tangent = np.where(here[..., None], arc, point), np.where(here[..., None], ahead, tangent)
+            found = np.where(here[..., None], ahead, found)
+        return found
+
+    def _outside(self, s: Floats) -> Floats:
+        """Places on the right turn: those of the coils; where an arc is here, any."""
+        return np.where(s < 0.0, s, self.right.length + np.maximum(s - self.length, 0.0))
+
+    def _spokes(self, s: Floats) -> Iterator[tuple[tuple[complex, float, float, float], NDArray[np.bool_], Floats]]:
+        """Each arc, the places that are on it, and the unit vectors (..., 2) from its centre."""
+        begun = 0.0
+        for arc in self.arcs:
+            _, radius, start, turned = arc
+            angle = start + math.copysign(1.0, turned) * (s - begun) / radius
+            here = (s >= begun) & (s < begun + radius * abs(turned))
+            yield arc, here, np.stack([np.cos(angle), np.sin(angle)], axis=-1)
             begun += radius * abs(turned)
-        return point, tangent
 
 
 def on_bent(dragon: Dragon, path: Bent) -> Motion:
     """Motion of a dragon along such a turn at 1 m/s: each handle is at the nearest place a chord behind its leader."""
 
     def moved(times: Floats) -> Floats:
-        s, found = times, [path.place(times)]
-        for chord in dragon.chords.tolist():
-            s = _behind(path, s, found[-1][0], chord)
-            found.append(path.place(s))
-        position, tangent = (np.stack(some, axis=1) for some in zip(*found, strict=True))
-        return motion(position, link_speeds(position, tangent))
+        compute = _on_bent if times.size <= KEPT_TIMES else _on_bent.__wrapped__
+        return compute(dragon, path, tuple(times.tolist())).copy()
 
     return moved
+
+
+@lru_cache(KEPT)
+def _on_bent(dragon: Dragon, path: Bent, times: tuple[float, ...]) -> Floats:
+    places = [np.array(times)]
+    for chord in dragon.chords.tolist():
+        places.append(_behind(path, places[-1], path.points(places[-1]), chord))
+    s = np.stack(places, axis=1)
+    position = path.points(s)
+    return motion(position, link_speeds(position, path.tangents(s)))
 
 
 def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
@@ -129,7 +160,7 @@ def _behind(path: Bent, s: Floats, point: Floats, chord: float) -> Floats:
     """
 
     def excess(at: Floats) -> Floats:
-        return np.asarray(np.linalg.norm(path.place(at)[0] - point, axis=-1) - chord)
+        return np.asarray(np.linalg.norm(path.points(at) - point, axis=-1) - chord)
 
     near = far = s - 0.9 * chord
     f_near = f_far = excess(far)
