@@ -12,7 +12,6 @@ from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
-from matplotlib.image import imread
 from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize, expect, sync_playwright
 
 from tests.app.serving import serving
@@ -244,6 +243,7 @@ def look_at() -> Callable[..., None]:
 @pytest.fixture
 def picture() -> Callable[[Page], np.ndarray]:
     """picture(page): the pixels of the dance (height, width, 4)."""
+    from matplotlib.image import imread  # takes a third of the start of a process, and not every one looks at pictures
 
     def pixels(page: Page) -> np.ndarray:
         address = page.locator("#canvas").evaluate("canvas => canvas.toDataURL()")
