@@ -1,6 +1,6 @@
 """Contact by the rules of papers and students: the angle sum, the pose on the circle alone, or steps of time.
 
-Each function recomputes the result of such a rule. State: the angle sums of the whole run, sampled once for each shape.
+Each function recomputes the result of such a rule. State: the times of the angle-sum rule, each computed once.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from core import Dance, Dragon, Spiral, bench_outlines, bench_poses, clearance_profile, separation
 from core import trajectory as trajectory_of
 from core.sampling import bisected
-from core.shapes.rectangles import angle_sums
+from core.shapes.rectangles import angle_sum_overlap, angle_sums
 from core.values import Floats
 
 TURNING_RADIUS = 4.5  # [m], of the contest's turning circle
@@ -30,43 +30,36 @@ TIME_STEP, PITCH_STEP, RESOLUTION = 0.1, 0.001, 1e-10
 PITCH_RANGE = (0.30, 0.55)
 # Head radius from which the way to the circle is checked: the least clearance is inside it [m].
 WAY_RADIUS = 4.8
-# Number of batches of instants: the angle sums of the whole run in one array would take 500 MB.
-SUM_BATCHES = 20
 # Function from poses (..., 3) and sizes (..., 2) to corners (..., 4, 2).
 Outline = Callable[[Floats, Floats], Floats]
 
 
-def _largest_sums(outline: Outline, times: Floats) -> Floats:
-    """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at every time.
-
-    outline: function from poses and sizes to corners (..., 4, 2); times: (T,) [s]; returns (T,) [deg]
-    """
+def _outlines(outline: Outline, times: Floats) -> tuple[Floats, Floats]:
+    """Corners (T, 1, 4, 2) of the head and (T, N, 4, 2) of the body benches near it, at times (T,) [s]."""
     dragon = Dragon(benches=RING_BENCHES)
     poses = bench_poses(trajectory_of(Dance(dragon, Spiral()), times).position)
     outlines = outline(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
-    head, body = outlines[:, :1], outlines[:, 2:]
-    sums = np.maximum(angle_sums(body, head), angle_sums(head, body))
-    return np.asarray(np.degrees(sums.max(axis=(1, 2))))
+    return outlines[:, :1], outlines[:, 2:]
 
 
 def largest_sum(outline: Outline, time: float) -> float:
-    """The largest angle sum between head and body benches at a time [deg]."""
-    return float(_largest_sums(outline, np.array([time]))[0])
+    """The paper's rule, eqs. 13-16: the largest angle sum between head and body benches at a time [deg]."""
+    head, body = _outlines(outline, np.array([time]))
+    return math.degrees(max(angle_sums(body, head).max(), angle_sums(head, body).max()))
 
 
 @cache
-def _sampled_sums(outline: Outline) -> tuple[Floats, Floats]:
-    """Instants TIME_STEP apart over the whole run [s], and the largest angle sum at each [deg]."""
-    times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
-    batches = np.array_split(times, SUM_BATCHES)
-    return times, np.concatenate([_largest_sums(outline, batch) for batch in batches])
-
-
 def angle_sum_time(outline: Outline, angle: float) -> float:
     """First time [s] at which an angle sum reaches an angle [deg]: in steps of TIME_STEP, then by bisection."""
-    times, sums = _sampled_sums(outline)
-    high = float(times[np.flatnonzero(sums >= angle)[0]])
-    return bisected(lambda time: largest_sum(outline, time) >= angle, high - TIME_STEP, high, width=RESOLUTION)[1]
+
+    def reached(times: Floats) -> Floats:
+        head, body = _outlines(outline, times)
+        seen = angle_sum_overlap(np.broadcast_to(head, body.shape), body, tolerance=math.radians(360.0 - angle))
+        return np.flatnonzero(seen.any(axis=1))
+
+    times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
+    high = float(times[reached(times)[0]])
+    return bisected(lambda time: reached(np.array([time])).size > 0, high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
 def stepped_pitch(step: float, right: float) -> float:

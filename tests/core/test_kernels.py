@@ -59,11 +59,11 @@ EXPRESSIONS = {
     "trajectory on a turn": "core.trajectory(Dance(Dragon(20), Turn(1.7)), [0.0, 14.0, 30.0])",
     "first excess": "core.motion.speed.first_excess(Dance(Dragon(20), Turn(1.7)), 1.5, start=0.0, stop=30.0)",
     "first excess before a fold": "core.motion.speed.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)",
-    "minimum pitch": "core.minimum_pitch(Dragon(12), turning_radius=2.5, start_turns=5.0)",
+    "minimum pitch": "core.minimum_pitch(Dragon(10), turning_radius=2.5, start_turns=5.0)",
     "first contact with a stray": "core.first_contact(Dance(Dragon(30), Spiral()), stray=0.02, start=370.0)",
-    "minimum pitch with a stray": "core.minimum_pitch(Dragon(12), turning_radius=2.5, start_turns=5.0, stray=0.02)",
+    "minimum pitch with a stray": "core.minimum_pitch(Dragon(10), turning_radius=2.5, start_turns=5.0, stray=0.02)",
     "contacts by chance": "core.contact_probability("
-    "Dance(Dragon(12), Spiral()), Wobble(0.05, 0.02, 4.0, hole=0.06, pin=0.04), 4, 1, start=404.0, stop=412.0)",
+    "Dance(Dragon(9), Spiral()), Wobble(0.05, 0.02, 4.0, hole=0.06, pin=0.04), 4, 1, start=409.0, stop=413.0)",
     "clearance profile": "core.clearance_profile(Dance(Dragon(30), Spiral()), [400.0, 405.0, 410.0])",
     "least clearance": "core.least_clearance(Dance(Dragon(20), Spiral()), start=405.0, stop=411.0)",
     "edges of a venue": "core.venue_clearance(Dance(Dragon(4), Turn(1.7)), core.Venue(core.Area("
@@ -71,9 +71,9 @@ EXPRESSIONS = {
     "highest speed": "core.highest_speed(Dance(Dragon(4), Turn(1.7)), start=8.0, stop=14.0)",
     "highest speed before a fold": "core.highest_speed(Dance(Dragon(4), Spiral(1.2, 3.0)), stop=30.7)",
     "envelope": "core.envelope(Dance(Dragon(4), Turn(1.7)), start=6.0, stop=8.0)",
-    "tolerance": "core.tolerance(Dance(Dragon(12), Spiral()), start=400.0, stop=410.0)",
-    "shortest turn": "core.shortest_turn(Dragon(8), 1.7)",
-    "pitch scan": "core.pitch_scan(Dragon(10), [0.5, 0.55], start_turns=6.0)",
+    "tolerance": "core.tolerance(Dance(Dragon(9), Spiral()), start=406.0, stop=410.0)",
+    "shortest turn": "core.shortest_turn(Dragon(4), 1.7)",
+    "pitch scan": "core.pitch_scan(Dragon(10), [0.53, 0.55], start_turns=5.0)",
 }
 
 
