@@ -11,12 +11,15 @@ const CHINESE = { turns: " 圈", degrees: "°" };
 const EXAMPLES = { m: "0.55", cm: "2", "m/s": "1.5", s: "300", turns: "16" };
 /** Words in templates that stand for numbers of benches. */
 const BENCHES = ["bench", "a", "b", "between"];
-const FIELD = "{field} ";
+const LANGS = ["en", "zh-Hans"];
 const TABLE = "{table}: ";
 const IN_LINE = `${TABLE}line {line}: `;
 
 const fieldOf = (name) => FIELDS.find((field) => field.name === name);
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
+/** The first number in a dotted name, counted from 1. */
+const numberIn = (name) => Number(/\d+/.exec(name)?.[0]) + 1;
 
 /** The last name in a dotted name that is no number. */
 const lastOf = (name) => name.split(".").findLast((part) => Number.isNaN(Number(part)));
@@ -26,87 +29,124 @@ const lastOf = (name) => name.split(".").findLast((part) => Number.isNaN(Number(
  * values, pointer}; chinese: true for Chinese; say(name): the label of a field
  */
 export function refusalIn(told, chinese, say) {
-  const { template, got, reason, values = {}, pointer } = told;
-  const lang = chinese ? "zh-Hans" : "en";
-  const column = chinese ? 1 : 0;
-  const parameter = values.field?.parameter ?? "";
-  const field = fieldOf(lastOf(parameter));
-  const unit = field?.centimetres ? "cm" : values.unit?.text;
+  const { template, values } = told;
+  const rest = [IN_LINE, TABLE].find((begin) => template.startsWith(begin));
+  if (!rest) return new Refusal(told, chinese, say).inWords();
+  const refusal = refusalIn({ ...told, template: template.slice(rest.length) }, chinese, say);
+  if (rest === TABLE) return refusal;
+  const words = say("csvLine", { line: values.line.text, words: refusal.textContent });
+  return { textContent: words, lang: chinese ? LANGS[1] : LANGS[0] };
+}
+
+/** One refusal and how it is worded; its arguments are those of refusalIn(). */
+class Refusal {
+  constructor({ detail, template, got, reason, values = {}, pointer }, chinese, say) {
+    Object.assign(this, { detail, template, got, reason, values, pointer, chinese, say, column: chinese ? 1 : 0 });
+    this.parameter = this.values.field?.parameter ?? "";
+    this.field = fieldOf(lastOf(this.parameter));
+    this.unit = this.field?.centimetres ? "cm" : this.values.unit?.text;
+  }
+
+  /** The whole sentence. */
+  inWords() {
+    const whole = WHOLE[`${this.template} (${lastOf(this.parameter)})`] ?? WHOLE[this.kind()];
+    const textContent = whole?.[this.column]
+      ? this.filled(whole[this.column]) + (this.chinese ? "。" : ".")
+      : this.chinese ? this.inChinese() : this.inEnglish();
+    return { textContent, lang: LANGS[this.column] };
+  }
+
+  /** The key of a whole sentence: the template, but one for all that took too much time or work. */
+  kind() {
+    const { then } = this.values;
+    return then ? `within ${then.unit ?? "work"}${this.parameter === "file" ? " file" : ""}` : this.template;
+  }
+
+  /** The template after "{field} must "; undefined if it does not begin so. */
+  rule() {
+    const [, rule] = this.template.split(/^\{field\} must /);
+    return rule;
+  }
+
+  /** The reason, without what is said of metres where the page shows centimetres. */
+  why() {
+    return this.field?.centimetres && this.reason?.startsWith("lengths are") ? "" : this.reason;
+  }
+
+  inChinese() {
+    const [, rule] = RULES[this.rule()] ?? [];
+    if (!rule) return `服务的答复：${this.detail}`;
+    const why = this.why() ? `（${this.filled(REASONS[this.why()] ?? this.why())}）` : "";
+    return `${this.place()}${this.filled(rule)}${this.got ? `，${this.given()}` : ""}${why}。`;
+  }
+
+  /** In English also what is not known here: in the words of the service. */
+  inEnglish() {
+    const rule = this.rule();
+    const ended = (words) => this.filled(words).replace(/([?.])?$/, (_, mark) => mark ?? ".");
+    if (!rule)
+      return ended(this.template + (this.got ? `, got ${this.got.text}` : "") + (this.reason ? `: ${this.reason}` : ""));
+    const must = `${this.place()} must ${this.filled(RULES[rule]?.[0] ?? rule)}${this.got ? `; ${this.given()}` : ""}.`;
+    return this.why() ? `${must} ${capital(ended(this.why()))}` : must;
+  }
 
   /** A number as the page shows it. */
-  function shown({ text, value, unit }) {
-    if (unit === "m" && field?.centimetres) return `${Number((100 * value).toPrecision(12))} cm`;
-    return chinese && CHINESE[unit] ? `${value}${CHINESE[unit]}` : text;
+  shown({ text, value, unit }) {
+    if (unit === "m" && this.field?.centimetres) return `${Number((100 * value).toPrecision(12))} cm`;
+    return this.chinese && CHINESE[unit] ? `${value}${CHINESE[unit]}` : text;
   }
 
   /** The name of a parameter on the page. */
-  function label(dotted) {
+  label(dotted) {
     const name = lastOf(dotted);
-    return fieldOf(name) || NAMES[name] ? `“${say(NAMES[name] ?? name)}”` : dotted.replace(/\.(\d+)/g, "[$1]");
+    return fieldOf(name) || NAMES[name] ? `“${this.say(NAMES[name] ?? name)}”` : dotted.replace(/\.(\d+)/g, "[$1]");
   }
 
   /** The place of the error, with the number of a point or of a thing. */
-  function place() {
+  place() {
+    const { values, pointer, parameter } = this;
     if (!parameter) return values.field.value ?? values.field.text;
     for (const one of [pointer?.slice(1).replaceAll("/", ".") ?? "", parameter]) {
       const known = PLACES[one.replace(/\d+/g, "#")];
-      if (known) return known[column].replace("#", Number(/\d+/.exec(one)?.[0]) + 1);
+      if (known) return known[this.column].replace("#", numberIn(one));
     }
-    return label(parameter);
+    return this.label(parameter);
   }
 
-  const own = {
-    field: place,
-    units: () => UNITS[unit] ?? unit,
-    unit: () => (CHINESE[unit] ?? unit).trim(),
-    "field.number": () => Number(/\d+/.exec(parameter)?.[0]) + 1,
-    example: () => (field?.centimetres ? EXAMPLES.cm : Number(field?.value) && field.value) || (EXAMPLES[unit] ?? 1),
-  };
-
   /** A text with its words replaced; {word+1}: one more than the value, {word~}: rounded to millimetres. */
-  function filled(text) {
+  filled(text) {
     // Names of benches, such as body 3, need no noun before them.
-    return text.replace(/\bbench(?:es)? (?=\{(?:bench|a|between)\})/g, "").replace(/\{([\w.]+)(\+1|~)?\}/g, (all, word, how) => {
-      const value = word === "got" ? got : values[word];
-      if (own[word]) return own[word]();
-      if (!value) return all;
-      if (word === "then") return `${value.value} ${value.unit}`;
-      if (how) return how === "~" ? Number(value.value.toFixed(3)) : value.value + 1;
-      if (BENCHES.includes(word)) return value.value ? say("body", { k: value.value }) : say("theHead");
-      if (value.parameter) return label(value.parameter);
-      return value.unit ? shown(value) : (value.value ?? value.text);
-    });
+    return text
+      .replace(/\bbench(?:es)? (?=\{(?:bench|a|between)\})/g, "")
+      .replace(/\{([\w.]+)(\+1|~)?\}/g, (all, word, how) => this.worded(word, how) ?? all);
+  }
+
+  /** What stands in the place of a word; undefined if nothing is known of it. */
+  worded(word, how) {
+    const { field, unit } = this;
+    if (word === "field") return this.place();
+    if (word === "units") return UNITS[unit] ?? unit;
+    if (word === "unit") return (CHINESE[unit] ?? unit).trim();
+    if (word === "field.number") return numberIn(this.parameter);
+    if (word === "example")
+      return (field?.centimetres ? EXAMPLES.cm : Number(field?.value) && field.value) || (EXAMPLES[unit] ?? 1);
+    const value = word === "got" ? this.got : this.values[word];
+    if (!value) return undefined;
+    if (word === "then") return `${value.value} ${value.unit}`;
+    if (how) return how === "~" ? Number(value.value.toFixed(3)) : value.value + 1;
+    if (BENCHES.includes(word)) return value.value ? this.say("body", { k: value.value }) : this.say("theHead");
+    if (value.parameter) return this.label(value.parameter);
+    return value.unit ? this.shown(value) : (value.value ?? value.text);
   }
 
   /** What was given. */
-  function given(rule) {
-    if (got.text === "more") return chinese ? "现已超出" : "it has more";
-    if (got.value === undefined && ["null", "None"].includes(got.text)) return chinese ? "现在为空" : "it is empty";
-    if (typeof got.value !== "string") return chinese ? `现为 ${shown(got)}` : `it ${rule.startsWith("have") ? "has" : "is"} ${shown(got)}`;
-    if (!got.value) return chinese ? "现在为空" : "it is empty";
-    return chinese ? `现为“${got.value}”` : `you typed “${got.value}”`;
+  given() {
+    const { got, column } = this;
+    if (got.text === "more") return ["it has more", "现已超出"][column];
+    if (got.value === "" || (got.value === undefined && ["null", "None"].includes(got.text)))
+      return ["it is empty", "现在为空"][column];
+    if (typeof got.value === "string") return [`you typed “${got.value}”`, `现为“${got.value}”`][column];
+    const verb = this.rule().startsWith("have") ? "has" : "is";
+    return [`it ${verb} ${this.shown(got)}`, `现为 ${this.shown(got)}`][column];
   }
-
-  /** The sentence in the words of the service, for what is not known here. */
-  const plain = (words) => filled(words).replace(/([?.])?$/, (_, mark) => mark ?? ".");
-
-  if (template.startsWith(IN_LINE)) {
-    const inner = refusalIn({ ...told, template: template.slice(IN_LINE.length) }, chinese, say);
-    return { textContent: say("csvLine", { line: values.line.text, words: inner.textContent }), lang };
-  }
-  if (template.startsWith(TABLE)) return refusalIn({ ...told, template: template.slice(TABLE.length) }, chinese, say);
-  const name = lastOf(parameter);
-  const whole = WHOLE[`${template} (${name})`] ?? WHOLE[values.then ? `within ${values.then.unit ?? "work"}${parameter === "file" ? " file" : ""}` : template];
-  if (whole?.[column]) return { textContent: filled(whole[column]) + (chinese ? "。" : "."), lang };
-  const rule = template.startsWith(`${FIELD}must `) && template.slice(FIELD.length + "must ".length);
-  const [english = rule, translated] = RULES[rule] ?? [];
-  const why = reason && !(field?.centimetres && reason.startsWith("lengths are")) ? reason : "";
-  if (chinese && !translated) return { textContent: `服务的答复：${told.detail}`, lang };
-  if (chinese) {
-    const because = why ? `（${filled(REASONS[why] ?? why)}）` : "";
-    return { textContent: `${place()}${filled(translated)}${got ? `，${given(rule)}` : ""}${because}。`, lang };
-  }
-  if (!rule) return { textContent: plain(template + (got ? `, got ${got.text}` : "") + (reason ? `: ${reason}` : "")), lang };
-  const sentences = [`${place()} must ${filled(english ?? rule)}${got ? `; ${given(rule)}` : ""}.`, why && capital(plain(why))];
-  return { textContent: sentences.filter(Boolean).join(" "), lang };
 }
