@@ -12,8 +12,9 @@ from tests.app.attacks import ATTACKS, memory, tables, watching
 from tests.app.serving import serving
 from tests.depth import examples
 
-# Duration of an attack, and longest wait of another client, which is 0.1 s on an idle machine [s].
-SECONDS, SLOWEST = examples(1, 2), 1.0
+# Duration of an attack, and longest wait of another client, which is 0.1 s on an idle machine [s]. What keeps others
+# waiting does so until it is done, also after its clients have gone.
+SECONDS, SLOWEST = examples(1, 4) / 2, 1.0
 # Tries: waits that the service causes occur each time, those that other programs cause do not.
 TIMES = 3
 

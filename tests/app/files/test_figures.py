@@ -100,20 +100,22 @@ def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
     assert "turning circle, 4.5 m" in words
 
 
-def drawn(kind: str) -> list[bytes]:
-    """SVG and PNG of a figure."""
+def drawn(kind: str, *formats: str) -> list[bytes]:
+    """A figure in each format."""
     if kind == "trajectory":
-        return [figures.trajectory_figure(Dance(SMALL, Spiral()), format=form) for form in ("svg", "png")]
+        return [figures.trajectory_figure(Dance(SMALL, Spiral()), format=form) for form in formats]
     if kind == "contact":
-        return [figures.contact_figure(Dance(SMALL, Spiral()), format=form) for form in ("svg", "png")]
-    return scan_figures(SMALL, "svg", "png", samples=5)
+        return [figures.contact_figure(Dance(SMALL, Spiral()), format=form) for form in formats]
+    return scan_figures(SMALL, *formats, samples=5)
 
 
 def test_equal_questions_give_equal_bytes_also_in_threads() -> None:
     kinds = ("trajectory", "contact", "scan")
-    alone = [drawn(kind) for kind in kinds]
+    alone = [drawn(kind, "svg", "png") for kind in kinds]
+    forms = ("svg", "png", "svg")
     with ThreadPoolExecutor(len(kinds)) as pool:
-        assert list(pool.map(drawn, kinds)) == alone
+        again = list(pool.map(drawn, kinds, forms))
+    assert again == [[svg if form == "svg" else png] for (svg, png), form in zip(alone, forms, strict=True)]
     for svg, png in alone:
         assert png[:8] == PNG_SIGNATURE
         assert min(struct.unpack(">II", png[16:24])) > 500  # pixels

@@ -45,7 +45,10 @@ def address() -> Iterator[str]:
         yield cluster.scheduler_address
 
 
-def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(tmp_path: Path, address: str) -> None:
+def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(
+    tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.sweeps.run.DEATHS", 1)  # Processes of this machine find it: test_run.py
     told = {"question": LAND.name, "over": {"x": list(range(6))}, "request": {"deadly": [2.0]}, "shard_size": 2}
     spec = Spec.of(told, LAND)
     run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(address))

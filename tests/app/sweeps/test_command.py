@@ -19,7 +19,7 @@ from app.sweeps.run import begin
 from app.sweeps.shards import ShardPiece, parts, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, bin_folder, run
 from tests.conftest import heed_ctrl_c
 
 SPEC = """
@@ -71,10 +71,10 @@ def table(spec: Path, folder: Path) -> bytes:
     return (folder / "sweep.parquet").read_bytes()
 
 
-def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None]) -> tuple[int, str]:
+def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], workers: int) -> tuple[int, str]:
     """Exit code and last words of the command, stopped after its first part; what there was before stays."""
     before = len(parts(folder)) if folder.is_dir() else 0
-    command = [COMMAND, "sweep", "run", str(spec), "--output", str(folder), "--workers", "2"]
+    command = [COMMAND, "sweep", "run", str(spec), "--output", str(folder), "--workers", str(workers)]
     process = psutil.Popen(command, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, preexec_fn=heed_ctrl_c)
     end = time.monotonic() + PATIENCE
     while not (folder.is_dir() and len(parts(folder)) > before) and time.monotonic() < end:
@@ -99,11 +99,11 @@ def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same
         process.kill()
 
     said = f"Stopped: the same command continues {tmp_path / 'a'}\n"
-    assert stopped(spec, tmp_path / "a", interrupt) == (130, said)
+    assert stopped(spec, tmp_path / "a", interrupt, 2) == (130, said)
     assert len(children) == 2
     assert not psutil.wait_procs(children, 5.0)[1]
-    assert stopped(spec, tmp_path / "a", kill)[0] == -signal.SIGKILL
-    assert len(children) == 4
+    assert stopped(spec, tmp_path / "a", kill, 1)[0] == -signal.SIGKILL
+    assert len(children) == 3
     assert not psutil.wait_procs(children, 5.0)[1]
     assert table(spec, tmp_path / "a") == undisturbed
 
@@ -123,7 +123,7 @@ def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> 
 
 def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Path) -> None:
     parent, child = pty.openpty()
-    command = [COMMAND, "sweep", "run", str(spec), "--output", str(tmp_path / "a"), "--workers", "1"]
+    command = [f"{bin_folder()}/bench-dragon", "sweep", "run", spec, "--output", tmp_path / "a", "--workers", "1"]
     process = subprocess.Popen(command, stderr=child, env=ENVIRONMENT | {"TERM": "xterm", "COLUMNS": "120"})
     os.close(child)
     said = b""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -96,28 +96,33 @@ def test_a_complete_folder_starts_no_engine(shared: Shared, tmp_path: Path) -> N
     run(spec, tmp_path / "a", question=LAND, engine=none)
 
 
-def test_killed_workers_change_no_byte(tmp_path: Path) -> None:
+def test_killed_workers_change_no_byte_and_no_process_is_left(tmp_path: Path) -> None:
     spec, engines, chance = spec_of(SLOW, 80, 10), list[Processes](), random.Random(5)
-    killed = []
+    killed, pids = [], set[int]()
 
     def engine() -> Processes:
         engines.append(Processes(2))
         return engines[-1]
 
     def kill(progress: Progress) -> None:
+        pids.update(pid for one in engines for pid in one.pids)
         if engines and len(killed) < 2 and progress.designs >= 20 * len(killed):
             killed.append(chance.choice(engines[0].pids))
             psutil.Process(killed[-1]).kill()
 
     run(spec, tmp_path / "a", question=SLOW, progress=kill, engine=engine)
     assert len(set(killed)) == 2
+    assert len(pids) == 4
+    assert not [pid for pid in pids if psutil.pid_exists(pid)]
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, SLOW)
 
 
 @pytest.mark.parametrize("question", [LAND, INTERRUPTED], ids=["exit", "signal"])
 def test_designs_that_kill_their_process_are_found_and_the_others_answered(
-    shared: Shared, question: Question, tmp_path: Path
+    shared: Shared, question: Question, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    if question is INTERRUPTED:  # What follows from a death is the same.
+        monkeypatch.setattr("app.sweeps.run.DEATHS", 1)
     told = {"question": question.name, "over": {"x": list(range(12, 18))}, "request": {"y": 2.0, "deadly": [16.0]}}
     spec = Spec.of(told | {"shard_size": 2}, question)
     run(spec, tmp_path / "a", question=question, engine=lambda: shared)
@@ -136,30 +141,27 @@ def test_processes_that_cannot_start_end_the_run(tmp_path: Path, monkeypatch: py
         run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=lambda: Processes(1))
 
 
-def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path) -> None:
+def test_what_no_worker_can_answer_ends_the_run_in_words(shared: Shared, tmp_path: Path) -> None:
     with pytest.raises(NoAnswer, match="workers cannot answer: ImportError: no such module"):
-        run(spec_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: Processes(1))
+        run(spec_of(UNANSWERABLE, 6), tmp_path, question=UNANSWERABLE, engine=lambda: shared)
 
 
-def test_no_process_is_left(tmp_path: Path) -> None:
+def test_no_process_is_left_of_an_interrupted_run(tmp_path: Path) -> None:
     engines: list[Processes] = []
 
     def engine() -> Processes:
-        engines.append(Processes(1 + len(engines)))
+        engines.append(Processes(2))
         return engines[-1]
 
     def stop(progress: Progress) -> None:
         if progress.designs:
             raise KeyboardInterrupt
 
-    pids: list[int] = []
-    noted: Callable[[Progress], None] = lambda _: pids.extend(pid for one in engines for pid in one.pids)  # noqa: E731
-    run(spec_of(LAND, 6), tmp_path / "a", question=LAND, engine=engine, progress=noted)
     with pytest.raises(KeyboardInterrupt):
-        run(spec_of(SLOW, 100), tmp_path / "b", question=SLOW, engine=engine, progress=stop)
-    assert pids
-    assert not [pid for pid in [*pids, *engines[1].pids] if psutil.pid_exists(pid)]
-    assert shards.parts(tmp_path / "b")
+        run(spec_of(SLOW, 100), tmp_path / "a", question=SLOW, engine=engine, progress=stop)
+    assert len(engines[0].pids) == 2
+    assert not [pid for pid in engines[0].pids if psutil.pid_exists(pid)]
+    assert shards.parts(tmp_path / "a")
 
 
 def test_a_folder_of_something_else_is_refused(shared: Shared, tmp_path: Path) -> None:
