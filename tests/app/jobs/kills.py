@@ -28,12 +28,12 @@ PATIENCE = 120.0  # [s]
 
 
 def wanted(chance: random.Random) -> Any:
-    """A call that takes a moment, one second, or some."""
-    benches = chance.randrange(50, 200)
+    """A call that takes a moment, or up to a second."""
+    benches = chance.randrange(20, 80)
     return chance.choice(
         [
             {"question": "collision_time", "request": {"pitch": round(chance.uniform(0.4, 0.6), 3)}},
-            {"question": "pitch_scan", "request": {"samples": chance.randrange(100, 402)}},
+            {"question": "pitch_scan", "request": {"samples": chance.randrange(50, 200)}},
             {
                 "question": "trajectory",
                 "request": {"dragon": {"benches": benches}, "times": {"stop": 300, "step": 1.0}},

@@ -23,8 +23,8 @@ LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a bu
 LOOK = 0.05  # [s] between two looks
 # Seconds of work, and within the limits.
 LONG = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1.0}}, "accept": XLSX_TYPE}
-# Several times as long as the time between two messages about progress.
-SCAN = {"question": "pitch_scan", "request": {"samples": 401, "start_turns": 40}}
+# Two or three times as long as the time between two messages about progress.
+SCAN = {"question": "pitch_scan", "request": {"samples": 401, "start_turns": 28}}
 # Minutes of work, for tests that end it themselves.
 ENDLESS = {
     "question": "minimum_pitch",

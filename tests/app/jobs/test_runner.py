@@ -18,13 +18,11 @@ from app.files.tables import ARROW_TYPE
 from app.jobs import runner
 from app.jobs.store import Store
 from app.settings import Settings
-from tests.app.jobs.kills import survive
-from tests.app.jobs.service import ENDLESS, LINGER, SHORT, Service, direct, wait_for
+from tests.app.jobs.kills import post, survive
+from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
 from tests.depth import examples
 
 KILLS, SEED = examples(2, 4), 1
-# A second of work, in which a process of the job is found and killed.
-SCAN = {"question": "pitch_scan", "request": {"samples": 401, "start_turns": 28}}
 
 
 @pytest.fixture(scope="module")
@@ -32,12 +30,6 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     settings = {"jobs_client_max": 1000, "deadline_seconds": 600}
     with Service(tmp_path_factory.mktemp("jobs"), workers=2, **settings) as service:
         yield service
-
-
-@pytest.fixture(scope="module")
-def scan(service: Service) -> bytes:
-    """The direct answer of the call, which takes as long as the job."""
-    return direct(service.client, SCAN).content
 
 
 def begun(service: Service, wanted: Any = SCAN) -> str:
@@ -55,24 +47,32 @@ def kill(service: Service, role: str) -> None:
     wait_for(lambda: not killed & {process.pid for process in service.processes()})
 
 
-def is_answered(service: Service, address: str, answer: bytes) -> bool:
-    status = service.finished(address)["status"]
-    return bool(status == "successful" and service.client.get(f"{address}/result").content == answer)
-
-
 def test_processes_may_be_killed_at_any_moment(service: Service) -> None:
     assert sum(survive(service, KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
 
 
-def test_a_job_goes_on_when_a_process_is_killed(service: Service, scan: bytes) -> None:
-    service.finished(service.post(SHORT))  # Its process waits for another job.
+def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: Service) -> None:
+    done = service.post(SHORT)
+    service.finished(done)  # Its process waits for another job.
+    result = service.client.get(f"{done}/result").content
     kill(service, "spare")
-    address = begun(service)
+    unfinished = begun(service)
     for role in ("child", "runner"):  # The job begins again.
         kill(service, role)
         wait_for(lambda: service.of("child"))
     kill(service, "worker")
-    assert is_answered(service, address, scan)
+    waits = post(service, SHORT)
+    assert service.status(unfinished)["status"] in ("accepted", "running")
+    service.process.kill()
+    service.process.wait()
+    # Runner, children and processes that serve follow the parent.
+    wait_for(lambda: not service.processes(), LINGER)
+    service.start()
+    assert service.status(done)["status"] == "successful"
+    assert service.client.get(f"{done}/result").content == result
+    for address, call in ((waits, SHORT), (unfinished, SCAN)):
+        assert service.finished(address)["status"] == "successful"
+        assert service.client.get(f"{address}/result").content == direct(service.client, call).content
 
 
 def test_a_process_does_one_job_after_another_until_one_needs_much_memory(tmp_path: Path) -> None:
@@ -97,22 +97,6 @@ def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) ->
     assert "signal 9" in status["message"]
     assert service.client.get(f"{address}/result").status_code == 500
     assert service.finished(service.post(SHORT))["status"] == "successful"
-
-
-def test_jobs_are_there_when_a_killed_service_is_started_again(service: Service, scan: bytes) -> None:
-    done = service.post(SHORT)
-    service.finished(done)
-    result = service.client.get(f"{done}/result").content
-    unfinished, waits = begun(service), service.post(SHORT)
-    service.process.kill()
-    service.process.wait()
-    # Runner, children and processes that serve follow the parent.
-    wait_for(lambda: not service.processes(), LINGER)
-    service.start()
-    assert service.status(done)["status"] == "successful"
-    assert service.client.get(f"{done}/result").content == result
-    assert service.finished(waits)["status"] == "successful"
-    assert is_answered(service, unfinished, scan)
 
 
 def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:

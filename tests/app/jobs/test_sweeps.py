@@ -112,15 +112,16 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
     service: Service, tmp_path: Path
 ) -> None:
     address = service.post(LONG_SPEC, "/sweeps")
-    for kill in range(4):
+    for kill in range(3):
         before = parts(service)
         wait_for(lambda before=before: len(parts(service)) > len(before))
         there = parts(service)
-        if kill < 3:
-            wait_for(lambda: service.of("child"))
-            for process in service.of("child"):
-                process.kill()
-        else:
+        wait_for(lambda: service.of("child"))
+        killed = service.of("child")
+        for process in killed:
+            process.kill()
+        if kill == 2:  # The runner has seen the last death, and then all of the service is killed.
+            wait_for(lambda killed=killed: {one.pid for one in service.of("child")} - {one.pid for one in killed})
             service.process.kill()
             service.process.wait()
             wait_for(lambda: not service.processes(), LINGER)
