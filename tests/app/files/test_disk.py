@@ -23,7 +23,7 @@ WRITERS = [
     ("trajectory", "--output", "dance.xlsx"),
     ("check", "examples/paper_dance.toml", "--figure", "dance.svg"),
     ("prove", "collision-time", "--benches", "9", "--time", "412.4738376821", "--output", "dance.proof.json"),
-    ("figures", "--kind", "contact", "--benches", "20", "FOLDER"),
+    ("figures", "--kind", "trajectory", "--benches", "20", "FOLDER"),
 ]
 QUICK = [WRITERS[0], WRITERS[2], WRITERS[4]]
 
@@ -32,7 +32,7 @@ def with_target(arguments: tuple[str, ...], folder: Path) -> tuple[list[str], Pa
     """The command writing into a folder, and the file."""
     *before, last = arguments
     if last == "FOLDER":
-        return [*before, str(folder)], folder / "contact.png"
+        return [*before, str(folder)], folder / "trajectory.png"
     return [*before, str(folder / last)], folder / last
 
 
