@@ -57,42 +57,18 @@ def stopped(process: subprocess.Popen[bytes]) -> None:
     process.wait(timeout=60)
 
 
-def test_a_file_that_takes_long_becomes_a_job_about_the_same_dance(
-    open_page: Any, server: str, port: int, tmp_path: Path
+def test_a_lost_service_is_said_the_page_recovers_by_itself_and_a_file_that_takes_long_becomes_a_job(
+    open_page: Any, picture: Any, alike: Any, server: str, port: int, tmp_path: Path
 ) -> None:
-    """The page opens on a patient service; then one that ends every longer computation at once takes its place."""
-    numbers = {"benches": 60, "pitch": 0.6, "start_turns": 9, "stray": 0.02}
-    base, process = f"http://127.0.0.1:{port}", started(port, tmp_path / "patient.log")
+    """Two patient services, one after the other; then one that ends every longer computation at once."""
+    numbers = {"benches": 20, "stray": 0.02}
+    base, process = f"http://127.0.0.1:{port}", started(port, tmp_path / "first.log")
     try:
-        page = open_page("healthz", base=base, failing=True)  # what is not the page yet
+        page = open_page(f"?{urlencode(numbers)}", base=base, failing=True)
         wire = page.context.new_cdp_session(page)
         wire.send("Network.enable")
         # Else the browser would give what the page has asked before.
         wire.send("Network.setCacheDisabled", {"cacheDisabled": True})
-        page.goto(f"{base}/?{urlencode(numbers | {'time': 'end'})}")
-        settled(page)
-        stopped(process)
-        process = started(port, tmp_path / "hurried.log", deadline_seconds=1e-9)
-        page.locator("#lost").wait_for(state="hidden")
-        settled(page)  # The service refuses a file while it is busy with what the page asks.
-        page.get_by_role("button", name="Ground that benches sweep, JSON").click()
-        expect(page.locator("#jobs li")).to_have_attribute("data-state", "successful")
-        result = page.locator("#jobs a[download]").get_attribute("href")
-        ground = polite.get(f"{base}/{result}").json()
-    finally:
-        stopped(process)
-    end = polite.get(f"{server}/collision-time", params=numbers).json()["time"]
-    path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
-    whole = {"dragon": {"benches": 60}, "path": path, "start": 0.0, "stop": end}
-    assert ground == polite.post(f"{server}/envelope", json=whole).raise_for_status().json()
-
-
-def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
-    open_page: Any, picture: Any, alike: Any, port: int, tmp_path: Path
-) -> None:
-    process = started(port, tmp_path / "first.log")
-    try:
-        page = open_page("?benches=20", base=f"http://127.0.0.1:{port}", failing=True)
         settled(page)
         answer = page.locator("#first-contact .value").inner_text()
         before = picture(page)
@@ -103,13 +79,24 @@ def test_a_lost_service_is_said_and_the_page_stays_and_recovers_by_itself(
         assert alike(picture(page), before)
         process = started(port, tmp_path / "second.log")
         page.locator("#lost").wait_for(state="hidden")
-        wanted = polite.get(f"http://127.0.0.1:{port}/collision-time?pitch=0.5&benches=20").json()["time"]
-        page.locator("#first-contact .value", has_text=f"{wanted:.6f}").wait_for()
+        end = polite.get(f"{server}/collision-time", params=numbers | {"pitch": 0.5}).json()["time"]
+        page.locator("#first-contact .value", has_text=f"{end:.6f}").wait_for()
         settled(page)
+        stopped(process)
+        # An idle page notices it too.
+        page.locator("#lost", has_text="does not answer").wait_for()
+        process = started(port, tmp_path / "hurried.log", deadline_seconds=1e-9)
+        page.locator("#lost").wait_for(state="hidden")
+        settled(page)  # The service refuses a file while it is busy with what the page asks.
+        page.get_by_role("button", name="Ground that benches sweep, JSON").click()
+        expect(page.locator("#jobs li")).to_have_attribute("data-state", "successful")
+        result = page.locator("#jobs a[download]").get_attribute("href")
+        ground = polite.get(f"{base}/{result}").json()
     finally:
         stopped(process)
-    # An idle page notices it too.
-    page.locator("#lost", has_text="does not answer").wait_for()
+    path = {"kind": "spiral", "pitch": 0.5}
+    whole = {"dragon": {"benches": 20}, "path": path, "start": 0.0, "stop": end}
+    assert ground == polite.post(f"{server}/envelope", json=whole).raise_for_status().json()
 
 
 def right_again(page: Any, name: str | None) -> None:

@@ -153,7 +153,7 @@ def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any,
         guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
         address = guarded.post(SHORT)
         page = open_page("?benches=12", base=base(guarded), failing=True, viewport=PHONE, is_mobile=True)
-        ask(page, "least_clearance", ("pitch", 0.7, 0.9, 4), ("benches", 18, 20, 3))
+        ask(page, "least_clearance", ("pitch", 0.7, 0.9, 2), ("benches", 8, 10, 2))
         expect(page.locator("#sweep-error")).to_contain_text("Jobs and uploads need the token of this service")
         expect(page.locator("#no-jobs")).to_be_visible()
         sheet = {"name": "result1.csv", "mimeType": "text/csv", "buffer": b"1,2"}
