@@ -52,14 +52,14 @@ def largest_sum(outline: Outline, time: float) -> float:
 def angle_sum_time(outline: Outline, angle: float) -> float:
     """First time [s] at which an angle sum reaches an angle [deg]: in steps of TIME_STEP, then by bisection."""
 
-    def reached(times: Floats) -> Floats:
+    def reached(times: Floats) -> list[bool]:
         head, body = _outlines(outline, times)
         seen = angle_sum_overlap(np.broadcast_to(head, body.shape), body, tolerance=math.radians(360.0 - angle))
-        return np.flatnonzero(seen.any(axis=1))
+        return seen.any(axis=1).tolist()
 
     times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
-    high = float(times[reached(times)[0]])
-    return bisected(lambda time: reached(np.array([time])).size > 0, high - TIME_STEP, high, width=RESOLUTION)[1]
+    high = float(times[reached(times).index(True)])
+    return bisected(lambda time: reached(np.array([time]))[0], high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
 def stepped_pitch(step: float, right: float) -> float:
