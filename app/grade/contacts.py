@@ -55,7 +55,7 @@ def angle_sum_time(outline: Outline, angle: float) -> float:
     def reached(times: Floats) -> list[bool]:
         head, body = _outlines(outline, times)
         seen = angle_sum_overlap(np.broadcast_to(head, body.shape), body, tolerance=math.radians(360.0 - angle))
-        return [bool(one) for one in seen.any(axis=1)]
+        return list(np.asarray(seen.any(axis=1)).tolist())
 
     times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
     high = float(times[reached(times).index(True)])
