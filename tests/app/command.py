@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import gc
 import json
 import os
 import resource
@@ -30,6 +29,7 @@ from pkgutil import walk_packages
 from typing import Any, TextIO
 
 from app.extras import MODULES
+from app.start import importing
 
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
 ENVIRONMENT = {
@@ -168,18 +168,17 @@ def bin_folder() -> Path:
 
 def main() -> None:
     """Fork for each request, until standard input ends, which means that the parent is gone."""
-    commands, core = import_module("app.command.main"), import_module("core")
-    for name in {name for extra in USED for name in MODULES[extra]} | set(LAZY):
-        import_module(name)
-    for package in ("core", "app"):
-        for room in walk_packages([str(ROOT / package)], f"{package}."):
-            if not room.name.startswith(NEVER):
-                import_module(room.name)
-    for name in core.__all__:
-        getattr(core, name)
-    _build(import_module("pydantic").BaseModel)
-    gc.collect()
-    gc.freeze()  # The collector of a run leaves the imported modules alone.
+    with importing():  # The collector of a run leaves the imported modules alone.
+        commands, core = import_module("app.command.main"), import_module("core")
+        for name in {name for extra in USED for name in MODULES[extra]} | set(LAZY):
+            import_module(name)
+        for package in ("core", "app"):
+            for room in walk_packages([str(ROOT / package)], f"{package}."):
+                if not room.name.startswith(NEVER):
+                    import_module(room.name)
+        for name in core.__all__:
+            getattr(core, name)
+        _build(import_module("pydantic").BaseModel)
     sys.modules["__main__"].__package__ = None  # click names the program by its script, not by `python -m`
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nothing stays of a run that has ended
     with socket.socket(fileno=int(sys.argv[1])) as door:

@@ -22,7 +22,7 @@ from tests.app.jobs.kills import post, survive
 from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
 from tests.depth import examples
 
-KILLS, SEED = examples(2, 4), 1
+KILLS, SEED = examples(1, 4), 1
 
 
 @pytest.fixture(scope="module")
