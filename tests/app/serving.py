@@ -26,14 +26,20 @@ class Service:
         return "127.0.0.1", int(self.url.rpartition(":")[2])
 
 
-@contextmanager
-def serving(
-    log: Path, workers: int = 1, limit: Callable[[], object] | None = None, **settings: object
-) -> Iterator[Service]:
-    """limit: called in the service's process before it starts; settings: by their names in app/settings.py"""
+def free_port() -> int:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+        return int(free.getsockname()[1])
+
+
+@contextmanager
+def serving(
+    log: Path, workers: int = 1, limit: Callable[[], object] | None = None, port: int = 0, **settings: object
+) -> Iterator[Service]:
+    """limit: called in the service's process before it starts; port: 0 for a free one; settings: by their names in
+    app/settings.py
+    """
+    port = port or free_port()
     given = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
     process = serve(port, workers, os.environ | given, log, limit)
     try:

@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 import contextlib
-import os
-import socket
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import httpx
 import pytest
 
 from app.files.tables import XLSX_TYPE
 from app.settings import Settings, unknown_variables
-from tests.conftest import ROOT, wait_until_live
+from tests.app.serving import serving
 
 BODY_BYTES_MAX = 1000
 LIMITS = {
-    "BENCH_DRAGON_BODY_BYTES_MAX": str(BODY_BYTES_MAX),
-    "BENCH_DRAGON_BENCHES_MAX": "300",
-    "BENCH_DRAGON_CELLS_MAX": "200000",
-    "BENCH_DRAGON_CHEAP_MAX": "1",
-    "BENCH_DRAGON_HEAVY_MAX": "1",
-    "BENCH_DRAGON_RETRY_AFTER": "7",
-    "BENCH_DRAGON_CACHE_SECONDS": "60",
+    "body_bytes_max": BODY_BYTES_MAX,
+    "benches_max": 300,
+    "cells_max": 200000,
+    "cheap_max": 1,
+    "heavy_max": 1,
+    "retry_after": 7,
+    "cache_seconds": 60,
 }
 # Seconds of work, and within the limits.
 SLOW = {"times": {"stop": 400, "step": 0.5}}
@@ -37,20 +32,11 @@ BUSY_TIMEOUT = 60.0  # [s]
 @pytest.fixture(scope="module")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     """A real server with small limits."""
-    log = tmp_path_factory.mktemp("small") / "server.log"
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
-    with log.open("wb") as output:
-        process = subprocess.Popen(command, cwd=ROOT, env=os.environ | LIMITS, stdout=output, stderr=output)
-    try:
-        wait_until_live(process, port, Path(log))
-        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=BUSY_TIMEOUT) as client:
-            yield client
-    finally:
-        process.terminate()
-        process.wait(timeout=BUSY_TIMEOUT)
+    with (
+        serving(tmp_path_factory.mktemp("small") / "server.log", **LIMITS) as service,
+        httpx.Client(base_url=service.url, timeout=BUSY_TIMEOUT) as client,
+    ):
+        yield client
 
 
 def body(size: int) -> bytes:

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import os
-import socket
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
 
-import pytest
 from playwright.sync_api import expect
 
-from tests.conftest import wait_until_live
+from tests.app.serving import free_port, serving
 from tests.page import polite
 from tests.page.pending import settled
 
-ROOT = Path(__file__).parents[2]
+PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 OWN_MAX, ALL_MAX = 150_000, 1_600_000  # [bytes] over the wire
 FIRST_MAX = 2_000  # [ms] from the request for the page to first contact shown
 IN_CM = ("stray", "hole", "pin")  # shown to people in centimetres; the service takes metres
@@ -36,35 +31,13 @@ LOOP, LOOP_MS = (
 )
 
 
-@pytest.fixture
-def port() -> int:
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return int(free.getsockname()[1])
-
-
-def started(port: int, log: Path, deadline_seconds: float = 50.0) -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-m", "uvicorn", "--factory", "app.service.main:create_app", "--port", str(port)]
-    limits = {"BENCH_DRAGON_DEADLINE_SECONDS": str(deadline_seconds)}
-    with log.open("wb") as output:
-        process = subprocess.Popen(command, cwd=ROOT, env=os.environ | limits, stdout=output, stderr=output)
-    wait_until_live(process, port, log)
-    return process
-
-
-def stopped(process: subprocess.Popen[bytes]) -> None:
-    process.terminate()
-    process.wait(timeout=60)
-
-
 def test_a_lost_service_is_said_the_page_recovers_by_itself_and_a_file_that_takes_long_becomes_a_job(
-    open_page: Any, picture: Any, alike: Any, server: str, port: int, tmp_path: Path
+    open_page: Any, picture: Any, alike: Any, server: str, tmp_path: Path
 ) -> None:
     """Two patient services, one after the other; then one that ends every longer computation at once."""
-    numbers = {"benches": 20, "stray": 0.02}
-    base, process = f"http://127.0.0.1:{port}", started(port, tmp_path / "first.log")
-    try:
-        page = open_page(f"?{urlencode(numbers)}", base=base, failing=True)
+    numbers, port = {"benches": 20, "stray": 0.02}, free_port()
+    with serving(tmp_path / "first.log", port=port, deadline_seconds=PATIENT):
+        page = open_page(f"?{urlencode(numbers)}", base=f"http://127.0.0.1:{port}", failing=True)
         wire = page.context.new_cdp_session(page)
         wire.send("Network.enable")
         # Else the browser would give what the page has asked before.
@@ -72,28 +45,24 @@ def test_a_lost_service_is_said_the_page_recovers_by_itself_and_a_file_that_take
         settled(page)
         answer = page.locator("#first-contact .value").inner_text()
         before = picture(page)
-        stopped(process)
-        page.locator("#pitch").fill("0.5")
-        page.locator("#lost", has_text="does not answer").wait_for()
-        assert page.locator("#first-contact .value").inner_text() == answer
-        assert alike(picture(page), before)
-        process = started(port, tmp_path / "second.log")
+    page.locator("#pitch").fill("0.5")
+    page.locator("#lost", has_text="does not answer").wait_for()
+    assert page.locator("#first-contact .value").inner_text() == answer
+    assert alike(picture(page), before)
+    with serving(tmp_path / "second.log", port=port, deadline_seconds=PATIENT):
         page.locator("#lost").wait_for(state="hidden")
         end = polite.get(f"{server}/collision-time", params=numbers | {"pitch": 0.5}).json()["time"]
         page.locator("#first-contact .value", has_text=f"{end:.6f}").wait_for()
         settled(page)
-        stopped(process)
-        # An idle page notices it too.
-        page.locator("#lost", has_text="does not answer").wait_for()
-        process = started(port, tmp_path / "hurried.log", deadline_seconds=1e-9)
+    # An idle page notices it too.
+    page.locator("#lost", has_text="does not answer").wait_for()
+    with serving(tmp_path / "hurried.log", port=port, deadline_seconds=1e-9) as hurried:
         page.locator("#lost").wait_for(state="hidden")
         settled(page)  # The service refuses a file while it is busy with what the page asks.
         page.get_by_role("button", name="Ground that benches sweep, JSON").click()
         expect(page.locator("#jobs li")).to_have_attribute("data-state", "successful")
         result = page.locator("#jobs a[download]").get_attribute("href")
-        ground = polite.get(f"{base}/{result}").json()
-    finally:
-        stopped(process)
+        ground = polite.get(f"{hurried.url}/{result}").json()
     path = {"kind": "spiral", "pitch": 0.5}
     whole = {"dragon": {"benches": 20}, "path": path, "start": 0.0, "stop": end}
     assert ground == polite.post(f"{server}/envelope", json=whole).raise_for_status().json()
