@@ -96,6 +96,12 @@ def test_a_complete_folder_starts_no_engine(shared: Shared, tmp_path: Path) -> N
     run(spec, tmp_path / "a", question=LAND, engine=none)
 
 
+def test_a_sweep_of_one_shard_starts_one_process(tmp_path: Path) -> None:
+    engine, pids = Processes(3), set[int]()
+    run(spec_of(LAND, 6), tmp_path, question=LAND, engine=lambda: engine, progress=lambda _: pids.update(engine.pids))
+    assert len(pids) == 1
+
+
 def test_killed_workers_change_no_byte_and_no_process_is_left(tmp_path: Path) -> None:
     spec, engines, chance = spec_of(SLOW, 80, 10), list[Processes](), random.Random(5)
     killed, pids = [], set[int]()
