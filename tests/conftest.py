@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 
 from core import kernels
+from tests.depth import DEEP
 from tests.page import browser
 
 ROOT = Path(__file__).parent.parent
@@ -34,7 +35,10 @@ NO_CURL = "they run the commands of the documentation as they stand: apt install
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the tests that this machine cannot run; one line for each reason is printed after the tests."""
+    """Leave those of `make deep` to it, and leave out the tests that this machine cannot run, in a line for each reason."""
+    if not DEEP:
+        config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("deep")])
+        items[:] = [item for item in items if not item.get_closest_marker("deep")]
     has_browser = not any(map(_needs_browser, items)) or browser.found()
     kept: list[pytest.Item] = []
     groups: dict[str, list[pytest.Item]] = {}

@@ -1,4 +1,4 @@
-"""Depth of the tests' samples: some of the random cases in every run, all of them by `make deep`."""
+"""Depth of the tests: some of the random cases in every run, all of them and those marked `deep` by `make deep`."""
 
 from __future__ import annotations
 
