@@ -35,7 +35,7 @@ NO_CURL = "they run the commands of the documentation as they stand: apt install
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave those of `make deep` to it, and leave out the tests that this machine cannot run, in a line for each reason."""
+    """Leave the deep tests to `make deep`; leave out what this machine cannot run, in a line for each reason."""
     if not DEEP:
         config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("deep")])
         items[:] = [item for item in items if not item.get_closest_marker("deep")]
