@@ -330,6 +330,9 @@ def module_name(path: Path) -> str:
 MODULES = {module_name(path): path for package in ("core", "app") for path in sorted((ROOT / package).rglob("*.py"))}
 
 
+CORE = [module for module in MODULES if module.startswith("core")]
+
+
 @cache
 def tree(module: str) -> ast.Module:
     return ast.parse(MODULES[module].read_text(encoding="utf-8"))
@@ -356,15 +359,13 @@ def test_every_module_has_its_place_in_the_pipeline() -> None:
     assert set(MODULES) == set(ORDER)
 
 
-@pytest.mark.parametrize("module", MODULES)
-def test_imports_point_one_way_along_the_pipeline(module: str) -> None:
-    itself_or_later = ORDER[ORDER.index(module) :]
-    assert imports(module) & set(itself_or_later) == set()
+def test_imports_point_one_way_along_the_pipeline() -> None:
+    itself_or_later = {module: set(ORDER[ORDER.index(module) :]) for module in MODULES}
+    assert {module: back for module in MODULES if (back := imports(module) & itself_or_later[module])} == {}
 
 
-@pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
-def test_core_knows_no_http_json_files_or_clocks(module: str) -> None:
-    assert top_names(module) & OUTSIDE_CORE == set()
+def test_core_knows_no_http_json_files_or_clocks() -> None:
+    assert {module: known for module in CORE if (known := top_names(module) & OUTSIDE_CORE)} == {}
 
 
 def numbered(index: ast.expr) -> bool:
@@ -384,9 +385,8 @@ def without_name(index: ast.expr) -> bool:
     return numbered(index) or (isinstance(first, ast.Constant) and not named)
 
 
-@pytest.mark.parametrize("module", [name for name in MODULES if name.startswith("core")])
-def test_columns_have_names(module: str) -> None:
-    for node in ast.walk(tree(module)):
+def test_columns_have_names() -> None:
+    for module, node in ((name, node) for name in CORE for node in ast.walk(tree(name))):
         if not isinstance(node, ast.Subscript):
             continue
         if module.startswith("core.kernels"):  # whatever the array
@@ -479,16 +479,14 @@ def functions(module: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
     return [node for node in ast.walk(tree(module)) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
 
 
-# A command's options are its parameters.
-@pytest.mark.parametrize("module", [name for name in MODULES if not name.startswith("app.command")])
-def test_functions_are_short_and_take_few_parameters(module: str) -> None:
-    for function in functions(module):
-        given = function.args
+def test_functions_are_short_and_take_few_parameters() -> None:
+    # A command's options are its parameters.
+    asked = [module for module in MODULES if not module.startswith("app.command")]
+    for module, function in ((name, function) for name in asked for function in functions(name)):
+        given, place = function.args, f"{module}, {function.name}"
         parameters = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
-        assert (function.end_lineno or 0) - function.lineno + 1 <= LINES_MOST, function.name
-        assert len([name for name in parameters if name and name.arg not in ("self", "cls")]) <= PARAMETERS_MOST, (
-            function.name
-        )
+        assert (function.end_lineno or 0) - function.lineno + 1 <= LINES_MOST, place
+        assert len([name for name in parameters if name and name.arg not in ("self", "cls")]) <= PARAMETERS_MOST, place
 
 
 PAGE = [path for kind in ("js", "html", "css") for path in sorted((ROOT / "app" / "page").rglob(f"*.{kind}"))]
