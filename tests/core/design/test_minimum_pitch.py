@@ -28,7 +28,7 @@ from core import (
 from tests.core.slow_pitch import SlowWay
 from tests.core.slow_search import SlowDance, chord_squared
 from tests.core.sweep_pitch import random_case
-from tests.depth import examples
+from tests.depth import examples, some
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 # Pitches are promised to this [m].
@@ -372,7 +372,11 @@ TINY = {"body_length": 0.00390625, "head_length": 1.0, "overhang": 0.0}
 
 
 @pytest.mark.parametrize(
-    "dragon", [Dragon(20, **TINY), Dragon(8, body_length=0.001, overhang=0.0)], ids=["4 mm", "1 mm"]
+    "dragon",
+    [
+        pytest.param(Dragon(20, **TINY), id="4 mm", marks=pytest.mark.deep),
+        pytest.param(Dragon(8, body_length=0.001, overhang=0.0), id="1 mm"),
+    ],
 )
 def test_tiny_benches_on_wide_spirals_are_answered(dragon: Dragon) -> None:
     """Ways that begin kilometres further out than anything can touch took 1.4 s each, 30 minutes in all.
@@ -405,7 +409,7 @@ def test_just_above_the_infeasible_end_of_a_bracket_a_pitch_is_feasible() -> Non
     assert is_feasible(dragon, low + CLOSELY, radius, turns, margin)
 
 
-@pytest.mark.parametrize("seed", [27, 62])
+@pytest.mark.parametrize("seed", some([27, 62], 1))
 def test_a_contact_on_the_circle_of_a_wide_spiral_is_said_to_be_there(seed: int) -> None:
     """Rounding hides a contact 1e-11 m of pitch below the border; the pair approaches on the whole way."""
     dragon, radius, turns, margin = random_case(seed)
