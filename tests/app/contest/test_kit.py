@@ -56,9 +56,19 @@ app()
 """
 
 
-def without_fonts(folder: Path, *given: str) -> subprocess.CompletedProcess[str]:
+# No matplotlib, as after an install without the extra figures.
+WITHOUT_FIGURES = """
+import sys
+sys.modules["matplotlib"] = None
+sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films"]
+from app.command.main import app
+app()
+"""
+
+
+def without_fonts(folder: Path, *given: str, code: str = WITHOUT_FONTS) -> subprocess.CompletedProcess[str]:
     python = Path(COMMAND).with_name("python")
-    command = [python, "-c", WITHOUT_FONTS, folder, *given]
+    command = [python, "-c", code, folder, *given]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 
@@ -76,7 +86,7 @@ def made(language: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module", params=["zh", "en"])
+@pytest.fixture(scope="module", params=["zh", pytest.param("en", marks=pytest.mark.deep)])
 def kit(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     """Language and folder of a kit."""
     return request.param, made(request.param, tmp_path_factory)
@@ -89,7 +99,12 @@ def chinese(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def english(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return made("en", tmp_path_factory)
+    """Folder of a kit in English whose figures nobody can draw."""
+    folder = tmp_path_factory.mktemp("english")
+    done = without_fonts(folder, "en", code=WITHOUT_FIGURES)
+    assert done.returncode == 1
+    assert "Error: figures and films were not written: " in done.stderr
+    return folder
 
 
 @cache
@@ -251,6 +266,15 @@ def test_the_report_ties_everything_together(kit: tuple[str, Path]) -> None:
     }
     what, how = rows[language]
     assert re.search(rf"^\| 2 \| {what} \| 412\.473837682 s \| [\d., ]+ s \| {how}", page, re.MULTILINE)
+
+
+def test_an_english_report_is_in_english_and_leads_to_no_figure_that_was_not_drawn(english: Path) -> None:
+    page = (english / "report.md").read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)]+)\)", page)
+    assert {link for link in links if not (english / link).is_file()} == set()
+    assert len(links) > 15
+    assert "| 2 | first contact | 412.473837682 s |" in page
+    assert "板凳" not in page
 
 
 def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path: Path) -> None:
