@@ -77,7 +77,7 @@ serve: setup
 
 test: setup
 	@$(BIN)/python tests/page/browser.py
-	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal $(ARGS)
+	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ARGS)
 
 deep: setup
 	@DEEP=1 $(MAKE) --no-print-directory test

@@ -36,6 +36,7 @@ from app.settings import Settings
 from core.kernels import COMPILED
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
+from tests.depth import some
 
 # The service, which replaces a process that is silent for so long [s].
 SILENT = 2.0
@@ -216,7 +217,7 @@ def test_an_empty_name_is_not_the_current_folder(line: str, tmp_path: Path, monk
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("form", [[], ["--json"]], ids=["table", "json"])
+@pytest.mark.parametrize("form", [[], pytest.param(["--json"], marks=pytest.mark.deep)], ids=["table", "json"])
 def test_a_full_disk_behind_standard_output_is_one_line_and_exit_code_2(form: list[str]) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
@@ -448,7 +449,7 @@ def test_with_a_margin_the_command_says_within_it_and_the_gap() -> None:
     assert "First contact" in answer_of("collision-time", "--benches", "20")
 
 
-@pytest.mark.parametrize("flags", [[], ["--json"]], ids=["table", "json"])
+@pytest.mark.parametrize("flags", [pytest.param([], marks=pytest.mark.deep), ["--json"]], ids=["table", "json"])
 def test_a_reader_that_stops_early_is_no_error(flags: list[str]) -> None:
     with subprocess.Popen(
         [COMMAND, "trajectory", *flags], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT
@@ -556,7 +557,7 @@ def starts(process: subprocess.Popen[str]) -> bool:
     return any("Application startup complete" in line for line in process.stderr)
 
 
-@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("workers", [pytest.param(1, marks=pytest.mark.deep), 2])
 def test_serve_answers_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(
     workers: int,
 ) -> None:
@@ -614,7 +615,7 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: st
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("words", HELPS, ids=" ".join)
+@pytest.mark.parametrize("words", some(list(HELPS), 12), ids=" ".join)
 def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> None:
     text = " ".join(answer_of(*words, "--help", COLUMNS="1000").split())
     told = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]

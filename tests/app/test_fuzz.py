@@ -5,7 +5,7 @@ from __future__ import annotations
 from tests.app.fuzz import ask_mutants
 from tests.depth import examples
 
-MUTANTS, SEED = examples(50, 150), 1
+MUTANTS, SEED = examples(35, 150), 1
 
 
 def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:

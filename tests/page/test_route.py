@@ -292,7 +292,9 @@ def test_a_square_with_a_tree_and_a_wall_is_drawn_named_and_judged(visit: Any) -
 
 
 @pytest.mark.parametrize(
-    ("query", "place"), [(S_CURVE, "#judgement"), ("?benches=20&time=end", "#first-contact")], ids=["drawn", "spiral"]
+    ("query", "place"),
+    [(S_CURVE, "#judgement"), pytest.param("?benches=20&time=end", "#first-contact", marks=pytest.mark.deep)],
+    ids=["drawn", "spiral"],
 )
 def test_a_dance_is_back_after_a_look_at_an_empty_square(
     visit: Any, picture: Any, alike: Any, query: str, place: str

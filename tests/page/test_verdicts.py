@@ -39,11 +39,17 @@ def verdict(page: Any) -> tuple[str, str, str]:
     ("query", "outcome", "colour", "words"),
     [
         ("?benches=40&pitch=1.2&start_turns=8", "folds", "undecided", "The dragon folds at 238.214985 s"),
-        ("?benches=40&pitch=1.2&start_turns=8&margin=0.1", "folds", "undecided", "The dragon folds at 238.214985 s"),
+        pytest.param(
+            "?benches=40&pitch=1.2&start_turns=8&margin=0.1",
+            "folds",
+            "undecided",
+            "The dragon folds at 238.214985 s",
+            marks=pytest.mark.deep,
+        ),
         ("?benches=5&pitch=9&start_turns=3", "clear", "clear", "Nothing touches"),
         ("?benches=5&pitch=9&start_turns=3&margin=0.1", "clear", "clear", "Never within 0.1 m"),
         ("?benches=20", "contact", "contact", "Contact at "),
-        ("?benches=20&margin=0.05", "contact", "contact", "Within 0.05 m at "),
+        pytest.param("?benches=20&margin=0.05", "contact", "contact", "Within 0.05 m at ", marks=pytest.mark.deep),
         ("?margin=0.2", "contact_at_start", "contact", "Within 0.2 m from the start on"),
     ],
     ids=["fold", "fold with a margin", "centre", "centre with a margin", "contact", "margin", "margin at the start"],
@@ -100,7 +106,12 @@ def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(
 
 
 @pytest.mark.parametrize(
-    "query", ["?benches=12&margin=0.05", "?benches=12&margin=0.2", "?path=turn&benches=20&margin=0.35"]
+    "query",
+    [
+        pytest.param("?benches=12&margin=0.05", marks=pytest.mark.deep),
+        "?benches=12&margin=0.2",
+        "?path=turn&benches=20&margin=0.35",
+    ],
 )
 def test_with_a_margin_no_answer_speaks_of_a_touch(visit: Any, query: str) -> None:
     page = visit(query, failing=True)  # with such a margin no turn can begin on the circle, as it then says

@@ -39,7 +39,7 @@ def centres(stage: Stage, dance: Dance, instant: float) -> np.ndarray:
     return np.rint(np.stack([stage.canvas.get_width_height()[1] - rows, columns], axis=1)).astype(int)
 
 
-@pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
+@pytest.mark.parametrize("path", [pytest.param(Spiral(), marks=pytest.mark.deep), Turn(1.7)], ids=["spiral", "turn"])
 def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path: Path) -> None:
     dance = Dance(Dragon(benches=30), path)
     file = tmp_path / "dance.mp4"
@@ -147,7 +147,7 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("form", [MP4_TYPE, GIF_TYPE])
-@pytest.mark.parametrize("frames", some(range(0, 20, 2), 4))
+@pytest.mark.parametrize("frames", some(range(0, 20, 2), 2))
 def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
     """Its encoder may still write a frame then: the process goes on, and so does the next film."""
     budget = Budget()

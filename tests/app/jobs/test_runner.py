@@ -20,9 +20,8 @@ from app.jobs.store import Store
 from app.settings import Settings
 from tests.app.jobs.kills import post, survive
 from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
-from tests.depth import examples
 
-KILLS, SEED = examples(1, 4), 1
+KILLS, SEED = 4, 1
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +46,7 @@ def kill(service: Service, role: str) -> None:
     wait_for(lambda: not killed & {process.pid for process in service.processes()})
 
 
+@pytest.mark.deep  # The next one kills each of them once.
 def test_processes_may_be_killed_at_any_moment(service: Service) -> None:
     assert sum(survive(service, KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
 

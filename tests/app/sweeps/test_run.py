@@ -123,7 +123,7 @@ def test_killed_workers_change_no_byte_and_no_process_is_left(tmp_path: Path) ->
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, SLOW)
 
 
-@pytest.mark.parametrize("question", [LAND, INTERRUPTED], ids=["exit", "signal"])
+@pytest.mark.parametrize("question", [pytest.param(LAND, marks=pytest.mark.deep), INTERRUPTED], ids=["exit", "signal"])
 def test_designs_that_kill_their_process_are_found_and_the_others_answered(
     shared: Shared, question: Question, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
