@@ -78,7 +78,7 @@ def without_browser(folder: Path, *arguments: str, **more: str) -> subprocess.Co
 
 
 def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) -> None:
-    done = without_browser(tmp_path, "--collect-only", "tests/page")
+    done = without_browser(tmp_path, "--collect-only", "tests/page", DEEP="1")
     told = [line for line in done.stdout.splitlines() if LEFT_OUT in line]
     assert len(told) == 1
     count = told[0].split()[0]
