@@ -15,8 +15,8 @@ PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
 
 help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
-	@echo 'make test     all tests (ARGS= for pytest)'
-	@echo 'make deep     all tests, with the cases and samples of which make test runs some'
+	@echo 'make test     the tests (ARGS= for pytest)'
+	@echo 'make deep     the tests with all cases and samples, of which make test runs some of each kind'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make libreoffice  grades the three workbooks as saved by LibreOffice (needs libreoffice-calc; ARGS=--renew: the small ones)'
 	@echo 'make lint     ruff and mypy'

@@ -79,7 +79,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection() -> Generator[None, object, object]:
-    """Free the garbage collector from the modules and 8,000 tests, all of which stay.
+    """Free the garbage collector from the modules and 6,000 tests, all of which stay.
 
     Going through them again and again takes a third of the processor time of the collection, and then a tenth of
     that of the tests of core.
