@@ -36,7 +36,6 @@ from app.settings import Settings
 from core.kernels import COMPILED
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
-from tests.depth import some
 
 # The service, which replaces a process that is silent for so long [s].
 SILENT = 2.0
@@ -557,7 +556,7 @@ def starts(process: subprocess.Popen[str]) -> bool:
     return any("Application startup complete" in line for line in process.stderr)
 
 
-@pytest.mark.parametrize("workers", [pytest.param(1, marks=pytest.mark.deep), 2])
+@pytest.mark.parametrize("workers", [1, 2])
 def test_serve_answers_replaces_a_process_that_dies_or_hangs_and_keeps_its_counts_and_ctrl_c_ends_it(
     workers: int,
 ) -> None:
@@ -615,7 +614,7 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: st
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("words", some(list(HELPS), 12), ids=" ".join)
+@pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> None:
     text = " ".join(answer_of(*words, "--help", COLUMNS="1000").split())
     told = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]

@@ -135,8 +135,11 @@ def test_axe_finds_nothing_serious_in_light_or_dark(
     page = open_page(query, failing=refused, color_scheme="light", **options)
     page.locator("#pitch-error").wait_for() if refused else look_at(page, "curve", "scan")
     settled(page)
-    page.evaluate("document.querySelectorAll('details').forEach((one) => (one.open = true))")
+    opened = "document.querySelectorAll('details').forEach((one) => (one.open = true))"
+    page.evaluate(opened)
     assert serious(page) == []
     page.locator("[data-lang=zh]").click()
+    settled(page)
+    page.evaluate(opened)
     page.emulate_media(color_scheme="dark")
     assert serious(page, in_colours=True) == []

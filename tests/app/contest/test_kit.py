@@ -44,31 +44,21 @@ def reference(name: str) -> Any:
 
 
 # matplotlib's own fonts alone, as on a machine without one for Chinese.
-WITHOUT_FONTS = """
-import sys
+FONTS = """
 from matplotlib import font_manager
 font_manager.findSystemFonts = lambda *_, **__: []
 own = font_manager.fontManager
 own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
-sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films", *sys.argv[3:]]
-from app.command.main import app
-app()
 """
-
-
 # No matplotlib, as after an install without the extra figures.
-WITHOUT_FIGURES = """
-import sys
-sys.modules["matplotlib"] = None
-sys.argv = ["bench-dragon", "contest", sys.argv[1], "--language", sys.argv[2], "--no-films"]
-from app.command.main import app
-app()
-"""
+FIGURES_EXTRA = 'sys.modules["matplotlib"] = None'
 
 
-def without_fonts(folder: Path, *given: str, code: str = WITHOUT_FONTS) -> subprocess.CompletedProcess[str]:
-    python = Path(COMMAND).with_name("python")
-    command = [python, "-c", code, folder, *given]
+def kit_without(missing: str, folder: Path, language: str, *given: str) -> subprocess.CompletedProcess[str]:
+    """A run of the command on a machine that lacks something. missing: code that hides it"""
+    code = f"import sys\n{missing}\nfrom app.command.main import app\nsys.argv[0] = 'bench-dragon'\napp()"
+    words = ["contest", folder, "--language", language, "--no-films", *given]
+    command = [Path(COMMAND).with_name("python"), "-c", code, *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 
@@ -80,7 +70,7 @@ def made(language: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (folder / "report.md").is_file():  # written last
             zh = language == "zh"
-            done = run("contest", str(folder), *CHINESE) if zh else without_fonts(folder, "en")
+            done = run("contest", str(folder), *CHINESE) if zh else kit_without(FONTS, folder, "en")
             assert done.returncode == 0, done.stderr
             folder.with_suffix(".txt").write_text(done.stdout, encoding="utf-8")
     return folder
@@ -101,7 +91,7 @@ def chinese(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def english(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of a kit in English whose figures nobody can draw."""
     folder = tmp_path_factory.mktemp("english")
-    done = without_fonts(folder, "en", code=WITHOUT_FIGURES)
+    done = kit_without(FIGURES_EXTRA, folder, "en")
     assert done.returncode == 1
     assert "Error: figures and films were not written: " in done.stderr
     return folder
@@ -283,7 +273,7 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
     for name in (*ours, *mine):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("old")
-    done = without_fonts(tmp_path, "zh", "--benches", "30", "--turning-diameter", "4")
+    done = kit_without(FONTS, tmp_path, "zh", "--benches", "30", "--turning-diameter", "4")
     assert "questions 4 and 5 have no answer: path must not bend tighter than" in done.stderr
     assert "change --turning-diameter, --turn-pitch or --ratio" in done.stderr
     assert done.returncode == 1
@@ -310,7 +300,7 @@ def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_
     finally:
         first.kill()
         first.wait()
-    assert without_fonts(tmp_path, "zh", "--benches", "20").returncode == 1
+    assert kit_without(FONTS, tmp_path, "zh", "--benches", "20").returncode == 1
     assert (tmp_path / "report.md").is_file()
     assert not (tmp_path / UNFINISHED).exists()
 
@@ -346,7 +336,7 @@ def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
 
 
 def test_other_numbers_give_other_answers_and_without_a_chinese_font_all_but_pictures(tmp_path: Path) -> None:
-    done = without_fonts(tmp_path, "zh", "--benches", "40", "--stop", "60", "--span", "20")
+    done = kit_without(FONTS, tmp_path, "zh", "--benches", "40", "--stop", "60", "--span", "20")
     assert done.returncode == 1, done.stderr
     assert all((tmp_path / f"{name}.xlsx").is_file() for name in WORKBOOKS)
     assert sheets(tmp_path, "result1")[0].dimensions == "A1:BJ83"

@@ -12,7 +12,7 @@ import pytest
 from app.files import figures
 from core import Dance, Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
 from core.design.pitch_scan import scan_near_minimum
-from tests.depth import DEEP
+from tests.depth import some
 
 SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -111,7 +111,7 @@ def drawn(kind: str, *formats: str) -> list[bytes]:
 
 
 def test_equal_questions_give_equal_bytes_also_in_threads() -> None:
-    kinds = ("trajectory", "contact", *(["scan"] if DEEP else []))
+    kinds = some(("trajectory", "contact", "scan"), 2)
     alone = [drawn(kind, "svg", "png") for kind in kinds]
     forms = ("svg", "png", "svg")[: len(kinds)]
     with ThreadPoolExecutor(len(kinds)) as pool:
