@@ -186,7 +186,10 @@ const SHOW = {
     delete questions.answers.scan;
     graphs.scan("look");
   },
-  scan: () => graphs.scan("scan"),
+  scan() {
+    delete questions.answers.look;
+    graphs.scan("scan");
+  },
   shortest() {
     const { answer, asked } = questions.answers.shortest;
     answers.showShortestTurn($("#shortest-turn"), answer, asked, (radius) => state.set({ entry_radius: String(radius) }));

@@ -64,6 +64,8 @@ export class Questions {
   #near = new Set();
   /** The slow questions in progress. */
   #turn = null;
+  /** The first view of the staircase, in progress or answered. */
+  #looked = null;
   /** True if the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
 
@@ -231,7 +233,7 @@ export class Questions {
     }
     const staircase = [...CIRCLE, "margin"];
     const look = this.#over(staircase, LOOK);
-    if (this.#near.has("scan") && this.#isNew("look", look)) this.#keep("look", "pitch-scan", look);
+    if (this.#near.has("scan") && this.#isNew("look", look)) this.#looked = this.#keep("look", "pitch-scan", look);
     const slow = [["tolerance", "tolerance", this.toleranceOf()]];
     if (this.state.get("path") === "turn") {
       slow.push(["head", "maximum-head-speed", this.#fastestHead()]);
@@ -283,7 +285,10 @@ export class Questions {
   async #askEach(changed, before) {
     // A chart that comes near the view waits for questions in progress; new numbers do not.
     if (changed.every(([kind]) => this.#near.has(kind))) await before;
-    for (const ask of changed) if (!this.#isNew(ask[0], ask[2], false)) await this.#keep(...ask);
+    for (const ask of changed) {
+      if (ask[0] === "scan") await this.#looked; // A first view that came later would take the place of the whole staircase.
+      if (!this.#isNew(ask[0], ask[2], false)) await this.#keep(...ask);
+    }
   }
 
   /** Ask once for everything that belongs to the shown dance. */

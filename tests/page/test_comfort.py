@@ -17,6 +17,7 @@ from tests.page.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
+LATE = 2_000  # [ms]
 FINGER = 44  # [px]: the least height of what a finger should hit
 SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
   .filter((one) => one.checkVisibility() && !["checkbox", "file"].includes(one.type))
@@ -178,7 +179,23 @@ def test_the_pitch_chart_has_a_first_look_before_its_jumps_are_known(open_page: 
     assert page.locator("#scan[aria-busy=true] > .old").is_hidden()
     page.unroute_all()
     page.locator("#width").fill("0.29")
+    settled(page)
     page.locator("#scan:not(.coarse) .uplot").wait_for()
+    page.get_by_role("button", name="中文").click()
+    expect(page.locator("#scan .reading")).to_contain_text("龙头停在")
+    expect(page.locator("#scan.coarse, #scan[aria-busy=true]")).to_have_count(0)
+
+
+def test_a_late_first_look_does_not_replace_the_pitch_chart(open_page: Any) -> None:
+    page = open_page("?benches=11")
+    late: list[Any] = []
+    page.route(lambda url: "locate=false" in url, lambda route: late.append(route))
+    page.locator("#scan .plot").scroll_into_view_if_needed()
+    page.wait_for_timeout(LATE)
+    for look in late:
+        look.continue_()
+    settled(page)
+    page.locator("#scan:not(.coarse) .uplot").wait_for(timeout=LATE)
 
 
 def test_in_chinese_proofs_and_refusals_are_chinese(visit: Any, server: str) -> None:
