@@ -62,9 +62,8 @@ export class Questions {
   #asked = new Map();
   /** Charts near the view; the slow questions of other charts are not asked. */
   #near = new Set();
-  /** The slow questions in progress. */
+  /** The slow questions, and the first view of the staircase: in progress or answered. */
   #turn = null;
-  /** The first view of the staircase, in progress or answered. */
   #looked = null;
   /** True if the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
@@ -227,10 +226,8 @@ export class Questions {
   #atRest() {
     this.#askDance();
     if (this.state.get("path") === "route") return;
-    if (!this.#whole) {
-      this.#whole = true;
-      this.#keep("minimum", "minimum-pitch", this.#over([...CIRCLE, ...CONTACT]));
-    }
+    if (!this.#whole) this.#keep("minimum", "minimum-pitch", this.#over([...CIRCLE, ...CONTACT]));
+    this.#whole = true;
     const staircase = [...CIRCLE, "margin"];
     const look = this.#over(staircase, LOOK);
     if (this.#near.has("scan") && this.#isNew("look", look)) this.#looked = this.#keep("look", "pitch-scan", look);
