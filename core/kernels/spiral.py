@@ -125,7 +125,7 @@ def first_guess(theta, chord2):
 
 
 # Time lanes. A handle depends on the handle before it, but an instant depends on no other. So a block of LANES instants
-# advances together, handle by handle. The loops over lanes that compute have no branch, and gcc -O3 makes SIMD code of
+# advances together, handle by handle. The loops over lanes that compute have no branch, and gcc makes SIMD code of
 # each (-fopt-info-vec). A lane that one Halley step leaves open, or that the series do not cover, is solved by
 # next_handle(), whose first step is the same to the last bit: so the digits of a lane depend neither on its neighbours
 # nor on its place in the block. The number of lanes stays a variable because gcc unrolls a loop of fixed length before
