@@ -18,6 +18,7 @@ from tests.page.pending import reached, settled
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
 LATE = 2_000  # [ms]
+SAID = 6_000  # [ms]: how long a message stays
 FINGER = 44  # [px]: the least height of what a finger should hit
 SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
   .filter((one) => one.checkVisibility() && !["checkbox", "file"].includes(one.type))
@@ -157,15 +158,17 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
 
 
 def test_a_hanging_service_is_noticed_the_next_try_counts_down_and_messages_go_away(
-    visit: Any,
+    open_page: Any,
 ) -> None:
-    page = visit("?benches=20", failing=True)
+    page = open_page("?benches=20", failing=True)
+    page.clock.install()
     page.route("**/healthz", lambda route: None)  # it hangs: neither an answer nor an end
     for words in ("next try in 2 s", "next try in 1 s", "trying again now"):
         page.locator("#lost", has_text=words).wait_for()
     page.unroute_all()
     page.locator("#lost").wait_for(state="hidden")
     shows(page, "#status", "The service is back.")
+    page.clock.fast_forward(SAID)
     page.locator("#status:empty").wait_for(state="attached")
 
 

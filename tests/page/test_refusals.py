@@ -14,6 +14,7 @@ import httpx
 from app.service.main import create_app
 from app.settings import Settings
 from app.wire.problem import DETAIL_MAX
+from tests.page.pending import settled
 
 ROOT = Path(__file__).parent.parent.parent
 # Latin letters that are no unit, no name and no symbol, outside of quotes.
@@ -246,8 +247,10 @@ def test_what_is_asked_in_centimetres_is_refused_in_centimetres(visit: Any) -> N
         ("9000", "“Stray” must be at most 2500 cm; it is 9000 cm."),
     ):
         stray.fill(text)
+        settled(page)
         page.locator("#stray-error", has_text=words).wait_for()
         assert error.inner_text() == words
     stray.fill("2,5")
+    settled(page)
     error.wait_for(state="hidden")
     assert stray.input_value() == "2.5"
