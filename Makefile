@@ -126,7 +126,8 @@ dist: setup
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
 	@$(BIN)/python -m venv --without-pip --clear build/checks
-	@$(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
+	@$(BIN)/uv pip install --quiet --system-certs --python build/checks/bin/python check-wheel-contents twine \
+		2>/dev/null || $(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -70,6 +71,11 @@ def command_of(name: str, places: dict[str, str]) -> list[str]:
     return [str(BIN / program), *words]
 
 
+def listens(port: str) -> bool:
+    with socket.socket() as peer:
+        return peer.connect_ex(("127.0.0.1", int(port))) == 0
+
+
 @pytest.fixture
 def started(tmp_path: Path) -> Iterator[httpx.Client]:
     """A client of the service, which runs with the scheduler and one worker."""
@@ -77,20 +83,25 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
     places = {"0.0.0.0": "127.0.0.1", "scheduler:": "127.0.0.1:", "/tmp": str(tmp_path), **ports}
     given = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{ports['8786']}"}
     given["BENCH_DRAGON_SWEEP_BYTES_MAX"] = str(BYTES_MAX)
-    names = ["scheduler", "worker", "service"]
     running: list[subprocess.Popen[bytes]] = []
+
+    def start(name: str) -> subprocess.Popen[bytes]:
+        with (tmp_path / f"{name}.log").open("wb") as log:
+            running.append(
+                subprocess.Popen(command_of(name, places), cwd=tmp_path, env=os.environ | given, stdout=log, stderr=log)
+            )
+        return running[-1]
+
     try:
-        for k, name in enumerate(names):
-            with (tmp_path / f"{k}-{name}.log").open("wb") as log:
-                environment = os.environ | given
-                running.append(
-                    subprocess.Popen(command_of(name, places), cwd=tmp_path, env=environment, stdout=log, stderr=log)
-                )
-        wait_until_live(running[-1], int(ports["8000"]), tmp_path / f"{len(names) - 1}-service.log")
+        start("scheduler")
+        service = start("service")
+        wait_for(lambda: listens(ports["8786"]))  # A worker that comes too early tries again only after some seconds.
+        start("worker")
+        wait_until_live(service, int(ports["8000"]), tmp_path / "service.log")
         with httpx.Client(base_url=f"http://127.0.0.1:{ports['8000']}", timeout=PATIENCE) as client:
             yield client
     finally:
-        for process in reversed(running):
+        for process in running[::-1]:
             process.terminate()
         for process in running:
             process.wait(STOP_TIMEOUT)
@@ -105,7 +116,7 @@ def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service_unless_i
     assert [status["done"] for status in told] == sorted(status["done"] for status in told)
     result = started.get(f"{address}/result").content
     assert result == undisturbed(tmp_path / "a", SPEC | {"shard_size": 30}).compact().read_bytes()
-    assert "Registered to" in (tmp_path / "1-worker.log").read_text()
+    assert "Registered to" in (tmp_path / "worker.log").read_text()
     large = started.post("/sweeps", json=SPEC | {"shard_size": 1}).headers["location"]
     status, _ = followed(started, large)
     assert (status["status"], status["problem"]["status"]) == ("failed", 413)
