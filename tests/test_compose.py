@@ -101,9 +101,8 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
         with httpx.Client(base_url=f"http://127.0.0.1:{ports['8000']}", timeout=PATIENCE) as client:
             yield client
     finally:
-        for process in running[::-1]:
+        for process in running[::-1]:  # one after the other: without its scheduler a worker takes seconds to end
             process.terminate()
-        for process in running:
             process.wait(STOP_TIMEOUT)
 
 
