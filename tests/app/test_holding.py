@@ -75,7 +75,7 @@ def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held: Se
     with socket.create_connection(held.address, timeout=SOON) as peer:
         peer.sendall(head.encode() + f"Content-Length: {len(body)}\r\n\r\n".encode() + body)
         peer.recv(1)
-        time.sleep(6 * HEAD_SECONDS)
+        time.sleep(4 * HEAD_SECONDS)
         with suppress(ConnectionResetError):
             while block := peer.recv(1 << 20):  # Fails by the time-out of the socket if the service waits on.
                 taken += len(block)
