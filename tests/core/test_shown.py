@@ -28,7 +28,7 @@ from core import (
     Waypoints,
 )
 from core.errors import BenchDragonError
-from core.shown import Shown, WithArrays, extent, units_of, worded
+from core.shown import WithArrays, extent, units_of, worded
 
 # A line of a console and a half: nothing public is longer [characters].
 LINE_MOST = 220
@@ -208,9 +208,8 @@ def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
     assert np.array_equal(again.table, path.table)
 
 
-@pytest.mark.parametrize(
-    ("value", "line"),
-    [
+def test_a_line_says_what_was_found_with_its_unit() -> None:
+    for value, line in (
         (DANCE.end, "<RunEnd: reason fold, time 432.917924 s, theta 14.7346193 rad, bench 0>"),
         (core.first_contact(DANCE), "<FirstContact: benches 0 and 8 touch at 412.473838 s>"),
         (
@@ -238,11 +237,8 @@ def test_a_short_route_prints_the_call_that_makes_it(path: Route) -> None:
         (core.check(DANCE, stop=10.0), "<Report: passes, judged from 0 to 10 s>"),
         (CURVE, "<Waypoints: 1000 points from (0.0, 0.0) to (999.0, 9980.01) m>"),
         (core.separation([0, 0, 0], [2, 1], [3, 0, 0], [2, 1]), "<Separation: 1 m>"),
-    ],
-    ids=lambda value: type(value).__name__ if isinstance(value, Shown) else "",
-)
-def test_a_line_says_what_was_found_with_its_unit(value: object, line: str) -> None:
-    assert repr(value) == line
+    ):
+        assert repr(value) == line
 
 
 def test_a_table_has_every_field_with_its_unit() -> None:
