@@ -20,10 +20,10 @@ from setuptools.command.build_ext import build_ext
 UNIX_FLAGS = ["-g0", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=off"]
 # The flags of each compiler; no compiler gets a flag that it does not know.
 # gcc: of the steps of -O3 those that the loops need. They compile in two thirds of the time of -O3; of the benchmarks
-# without HTTP each takes 0.86 to 1.03 times as long, the shortest turn 1.02 times (measured 2026-11-26). -finline-limit:
-# inlines functions up to a size that includes the tests of a pair. C passes a memoryview by value, 200 bytes, and
-# functions that other modules call cannot have a lighter signature (measured 2026-11-21: first contact takes 1.4 times
-# as long without the flag). clang lacks most of these flags.
+# without HTTP each takes 0.86 to 1.03 times as long, the shortest turn 1.02 times (measured 2026-11-26).
+# -finline-limit: inlines functions up to a size that includes the tests of a pair. C passes a memoryview by value,
+# 200 bytes, and functions that other modules call cannot have a lighter signature (measured 2026-11-21: first contact
+# takes 1.4 times as long without the flag). clang lacks most of these flags.
 # msvc: without /fp:contract, /fp:precise leaves multiplications and additions apart.
 FLAGS = {
     "gcc": [
