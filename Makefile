@@ -48,15 +48,17 @@ $(VENV)/tools: requirements.lock
 	@grep -iE '^(cython|setuptools)==' requirements.lock | xargs $(PIP) install --no-deps --no-compile
 	@touch $@
 
-# By uv, which takes a tenth of the time of pip; by pip where uv does not run or fails, or where pip is configured for
-# another index or a proxy, which uv does not read. What an interrupted run left is replaced, but never the tools, which
-# compile the kernels meanwhile.
+# uv takes a tenth of the time of pip; pip installs where uv does not run or fails, or where pip is configured for another
+# index or a proxy, which uv does not read.
+PLAIN_INDEX = ! $(BIN)/python -m pip config list | grep -oE '\.(index-url|no-index|proxy)='
+UV = UV_HTTP_TIMEOUT=10 UV_HTTP_RETRIES=1 $(BIN)/uv pip install --quiet --system-certs
+
+# What an interrupted run left is replaced, but never the tools, which compile the kernels meanwhile.
 $(VENV)/installed: $(VENV)/tools
 	@grep -viE '^(#|(cython|pip|setuptools|uv)==)' requirements.lock >$(VENV)/packages
-	@{ ! $(BIN)/python -m pip config list | grep -oE '\.(index-url|no-index|proxy)=' && \
+	@{ $(PLAIN_INDEX) && \
 		$(PIP) install --no-compile --only-binary :all: "$$(grep '^uv==' requirements.lock)" && \
-		UV_HTTP_TIMEOUT=10 UV_HTTP_RETRIES=1 $(BIN)/uv pip install --quiet --system-certs --python $(BIN)/python \
-			--reinstall --no-deps -r $(VENV)/packages; \
+		$(UV) --python $(BIN)/python --reinstall --no-deps -r $(VENV)/packages; \
 	} >$(VENV)/uv.log 2>&1 || { \
 		echo 'uv cannot install here ($(VENV)/uv.log): pip does, in some minutes'; \
 		xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile --force-reinstall <$(VENV)/packages; \
@@ -126,8 +128,8 @@ dist: setup
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
 	@$(BIN)/python -m venv --without-pip --clear build/checks
-	@$(BIN)/uv pip install --quiet --system-certs --python build/checks/bin/python check-wheel-contents twine \
-		2>/dev/null || $(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
+	@{ $(PLAIN_INDEX) && $(UV) --python build/checks/bin/python check-wheel-contents twine; } >build/uv.log 2>&1 || \
+		$(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
 

@@ -101,9 +101,13 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
         with httpx.Client(base_url=f"http://127.0.0.1:{ports['8000']}", timeout=PATIENCE) as client:
             yield client
     finally:
-        for process in running[::-1]:  # one after the other: without its scheduler a worker takes seconds to end
-            process.terminate()
-            process.wait(STOP_TIMEOUT)
+        try:
+            for process in running[::-1]:  # one after the other: without its scheduler a worker takes seconds to end
+                process.terminate()
+                process.wait(STOP_TIMEOUT)
+        finally:
+            for process in running:
+                process.kill()
 
 
 def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service_unless_it_takes_too_much_room(

@@ -17,7 +17,7 @@ from tests.page.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
-LATE = 2_000  # [ms]
+LATE = 2_000  # [ms]: longer than all of the staircase of a few benches takes
 SAID = 6_000  # [ms]: how long a message stays
 FINGER = 44  # [px]: the least height of what a finger should hit
 SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
@@ -195,6 +195,7 @@ def test_a_late_first_look_does_not_replace_the_pitch_chart(open_page: Any) -> N
     page.route(lambda url: "locate=false" in url, lambda route: late.append(route))
     page.locator("#scan .plot").scroll_into_view_if_needed()
     page.wait_for_timeout(LATE)
+    assert late
     for look in late:
         look.continue_()
     settled(page)
