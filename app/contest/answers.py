@@ -122,6 +122,7 @@ def _why_shortest(found: ShortestTurn, say: Say) -> str:
         "bend": say("a handle could not follow a tighter arc", "圆弧再小则把手无法跟随"),
         "contact": say("benches would touch", "板凳会相碰"),
         "centre": say("nothing, down to the centre", "直到中心都没有限制"),
+        "undecided": say("rounding hides whether benches would touch", "舍入误差使是否相碰无法判定"),
     }
     radius, limit = f"{found.turn.entry_radius:.6f} m", limits[found.limited_by.value]
     return say(f"entry at a radius of {radius}; limit: {limit}", f"在半径 {radius} 处进入；限制：{limit}")

@@ -32,7 +32,8 @@ class ShortestTurn(Turn):
     entry_bracket: Point = measure("m", "Entry radii: infeasible; feasible")
     limited_by: core.TurnLimit = Field(
         description="Reason against a deeper entry. bend: a chord cannot follow; contact: benches come nearer than the "
-        "margin, or touch if it is 0; centre: nothing prevents it, down to the centre"
+        "margin, or touch if it is 0; centre: nothing prevents it, down to the centre; undecided: rounding hides "
+        "whether benches come within the margin at the lower end of entry_bracket"
     )
     benches: Pair | None = Field(description="The pair in contact at a slightly deeper entry; null if there is none")
     time: float | None = measure("s", "Time of that contact, at a head speed of 1 m/s; 0 is the entry into the turn")

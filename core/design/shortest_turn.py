@@ -16,6 +16,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -56,18 +57,26 @@ ENTRY_MIN = 1e-3
 # Additional length of the coils, as a part of the necessary one, so that rounding cannot end them too early [1].
 SPARE_TURNS = 1e-9
 
-# The pair and the time [s] of a first contact; None if the search is undecided.
-Touch = tuple[tuple[int, int] | None, float | None]
-UNDECIDED: Touch = (None, None)
+# If rounding hides whether benches meet at the deepest refused entry, entries down to this far below are tried [m].
+LOOKED_BELOW = 1e-6
+
+
+class Touch(NamedTuple):
+    """Whether benches meet in a turn; if they do, the pair and the time [s at 1 m/s, 0 at the entry]."""
+
+    outcome: Outcome
+    benches: tuple[int, int] | None = None
+    time: float | None = None
 
 
 class TurnLimit(StrEnum):
     """Reason against a deeper entry: a chord cannot follow, two benches come within the margin, or none down to the
-    deepest entry that is tried."""
+    deepest entry that is tried. UNDECIDED: rounding hides whether two benches come within the margin."""
 
     BEND = "bend"
     CONTACT = "contact"
     CENTRE = "centre"
+    UNDECIDED = "undecided"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -112,7 +121,8 @@ def shortest_turn(
     first arc over that of the second; start_turns: of the coils
     Each tried entry is proven. The entries are ENTRY_STEP of the turning radius apart, so this is a scan that may miss
     a narrower infeasible range.
-    entry_bracket is at most ENTRY_WIDTH wide, or wider if the budget is spent; budget: default: TURN_WORK
+    entry_bracket is at most ENTRY_WIDTH wide, or wider if the budget is spent or by entries that can be neither proven
+    nor refuted; budget: default: TURN_WORK
     raises: TooMuchWork if it is stopped, or spent before an infeasible entry was found; InvalidValue (turning_radius)
         if even the turn at the circle cannot be danced
 
@@ -120,53 +130,121 @@ def shortest_turn(
     4.285762
     """
     radius = checked_size("turning_radius", turning_radius)
-    kept = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
+    margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
 
     def turn_at(entry: float) -> Turn:
         return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
 
-    budget = (budget or Budget()).within(TURN_WORK)
+    border, floor = _follow_border(dragon, turn_at, radius)
+    entries = _Entries(dragon, turn_at, start_turns, margin, stray, (budget or Budget()).within(TURN_WORK))
+    touch = entries.tried(radius)
+    if touch.outcome is not Outcome.CLEAR:
+        raise _refusal(radius, touch, margin, stray)
+    entry, step = radius, ENTRY_STEP * radius
+    while touch.outcome is Outcome.CLEAR and entry > floor:
+        entry = max(entry - step, floor)
+        touch = entries.tried(entry)
+    if touch.outcome is Outcome.CLEAR:
+        limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
+        return ShortestTurn(turn_at(floor), (border or 0.0, floor), limited_by, None, None, step, entries.evaluations)
+    bracket, touch = entries.bracket(entry, floor)
+    limited_by = TurnLimit.UNDECIDED if touch.outcome is Outcome.UNDECIDED else TurnLimit.CONTACT
+    return ShortestTurn(turn_at(bracket[1]), bracket, limited_by, touch.benches, touch.time, step, entries.evaluations)
 
-    def touching(entry: float, clear: float | None) -> Touch | None:
+
+class _Entries:
+    """Search for the entries whose turns are free of contact, from the circle inwards.
+
+    margin, stray: [m]; feasible: the last entry found clear; refuted: the last one at which benches meet, and
+        how [m]; None before there is one; evaluations: number of tried entries
+    """
+
+    def __init__(
+        self,
+        dragon: Dragon,
+        turn_at: Callable[[float], Turn],
+        start_turns: float,
+        margin: float,
+        stray: float,
+        budget: Budget,
+    ) -> None:
+        self.dragon, self.turn_at, self.start_turns, self.budget = dragon, turn_at, start_turns, budget
+        self.margin, self.stray = margin, stray
+        self.feasible: float | None = None
+        self.refuted: tuple[float, Touch] | None = None
+        self.evaluations = 0
+
+    def tried(self, entry: float) -> Touch:
+        """Whether benches meet in the turn with this entry radius [m].
+
+        raises: TooMuchWork if the budget ends before that is known of an entry outside of every bracket
+        """
         try:
-            return _contact(budget, dragon, turn_at(entry), start_turns, kept, clear)
+            touch = self._contact(self.turn_at(entry))
         except Halted as halted:
-            raise _too_much(budget, dragon, entry, radius) from halted
-
-    def decided(entry: float, clear: float | None) -> Touch | None:
-        touch = touching(entry, clear)
-        if touch == UNDECIDED and budget.left <= 0.0:
-            raise _too_much(budget, dragon, entry, radius)
+            raise _too_much(self.budget, self.dragon, entry, self.turn_at(entry).turning_radius) from halted
+        self.evaluations += 1
+        if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0 and not self.refuted:
+            raise _too_much(self.budget, self.dragon, entry, self.turn_at(entry).turning_radius)
+        if touch.outcome is Outcome.CLEAR:
+            self.feasible = entry
+        elif touch.outcome is not Outcome.UNDECIDED:
+            self.refuted = entry, touch
         return touch
 
-    border, floor = _follow_border(dragon, turn_at, radius)
-    evaluations, limit = 1, decided(radius, None)
-    if limit is not None:
-        raise _refusal(radius, limit, *kept)
-    feasible = infeasible = radius
-    while limit is None and infeasible > floor:
-        feasible, infeasible = infeasible, max(infeasible - ENTRY_STEP * radius, floor)
-        evaluations, limit = evaluations + 1, decided(infeasible, feasible)
-    if limit is None:
-        limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
-        bracket = (border or 0.0, floor)
-        return ShortestTurn(turn_at(floor), bracket, limited_by, None, None, ENTRY_STEP * radius, evaluations)
+    def _contact(self, danced: Turn) -> Touch:
+        """The first contact of a dance through the turn, with time 0 at its entry; CLEAR is proven.
 
-    def is_clear(entry: float) -> bool | None:
-        nonlocal evaluations, feasible, limit
-        if budget.left <= 0.0:
-            return None
-        evaluations, found = evaluations + 1, touching(entry, feasible)
-        if found == UNDECIDED and budget.left <= 0.0:  # undecided only because the work is spent
-            return None
-        if found is None:
-            feasible = entry
-        elif found[0]:
-            limit = found
-        return found is None
+        On the coil it begins where the turn of the last clear entry begins.
+        """
+        dragon, margin, stray = self.dragon, self.margin, self.stray
+        coil = Spiral(danced.pitch, self.start_turns)
+        before, start = (
+            coil.length - coil.growth * float(kernels.spiral_arc(r / coil.growth)) if r else 0.0
+            for r in (danced.entry_radius, self.feasible)
+        )
+        if before > start:
+            found = contact_within(
+                self.budget, Dance(dragon, coil), margin=margin, stray=stray, start=start, stop=before
+            )
+            if found.outcome is not Outcome.CLEAR:
+                return _touch(found, before)
+        stop, followed = way_followed(reach(dragon, stray).bounds if stray else dragon, danced, margin)
+        arc = stop - danced.length - coils_of(danced).arc(0.0)
+        turns = max(self.start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
+        entry, radius = danced.entry_radius, danced.turning_radius
+        path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
+        found = contact_within(
+            self.budget, Dance(dragon.leading(followed.benches), path), margin=margin, stray=stray, stop=stop
+        )
+        return _touch(found, 0.0)
 
-    bracket = bisected(is_clear, infeasible, feasible, width=ENTRY_WIDTH)
-    return ShortestTurn(turn_at(bracket[1]), bracket, TurnLimit.CONTACT, *limit, ENTRY_STEP * radius, evaluations)
+    def bracket(self, refused: float, floor: float) -> tuple[tuple[float, float], Touch]:
+        """The bracket (infeasible, feasible) above a refused entry [m], and how benches meet at its lower end.
+
+        If rounding hides that they meet there, that end is a deeper entry at which they do; if there is none not far
+        below and above `floor` [m], the end is undecided.
+        """
+
+        def is_clear(entry: float) -> bool | None:
+            if self.budget.left <= 0.0:
+                return None
+            touch = self.tried(entry)
+            if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0:  # only because the work is spent
+                return None
+            return touch.outcome is Outcome.CLEAR
+
+        assert self.feasible is not None
+        low, high = bisected(is_clear, refused, self.feasible, width=ENTRY_WIDTH)
+        below = ENTRY_WIDTH
+        while not self.refuted and below <= LOOKED_BELOW and low - below > floor and self.budget.left > 0.0:
+            if self.tried(low - below).outcome is Outcome.CLEAR:
+                break
+            below *= 10.0
+        if not self.refuted:
+            return (low, high), Touch(Outcome.UNDECIDED)
+        low, touch = self.refuted
+        return (low, high), touch
 
 
 def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
@@ -185,34 +263,8 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
     return bisected(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
 
 
-def _contact(
-    budget: Budget, dragon: Dragon, danced: Turn, start_turns: float, kept: tuple[float, float], clear: float | None
-) -> Touch | None:
-    """The first contact of a dance through the turn, with time 0 at its entry; None if proven clear.
-
-    kept: margin and stray [m]; clear: a larger radius down to which the coil is known to be clear [m]
-    """
-    margin, stray = kept
-    coil = Spiral(danced.pitch, start_turns)
-    before, start = (
-        coil.length - coil.growth * float(kernels.spiral_arc(r / coil.growth)) if r else 0.0
-        for r in (danced.entry_radius, clear)
-    )
-    if before > start:
-        found = contact_within(budget, Dance(dragon, coil), margin=margin, stray=stray, start=start, stop=before)
-        if found.outcome is not Outcome.CLEAR:
-            return _touch(found, before)
-    stop, followed = way_followed(reach(dragon, stray).bounds if stray else dragon, danced, margin)
-    arc = stop - danced.length - coils_of(danced).arc(0.0)
-    turns = max(start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
-    entry, radius = danced.entry_radius, danced.turning_radius
-    path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
-    found = contact_within(budget, Dance(dragon.leading(followed.benches), path), margin=margin, stray=stray, stop=stop)
-    return None if found.outcome is Outcome.CLEAR else _touch(found, 0.0)
-
-
 def _touch(found: FirstContact, zero: float) -> Touch:
-    return found.benches, None if found.time is None else found.time - zero
+    return Touch(found.outcome, found.benches, None if found.time is None else found.time - zero)
 
 
 def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
@@ -245,7 +297,7 @@ def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> To
 
 def _refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
     """The error if no turn can begin on the circle."""
-    (benches, time), told = touch, quantities("m", got=radius, margin=margin, stray=stray)
+    (_, benches, time), told = touch, quantities("m", got=radius, margin=margin, stray=stray)
     if benches is None or time is None:
         what = "benches come so near to the margin of {margin} that it is not decided whether they keep it"
     else:

@@ -56,6 +56,7 @@ export const ANSWERS = {
   entry_contact: ["Limited by contact: deeper in, {a} and {b} touch.", "受限于碰撞：再向内，{a}与{b}相碰。"],
   entry_contactNear: ["Limited by the margin: deeper in, {a} and {b} come within {margin} m of each other.", "受限于安全间距：再向内，{a}与{b}间距不超过 {margin} m。"],
   entry_contactStray: ["Limited by the stray: deeper in, {a} and {b} may {touch}.", "受限于离位：再向内，{a}与{b}可能{touch}。"],
+  entry_undecided: ["Rounding hides whether benches meet deeper in.", "舍入误差使更深处是否相碰无法判定。"],
   entry_centre: ["There is no limit down to the deepest tried entry.", "直到所试的最深起点都不受限。"],
   bracketEntry: ["infeasible at {low} m, feasible at {high} m", "{low} m 不可行，{high} m 可行"],
   scanned: ["Tried entries", "所试起点"],

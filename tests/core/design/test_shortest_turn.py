@@ -22,6 +22,7 @@ from core import (
     TurnLimit,
     bench_poses,
     first_contact,
+    least_clearance,
     shortest_turn,
     trajectory,
 )
@@ -178,7 +179,7 @@ def test_a_turn_that_cannot_be_danced_even_at_the_circle_is_refused(sizes: Any, 
 
 
 @pytest.mark.parametrize("margin", [-0.1, math.nan, "1"])
-def test_a_margin_that_is_none_is_refused(margin: Any) -> None:
+def test_an_invalid_margin_is_refused(margin: Any) -> None:
     with pytest.raises(InvalidValue) as e:
         shortest_turn(Dragon(), 1.7, margin=margin)
     assert e.value.field == "margin"
@@ -204,3 +205,29 @@ def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkey
     assert least.entry_bracket[0] <= whole.entry_bracket[0]
     assert whole.entry_bracket[1] <= least.entry_bracket[1]
     assert least.evaluations < whole.evaluations
+
+
+@pytest.mark.parametrize("number", [3, 8])  # of steps from the circle to the entry
+def test_a_margin_that_an_entry_only_just_keeps_is_limited_by_the_pair_that_meets_deeper(
+    number: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Rounding hides whether the pair meets at that entry, so the lower end of the bracket is a deeper one."""
+    dragon, entry = Dragon(40), 4.5
+    for _ in range(number):
+        entry -= 0.01 * 4.5
+
+    def dance(entry_radius: float) -> Dance:
+        return Dance(dragon, Turn(1.7, 4.5, 1.0, start_turns=16.0, entry_radius=entry_radius))
+
+    least = least_clearance(dance(entry))
+    assert least is not None
+    found = shortest_turn(dragon, 1.7, ratio=1.0, margin=least.distance)
+    infeasible, feasible = found.entry_bracket
+    assert infeasible < entry <= feasible < infeasible + 20 * ENTRY_ERROR
+    assert (found.limited_by, found.benches) == (TurnLimit.CONTACT, least.benches)
+    assert first_contact(dance(infeasible), margin=least.distance).benches == least.benches
+    assert first_contact(dance(feasible), margin=least.distance).outcome is Outcome.CLEAR
+    monkeypatch.setattr(core.design.shortest_turn, "LOOKED_BELOW", 0.0)
+    hidden = shortest_turn(dragon, 1.7, ratio=1.0, margin=least.distance)
+    assert (hidden.limited_by, hidden.benches, hidden.time) == (TurnLimit.UNDECIDED, None, None)
+    assert hidden.entry_bracket == (entry, feasible)
