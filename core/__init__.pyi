@@ -6,7 +6,7 @@ from .contact.first_contact import first_contact
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
-from .design.minimum_pitch import LimitedBy, MinimumPitch, minimum_pitch
+from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
 from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
 from .dragon import Dragon, Stray
@@ -83,6 +83,7 @@ __all__ = [
     "HighestSpeed",
     "InvalidValue",
     "Judgement",
+    "JustifiedBy",
     "LeastClearance",
     "Legs",
     "Limit",

@@ -298,11 +298,14 @@ class Dance(Shown):
         return begin, until
 
     def _before_the_start(self, name: str, time: float) -> OutsideRun:
-        rule, least = "must be at least {least}, when the whole dragon is on the path", bound(self.earliest, 6, 1, "s")
+        rule, least = (
+            "must be at least {least}, when the whole dragon is on the path",
+            bound(self.earliest, 6, "s", up=True),
+        )
         return OutsideRun(name, rule, got=Quantity(time, "s"), least=least)
 
     def _past_the_end(self, name: str, rule: str, time: float) -> OutsideRun:
-        told = {"end": bound(self.end.time, 9, -1, "s"), **self.end.told}
+        told = {"end": bound(self.end.time, 9, "s"), **self.end.told}
         return OutsideRun(name, f"{rule} {{end}}, when {self.end.template}", got=Quantity(time, "s"), **told)
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:

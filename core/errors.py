@@ -112,19 +112,19 @@ def said(number: float) -> str:
     return repr(float(number) + 0.0).removesuffix(".0")
 
 
-def said_bound(number: float, decimals: int, side: int) -> str:
-    """A bound with some decimals, rounded to the side (-1: down, 1: up) on which it stays true.
+def said_bound(number: float, decimals: int, *, up: bool = False) -> str:
+    """A bound with some decimals, rounded to the side on which it stays true: a lower bound down, an upper one up.
 
-    >>> said_bound(432.9179242286, 9, -1), said_bound(16.0000001, 6, 1)
+    >>> said_bound(432.9179242286, 9), said_bound(16.0000001, 6, up=True)
     ('432.917924228', '16.000001')
     """
-    text = f"{number:.{decimals}f}"
+    text, side = f"{number:.{decimals}f}", 1 if up else -1
     return text if side * (float(text) - number) >= 0.0 else f"{float(text) + side * 10.0**-decimals:.{decimals}f}"
 
 
-def bound(number: float, decimals: int, side: int, unit: str) -> Quantity:
+def bound(number: float, decimals: int, unit: str, *, up: bool = False) -> Quantity:
     """A bound in a message, rounded as said_bound() does."""
-    text = said_bound(number, decimals, side)
+    text = said_bound(number, decimals, up=up)
     return Quantity(float(text), unit, shown=f"{text} {unit}")
 
 

@@ -71,6 +71,7 @@ def touch_failures(contact: FirstContact, least: LeastClearance | None, margin: 
 
 
 def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
+    """The first approach of two benches within the margin [m], or that it is undecided; none if there is none."""
     meet = _meeting(margin, "come", "", contact.stray)
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
@@ -101,12 +102,12 @@ def _gap(gap: float | None, margin: float, overlap: str) -> str:
 
 
 def venue_failures(
-    dragon: Dragon, venue: VenueClearance | None, begin: float, kept: tuple[float, float]
+    dragon: Dragon, venue: VenueClearance | None, begin: float, margin: float, stray: float
 ) -> list[Failure]:
-    """Failures of a dance that begins at a time [s]. kept: margin and stray [m]"""
+    """What breaks the rules of the venue in a dance that begins at a time [s]. margin, stray: [m]"""
     if venue is None:
         return []
-    failures = [failure for area in venue.areas for failure in _area_failures(dragon, area, *kept)]
+    failures = [failure for area in venue.areas for failure in _area_failures(dragon, area, margin, stray)]
     if misplaced := venue.misplaced:
         where = "outside" if misplaced.name == venue.areas[0].name else "inside"
         at = f"({misplaced.point[0]:g}, {misplaced.point[1]:g})"
@@ -141,7 +142,7 @@ def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float,
     time, handle = excess.time, excess.handle
     if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
         time, handle = speed.time, speed.handles[0]
-    kept = f"{said(limit)} m/s is proven to be kept up to {said_bound(proven, 6, -1)} s"
+    kept = f"{said(limit)} m/s is proven to be kept up to {said_bound(proven, 6)} s"
     if time is None and speed is not None:
         message = f"Whether a handle exceeds {said(limit)} m/s is not decided; {kept}, and no higher speed was found."
         return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
@@ -160,6 +161,7 @@ def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float,
 
 
 def fold_failure(dragon: Dragon, end: RunEnd, head: HeadState) -> Failure:
+    """The fold of a bench at the end of the run, with the head there."""
     assert end.bench is not None
     where = f"the head at ({head.x:.6f}, {head.y:.6f}) m, theta = {head.theta:.6f} rad"
     folds = f"Bench {dragon.called(end.bench)} folds at {end.time:.6f} s"

@@ -92,7 +92,7 @@ def check(
     because benches touch, is not followed to its fold.
     raises: InvalidValue; OutsideRun for times outside the run, but not for a stop after a fold; TooMuchWork
     """
-    return _judged(dance, venue, (margin, stray), speed_limit, (start, stop), budget, details=True)
+    return _judged(dance, venue, margin, stray, speed_limit, (start, stop), budget, details=True)
 
 
 @asked_of("dance", Dance)
@@ -112,7 +112,7 @@ def quick_check(
     Answers that no failure needs are None: least clearance, clearance to the venue, highest speed, sharpest bend.
     Arguments and errors are those of check().
     """
-    return _judged(dance, venue, (margin, stray), speed_limit, (start, stop), budget, details=False)
+    return _judged(dance, venue, margin, stray, speed_limit, (start, stop), budget, details=False)
 
 
 # Every question, and every area of the venue, lays out a Search of its own, because margins and obstacles differ. One
@@ -120,15 +120,16 @@ def quick_check(
 def _judged(
     dance: Dance,
     venue: Venue | None,
-    kept: tuple[float, float | Stray],
+    margin: float,
+    stray: float | Stray,
     speed_limit: float | None,
-    asked: tuple[float | None, float | None],
+    span: tuple[float | None, float | None],
     budget: Budget | None,
     *,
     details: bool,
 ) -> Report:
-    """The report. kept: margin and stray [m]; asked: start and stop [s]"""
-    (margin, stray), (start, stop) = kept, asked
+    """The report. span: start and stop [s]"""
+    start, stop = span
     limit = None if speed_limit is None else checked_limit(speed_limit)
     strayed = checked_stray(stray, dance.dragon)
     if venue is not None:
@@ -162,7 +163,7 @@ def _judged(
         excess = first_excess(dance, limit, start=begin, stop=until, budget=budget)
     if excess and not folds and speed is None:
         speed = highest_speed(dance, start=begin, stop=until, budget=budget)
-    failures = contact_failures(contact, margin) + venue_failures(dance.dragon, square, begin, (margin, strayed))
+    failures = contact_failures(contact, margin) + venue_failures(dance.dragon, square, begin, margin, strayed)
     if limit is not None and excess:
         failures.append(speed_failure(excess, speed, limit, end))
     failures += touch_failures(contact, least, margin)

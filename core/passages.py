@@ -22,7 +22,7 @@ LISTED = 6
 class Passage(Shown):
     """A part of the dance with one speed of the head. It begins where the passage before it ends, or at time 0.
 
-    speed: [m/s], 0 for a pause; until_s: s of the head, or until_time: time, at which the passage ends [m], [s]
+    speed: [m/s], 0 for a pause; until_s: s of the head at its end [m], or until_time: time of its end [s]
     """
 
     speed: float

@@ -4,7 +4,8 @@ Functions are sampled first. Then the result is refined: a border by bisected() 
 lowest samples of dips(). Searches that need more stand beside their users: those of core/kernels never call back into
 Python (core/kernels/__init__.py); border() of pitch_bands.py also looks for its upper end, and each look starts from
 the dip of the last one; refined_dip() may change its pair; nearest_rotated(), the sharpest bend, the stray of three
-benches and the exhibit compare a whole grid in each round; _simple() and _grazing() of safe.py step along a secant,
+benches and the exhibit compare a whole grid in each round; _grazes() and _dips_ahead() look for dips of a
+single pair or below a known gap; _simple() and _grazing() of safe.py step along a secant,
 since each value takes a whole march; and the grader's chains search for many places at once.
 """
 

@@ -141,5 +141,5 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
 
 def _distance(found: LeastClearance | Nearest) -> str:
     least = found.at_least
-    proven = "not proven" if least is None else f"proven: at least {said_bound(least, show.SHOWN_DECIMALS, -1)} m"
+    proven = "not proven" if least is None else f"proven: at least {said_bound(least, show.SHOWN_DECIMALS)} m"
     return f"{found.distance:.6f} m, {proven}"

@@ -56,7 +56,9 @@ class AreaClearance(Answer):
     name: str = Field(description="Name of the area")
     outcome: Outcome = Field(description="Whether a bench comes within the margin, or touches if it is 0")
     time: float | None = measure("s", "First such time; null when clear or undecided")
-    time_bracket: Point | None = measure("s", "Proven clear until; within the margin, or touching if it is 0, at")
+    time_bracket: Point | None = measure(
+        "s", "Two times: proven clear up to the first; within the margin at the second"
+    )
     bench: int | None = Field(description="The first bench within the margin, or touching if it is 0")
     gap: float | None = measure(
         "m", "Distance to the area at that time: the margin, or less if it is nearer from the start"
@@ -116,7 +118,8 @@ class Failure(Answer):
     clock: str | None = Field(description="Time of day of that time, if start_clock is given")
     message: str = Field(description="The failure in one sentence")
     time_bracket: Point | None = measure(
-        "s", "Proven not to fail until; failing at; null for a fold and for a failure from the start"
+        "s",
+        "Two times: proven not to fail up to the first; failing at the second. Null for a fold, or at the start",
     )
     head: Head | None = Field(description="The head at that time")
     peak_speed: float | None = measure(

@@ -93,7 +93,7 @@ class ContactProbability(Answer):
 def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, terms: Terms) -> ContactProbability:
     """Probability that two benches touch when people wobble, from dances drawn at random, with its limits."""
     settings = terms.settings
-    check_limit("samples", "samples", asked.samples, settings.samples_max, "fewer samples already tell a probability")
+    check_limit("samples", "samples", asked.samples, settings.samples_max, "ask for fewer samples")
     dance, model = asked.to_dance(settings.checked_benches_max), asked.to_model()
     start, stop = span_asked(asked, dance)
     found = core.contact_probability(

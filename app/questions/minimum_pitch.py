@@ -59,7 +59,7 @@ class MinimumPitch(Answer):
     bench: int | None = Field(description="The bench that folds at a slightly smaller pitch; null if none does")
     head_radius: float | None = measure("m", "Distance of the head from the centre at that moment")
     other_feasible_intervals: list[Point] = measure("m", "Intervals of smaller pitches that are feasible too")
-    justified_by: str = Field(
+    justified_by: core.JustifiedBy = Field(
         description="Evidence that larger pitches are feasible. bound: proven for all; scan: below proven_from only "
         "single pitches are proven, at most scan_step apart, so a narrower infeasible range there is not excluded"
     )

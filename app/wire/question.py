@@ -190,7 +190,7 @@ class Strays(Wire):
     """Largest distance of every hole from its place, by people and by the play of its pin."""
 
     stray: float = measure(
-        "m", "Largest distance of a person from their place; benches keep the margin wherever this lets them be", 0.0,
+        "m", "Largest distance of a person from their place; the margin then holds for all places within it", 0.0,
         ge=0, le=STRAY_MAX,
     )  # fmt: skip
     hole: float = measure("m", "Diameter of the holes in the benches; with the pin it gives the play", 0.0, ge=0, le=1)

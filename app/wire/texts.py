@@ -35,7 +35,7 @@ class Unreadable(InvalidValue):
 
 
 class Unfit(Unreadable):
-    """JSON with a name given twice, or with a text that is none."""
+    """JSON that repeats a name, or holds an invalid text."""
 
 
 def text_of(data: bytes) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -66,6 +66,7 @@ class Evidence(Shown):
 class FirstContact(Shown):
     """First time at which two benches that share no handle come within the margin.
 
+    outcome: what the search found; certificate: how that is known
     time: [s], None if clear or undecided; 0 for contact_at_start
     time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided the
         same, or up to the end of the run if no overlap is certain; None if clear or at the start
@@ -77,19 +78,20 @@ class FirstContact(Shown):
     """
 
     outcome: Outcome
-    time: float | None
-    time_bracket: tuple[float, float] | None
-    head: HeadState | None
-    benches: tuple[int, int] | None
-    corner: Feature | None
-    edge: Feature | None
-    point: tuple[float, float] | None
-    end: RunEnd | None
+    _: KW_ONLY
+    time: float | None = None
+    time_bracket: tuple[float, float] | None = None
+    head: HeadState | None = None
+    benches: tuple[int, int] | None = None
+    corner: Feature | None = None
+    edge: Feature | None = None
+    point: tuple[float, float] | None = None
+    end: RunEnd | None = None
     certificate: Evidence
     gap: float | None = None
-    margin: float = field(kw_only=True)
-    stray: float = field(kw_only=True, default=0.0)
-    dance: Dance = field(kw_only=True, repr=False, compare=False)
+    margin: float
+    stray: float = 0.0
+    dance: Dance = field(repr=False, compare=False)
 
     def _line(self) -> str:
         if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:

@@ -13,10 +13,11 @@ from core import plots
 from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES
 from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
-from core.dance import Clock, Dance, RunEnd
+from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, asked_of
 from core.kernels import NO_BRACKET, Budget, Ended
+from core.kernels.results import Dip
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Shown, WithArrays, counted, worded
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 # Step of the samples of a clearance, as a part of the shortest chord [1], longer if that is too much work
 # (Search.samples()); and width to which a dip is refined [m of head travel], in a profile [s].
 PROFILE_STEP = 0.2
-DIP_WIDTH = 1e-11
+GRAZE_WIDTH = 1e-11
 # Width to which the least distance is proven [m]; the second one is used if the first needs too many steps.
 PROOF_WIDTHS = (1e-5, 1e-3)
 # Number of lowest samples to refine before the proof begins.
@@ -40,8 +41,6 @@ DIPS_REFINED = 5
 ROUNDS = 100
 
 Pair = tuple[int, int]
-# Gap [m], head travel [m], pair.
-Dip = tuple[float, float, Pair]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -173,7 +172,7 @@ def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
         for pair in sorted(set(nearest)):
             if not search.gap_rate(ends[0], pair) < 0.0 < search.gap_rate(ends[1], pair):
                 continue
-            travel = search.bottom(*ends, pair, DIP_WIDTH * clock.slowest)
+            travel = search.bottom(*ends, pair, GRAZE_WIDTH * clock.slowest)
             gap, there = search.clearance(travel)
             if there == pair:
                 grazes.append(Graze(max(clock.time(travel), float(time.min())), gap, pair))
@@ -203,7 +202,7 @@ def least_clearance(
     strayed = checked_stray(stray, dance.dragon)
     search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
     last = before_fold(clock.travel(until)) if to_fold else clock.travel(until)
-    fold = end if to_fold else None
+    fold = end.theta if to_fold else None
     (distance, travel, pair), at_least = least_over(search, clock.travel(begin), last, clock.slowest, fold)
     if distance == 0.0:
         gap, overlapping = search.clearance(clock.travel(begin))
@@ -218,25 +217,25 @@ def least_clearance(
 # the smaller one. A dip whose bottom is between the margin and the gap is crossed in steps far shorter than its width,
 # so the march refines it.
 def least_over(
-    search: Search, begin: float, until: float, head_speed: float, fold: RunEnd | None = None
+    search: Search, begin: float, until: float, head_speed: float, fold: float | None = None
 ) -> tuple[Dip, float | None]:
     """The least gap of the search's pairs between two travels of the head, and its proven lower bound [m].
 
     A gap of 0 stands for the first touch. The call changes the search's margin.
-    fold: end of the run, if it is a fold right after `until`. Steps shrink to nothing before it, because speeds grow
+    fold: theta of the head at a fold right after `until` [rad]. Steps shrink to nothing before it, because speeds grow
         without bound, so a bound on the remaining motion replaces the last ones: least_to_fold()
     """
     best = sampled_least(search, samples_between(search, begin, until))
     proven_to, proven = begin, None
     for width in PROOF_WIDTHS:
         for _ in range(ROUNDS):
-            if best[0] <= 0.0:
+            if best.gap <= 0.0:
                 return _first_touch(search, proven_to, until, head_speed, best)
-            search.use(search.path, max(best[0] - width, 0.0))
+            search.use(search.path, max(best.gap - width, 0.0))
             margin = search.margin
             state, found = search.march(until, NO_BRACKET, start=proven_to, dips=True)
             search.budget.afford()
-            if found.graze is not None and found.graze.gap < best[0]:
+            if found.graze is not None and found.graze.gap < best.gap:
                 best = found.graze
             if state in (Ended.REACHED, Ended.STUCK):
                 left = margin if state is Ended.REACHED else None
@@ -259,8 +258,9 @@ def _first_touch(search: Search, begin: float, until: float, head_speed: float, 
     search.use(search.path, 0.0)
     state, found, half_bracket = search.approach(begin, until, head_speed)
     if state not in TOUCHES or found.touching is None:
-        return (0.0, *touching[1:]), 0.0
-    return (0.0, found.touching - (half_bracket if state is Ended.TOUCHED else 0.0), found.benches), 0.0
+        return touching._replace(gap=0.0), 0.0
+    travel = found.touching - (half_bracket if state is Ended.TOUCHED else 0.0)
+    return Dip(0.0, travel, found.benches), 0.0
 
 
 class ClearanceSamples(NamedTuple):
@@ -289,16 +289,16 @@ def _sampled(search: Search, travel: float) -> float:
 def sampled_least(search: Search, samples: ClearanceSamples) -> Dip:
     """The least clearance at the ends and in the dips of the samples."""
     grid = samples.travels
-    ends = [(gap, travel, pair) for travel in (grid[0], grid[-1]) for gap, pair in (search.clearance(travel),)]
+    ends = [Dip(gap, travel, pair) for travel in (grid[0], grid[-1]) for gap, pair in (search.clearance(travel),)]
     return min(ends + [refined_dip(search, *grid[k - 1 : k + 2]) for k in dips(samples.gaps, DIPS_REFINED).tolist()])
 
 
 def refined_dip(search: Search, low: float, middle: float, high: float) -> Dip:
     """The bottom of the dip around the middle travel; searched again if another pair is nearer there."""
     gap, pair = search.clearance(middle)
-    best = (gap, middle, pair)
+    best = Dip(gap, middle, pair)
     for _ in range(2):
-        travel = search.bottom(low, high, best[2], DIP_WIDTH)
+        travel = search.bottom(low, high, best.benches, GRAZE_WIDTH)
         gap, pair = search.clearance(travel)
-        best = min(best, (gap, travel, pair))
+        best = min(best, Dip(gap, travel, pair))
     return best

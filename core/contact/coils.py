@@ -14,6 +14,7 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.kernels.constants import (
+    ARC,
     ARC_RADIUS,
     CENTRE_X,
     CENTRE_Y,
@@ -25,6 +26,7 @@ from core.kernels.constants import (
     S_END,
     S_START,
     SIGN,
+    SPIRAL,
 )
 from core.paths.route import Route
 from core.values import Floats
@@ -77,7 +79,7 @@ def two_coils(path: Route) -> TwoCoils | None:
     """The coils at the two ends of a route; None unless there are two with one centre and one pitch."""
     table = path.table
     first, last = table[0].tolist(), table[-1].tolist()
-    spirals = [kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "spiral" for row in (first, last)]
+    spirals = [row[PIECE_KIND] == SPIRAL for row in (first, last)]
     if len(table) < 2 or not all(spirals) or (first[SIGN], last[SIGN]) != (-1.0, 1.0):
         return None
     growth, centre = first[COIL_GROWTH], np.array(first[CENTRE])
@@ -98,7 +100,7 @@ def _extent(path: Route, row: Floats, centre: Floats) -> float:
     """
     ends = path.position(row[S_START : S_END + 1])
     extent = float(np.hypot(*(ends - centre).T).max() + 0.5 * (row[S_END] - row[S_START]))
-    if kernels.PIECE_KINDS[int(row[PIECE_KIND])] == "arc":
+    if row[PIECE_KIND] == ARC:
         extent = min(extent, float(math.hypot(*(row[CENTRE] - centre)) + row[ARC_RADIUS]))
     return extent
 

@@ -12,7 +12,7 @@ the one before it, only the pairs of the first m + 1 benches need a search.
 from __future__ import annotations
 
 import math
-from typing import Any
+from functools import partial
 
 from core import kernels
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
@@ -164,22 +164,27 @@ def _result(
     method = _method(dance, search, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
     certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, graze)
-    asked: dict[str, Any] = {"margin": search.margin, "stray": search.stray, "dance": dance}
+    told = partial(
+        FirstContact, outcome, certificate=certificate, margin=search.margin, stray=search.stray, dance=dance
+    )
     if outcome is Outcome.CLEAR:
-        return FirstContact(outcome, None, None, None, None, None, None, None, end, certificate, **asked)
+        return told(end=end)
     if outcome is Outcome.UNDECIDED:
-        bracket = (proven, span[1])
-        return FirstContact(outcome, None, bracket, None, None, None, None, None, None, certificate, **asked)
+        return told(time_bracket=(proven, span[1]))
     at_start = outcome is Outcome.CONTACT_AT_START
     assert found.touching is not None
     travel = found.touching if at_start else found.touching - half_bracket
-    pair = found.benches
-    corner, edge, point, gap = _touching_features(search, travel, pair)
-    time = span[0] if at_start else clock.time(travel)
-    meeting = None if at_start else (proven, clock.time(found.touching))
-    gap = gap if at_start or search.stray else search.margin
-    head = search.path.head(travel)
-    return FirstContact(outcome, time, meeting, head, pair, corner, edge, point, None, certificate, gap, **asked)
+    corner, edge, point, gap = _touching_features(search, travel, found.benches)
+    return told(
+        time=span[0] if at_start else clock.time(travel),
+        time_bracket=None if at_start else (proven, clock.time(found.touching)),
+        head=search.path.head(travel),
+        benches=found.benches,
+        corner=corner,
+        edge=edge,
+        point=point,
+        gap=gap if at_start or search.stray else search.margin,
+    )
 
 
 def _method(

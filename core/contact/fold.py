@@ -60,7 +60,7 @@ def approach_fold(
         state, found, half_bracket = search.approach(start, stop, head_speed, opening=opening)
     found = joined(passed, found)
     if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
-        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
+        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end.theta) else Ended.STUCK
     return state, found, half_bracket
 
 
@@ -83,30 +83,30 @@ def _dips_ahead(search: Search, early: float, last: float, found: Marched) -> bo
     )
 
 
-def clear_to_fold(search: Search, travel: float, end: RunEnd) -> bool:
-    """True if all pairs stay further apart than the margin from a travel [m] to the fold."""
-    least = least_to_fold(search, travel, end)
+def clear_to_fold(search: Search, travel: float, fold: float) -> bool:
+    """True if all pairs stay further apart than the margin from a travel [m] to the fold, at theta `fold` [rad]."""
+    least = least_to_fold(search, travel, fold)
     return least is not None and least > search.margin
 
 
 # Towards the fold handles move as the square root of the remaining travel. So a part whose bound is too low is divided
 # where a quarter of it remains: each side has about half of the motion. Its bound holds for both.
-def least_to_fold(search: Search, travel: float, end: RunEnd) -> float | None:
+def least_to_fold(search: Search, travel: float, fold: float) -> float | None:
     """Lower bound of all gaps from a travel to the fold, or the margin if they exceed it [m]; None if unknown.
 
+    fold: theta of the head there [rad]
     The way is divided into at most FOLD_STRETCHES parts, until the bound exceeds the margin.
     """
-    assert end.theta is not None
     if search.dragon.benches < 3:
         return FREE
-    travel, last = travel - search.travel_rounding(travel), search.travel_at(end.theta)
-    stretches = [(least_left(search, travel, end.theta), travel, last)]
+    travel, last = travel - search.travel_rounding(travel), search.travel_at(fold)
+    stretches = [(least_left(search, travel, fold), travel, last)]
     while stretches[0][0] <= search.margin and len(stretches) < FOLD_STRETCHES:
         least, start, stop = heapq.heappop(stretches)
         middle = stop - 0.25 * (stop - start)
         ends = (
             (start, middle, search.theta_at(middle)),
-            (middle, stop, end.theta if stop == last else search.theta_at(stop)),
+            (middle, stop, fold if stop == last else search.theta_at(stop)),
         )
         for begin, until, theta in ends:
             heapq.heappush(stretches, (max(least, least_left(search, begin, theta)), begin, until))

@@ -23,6 +23,7 @@ from core import kernels
 from core.contact.search import Search
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.constants import (
+    ARC,
     ARC_ANGLE,
     ARC_RADIUS,
     CENTRE_X,
@@ -31,8 +32,11 @@ from core.kernels.constants import (
     COIL_ARC,
     COIL_GROWTH,
     COIL_ROTATION,
+    CREST,
+    CUBIC,
     HALF_WIDTH,
     LAG,
+    LINE,
     LINE_DX,
     LINE_DY,
     LINE_X,
@@ -57,13 +61,13 @@ GAP_ROUNDING = Decimal("1e-20")
 # Shortest interval of a proof [m].
 SHORTEST = 1e-13
 # Largest relative error of a travel that is divided by the head speed, in doubles, and multiplied again [1].
-TIME_ROUNDING = 4.0 * kernels.ULP
+CLEAR_ROUNDING = 4.0 * kernels.ULP
 TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
 # Last bench of a pair in decimals, because each handle takes a third of a millisecond for each instant [1]; and most
 # intervals before a proof is given up: about a second in all.
 LAST_BENCH = 60
 # Largest relative error of a bound on a second derivative, and of its product with h^2 [1].
-BOUND_ROUNDING = 1e-12
+CURVATURE_ROUNDING = 1e-12
 INTERVALS_MAX = 60
 # Groups of columns in a chain row of the kernels.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
@@ -123,8 +127,8 @@ class ExactPair:
             with localcontext() as context:
                 context.prec = DIGITS
                 self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(path.spiral.start_theta))
-        names = {kernels.PIECE_KINDS[int(row[PIECE_KIND])] for row in self.pieces}
-        self.can_follow = pair[1] <= LAST_BENCH and not names & {"cubic", "crest"}
+        kinds = {int(row[PIECE_KIND]) for row in self.pieces}
+        self.can_follow = pair[1] <= LAST_BENCH and not kinds & {CUBIC, CREST}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]."""
@@ -169,7 +173,7 @@ class ExactPair:
                 there = self.benches(Decimal(start + h))
                 axis = exact_separation(*there)[1]
                 least = min(exact_gap(*here, axis), exact_gap(*there, axis)) - margin
-                if least > GAP_ROUNDING + Decimal((1.0 + BOUND_ROUNDING) * curvatures[axis.owner] * h * h / 8.0):
+                if least > GAP_ROUNDING + Decimal((1.0 + CURVATURE_ROUNDING) * curvatures[axis.owner] * h * h / 8.0):
                     break
                 h *= 0.5
                 tried += 1
@@ -188,10 +192,10 @@ class ExactPair:
     def _point(self, piece: int, s: Decimal) -> Vector:
         """Point at arc length s of a row of the table, see core/kernels/constants.py."""
         row = self.pieces[piece]
-        kind, u = kernels.PIECE_KINDS[int(row[PIECE_KIND])], s - row[S_START]
-        if kind == "line":
+        kind, u = row[PIECE_KIND], s - row[S_START]
+        if kind == LINE:
             return row[LINE_X] + u * row[LINE_DX], row[LINE_Y] + u * row[LINE_DY]
-        if kind == "arc":
+        if kind == ARC:
             radius, angle = row[ARC_RADIUS], row[ARC_ANGLE] + row[SIGN] * u / row[ARC_RADIUS]
         else:
             theta = _theta((row[COIL_ARC] + row[SIGN] * u) / row[COIL_GROWTH])
@@ -316,7 +320,7 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
         contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
-        beyond = clear + abs(clear) * TIME_ROUNDING
+        beyond = clear + abs(clear) * CLEAR_ROUNDING
         if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found.proven, beyond):
             return None
     return found._replace(proven=clear, touching=touching)

@@ -41,7 +41,7 @@ class Search:
     """The kernels' arrays for one dragon, with the current path and margin.
 
     dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
-    stray: [m]; kinds: the hulls of that ground, none without a stray, with the indices in `covered`
+    stray: [m]; kinds: the hulls of that ground, none without a stray
     rings: lengths of the benches for the kernels, with bounds for the current path and margin
     sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
         of edges at rest [m], on routes only. With edges, every pair is a bench and an edge: edge e has the bench number

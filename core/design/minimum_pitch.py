@@ -10,7 +10,7 @@ import numpy as np
 
 from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, Search
-from core.design.pitch_bands import BORDER_WIDTH
+from core.design.pitch_bands import BORDER_WIDTH, Descent
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.dragon import Dragon, Stray, checked_stray
@@ -54,6 +54,13 @@ class LimitedBy(StrEnum):
     FOLD = "fold"
 
 
+class JustifiedBy(StrEnum):
+    """Evidence for every larger pitch. BOUND: all are proven; SCAN: below a pitch only single ones are proven."""
+
+    BOUND = "bound"
+    SCAN = "scan"
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class MinimumPitch(Shown):
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
@@ -65,13 +72,12 @@ class MinimumPitch(Shown):
     benches: the pair that touches just below; bench: the one that folds there; head_radius: of the head then [m], at a
         fold that of the circle
     other_feasible_intervals: [m], islands below pitch, found on a grid of ISLAND_SAMPLES pitches
-    justified_by: evidence for every larger pitch. 'bound': all are proven; 'scan': below proven_from only single ones
-        are proven, at most scan_step [m] apart, and a narrower range of infeasible ones is not excluded there
+    justified_by: evidence for every larger pitch; with a scan, below proven_from only single ones are proven, at most
+        scan_step [m] apart, and a narrower range of infeasible ones is not excluded there
     proven_from, proven_up_to: every pitch in between is proven feasible [m]; the first is `pitch` without a scan, the
         second is None for every larger pitch
     scan_step: of this scan for feasible pitches, None without one; a PitchScan samples the radius of first contact
-    evaluations: number of ways marched from the start to the circle, plus the number of bands of pitches, see
-        `core/design/pitch_bands.py`
+    evaluations: number of ways marched from the start to the circle, plus that of bands of pitches (pitch_bands.py)
     """
 
     pitch: float
@@ -81,7 +87,7 @@ class MinimumPitch(Shown):
     bench: int | None
     head_radius: float | None
     other_feasible_intervals: tuple[tuple[float, float], ...]
-    justified_by: str
+    justified_by: JustifiedBy
     proven_from: float
     proven_up_to: float | None
     scan_step: float | None
@@ -138,9 +144,9 @@ class _PitchSearch:
                 state, found = self.ways.march(SIZE_MAX)
                 if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
                     raise _too_near(self.search, found.benches[0], self.margin)
-                rule = "must be larger for this dragon, which reaches such a circle at no pitch up to {most}"
-                got, most = Quantity(self.radius, "m"), Quantity(SIZE_MAX, "m", 6)
-                raise InvalidValue("turning_radius", rule, got=got, most=most)
+                rule = "must be larger: no pitch up to {most} lets this dragon reach the circle"
+                told = quantities("m", got=self.radius) | quantities("m", 6, most=SIZE_MAX)
+                raise InvalidValue("turning_radius", rule, **told)
             return SIZE_MAX, SIZE_MAX
         _, growth = bisected(clears, 0.5 * lowest, growth, relative=TOP_WIDTH, middle=lambda a, b: math.sqrt(a * b))
         for factor in RANGES:
@@ -148,23 +154,24 @@ class _PitchSearch:
                 growth *= factor
         return math.tau * max(growth, lowest), None
 
-    def descend(self, top: float) -> tuple[float, float, str]:
+    def descend(self, top: float) -> tuple[float, float, JustifiedBy]:
         """A narrow bracket (infeasible, feasible) below a feasible pitch [m], and the evidence for those above."""
         if self.alone:
             pitch = self.lowest if self.is_clear(self.lowest) else top
-            return *((pitch, pitch) if pitch < top else self.bisect(self.lowest, top)), "bound"
+            return *((pitch, pitch) if pitch < top else self.bisect(self.lowest, top)), JustifiedBy.BOUND
         pitch, stopped = self.bands.descend(top, self.lowest)
-        if stopped == "lowest":
-            return pitch, pitch, "bound"
-        if stopped != "unbounded":
+        if stopped is Descent.LOWEST:
+            return pitch, pitch, JustifiedBy.BOUND
+        if stopped in (Descent.BORDER, Descent.STUCK):
             step = max(PITCH_WIDTH, 2.0 * math.ulp(pitch))
             while step <= max(PASSED_OVER, PASSED_OVER_WIDE * pitch) and pitch - step > self.lowest:
                 if self.ways.grazes(pitch - step) or self.is_clear(pitch - step) is False:
                     # single pitches below the bands may be clear too, but the pitches in between are not all proven
-                    return self.bisect(pitch - step, pitch)[0] if step <= PASSED_OVER else pitch - step, pitch, "bound"
+                    below = self.bisect(pitch - step, pitch)[0] if step <= PASSED_OVER else pitch - step
+                    return below, pitch, JustifiedBy.BOUND
                 step *= 2.0
         # bands are proven for ways from any distance; the actual way may begin inside the contact that ends them
-        return *self.scan(pitch), "scan"
+        return *self.scan(pitch), JustifiedBy.SCAN
 
     def scan(self, pitch: float) -> tuple[float, float]:
         """(infeasible, feasible) from SCAN_SAMPLES pitches down to the lowest, then by bisection [m].
@@ -255,8 +262,7 @@ class _PitchSearch:
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
         """Limit of a pair that meets after a travel: contact on the circle, or a graze at its dip before `end` [m]."""
         search, growth = self.search, self.search.growth
-        stop = search.travel_at(self.radius / growth)
-        end = min(end, stop)
+        end = min(end, stop := search.travel_at(self.radius / growth))
         if stop - travel < ON_CIRCLE and search.gap_rate(end, pair) < 0.0:
             return LimitedBy.CIRCLE, pair, self.radius
         return LimitedBy.GRAZE, pair, growth * search.theta_at(search.bottom(travel, end, pair, 1e-12))
@@ -322,16 +328,22 @@ def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
 def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
     """The result of a search."""
     top, proven_up_to = search.top()
-    infeasible, feasible, justified_by = search.lowest, search.lowest, "bound"
+    infeasible, feasible, justified_by = search.lowest, search.lowest, JustifiedBy.BOUND
     if top > search.lowest:
         infeasible, feasible, justified_by = search.descend(top)
-    limited_by, pair, head_radius = LimitedBy.START, None, None
-    islands: tuple[tuple[float, float], ...] = ()
-    if feasible > search.lowest:
-        limited_by, pair, head_radius = search.limit(infeasible)
-        islands = () if search.alone else search.islands(infeasible)
-    folding = end_theta(dragon, Spiral(infeasible, search.start_turns))[1] if limited_by is LimitedBy.FOLD else None
-    limit = limited_by, pair, folding, head_radius
-    proven = justified_by, search.scanned_from or feasible, proven_up_to, search.scan_step
-    evaluations = search.ways.marched + search.bands.marches
-    return MinimumPitch(feasible, (infeasible, feasible), *limit, islands, *proven, evaluations)
+    is_limited = feasible > search.lowest
+    limited_by, pair, head_radius = search.limit(infeasible) if is_limited else (LimitedBy.START, None, None)
+    return MinimumPitch(
+        pitch=feasible,
+        pitch_bracket=(infeasible, feasible),
+        limited_by=limited_by,
+        benches=pair,
+        bench=end_theta(dragon, Spiral(infeasible, search.start_turns))[1] if limited_by is LimitedBy.FOLD else None,
+        head_radius=head_radius,
+        other_feasible_intervals=search.islands(infeasible) if is_limited and not search.alone else (),
+        justified_by=justified_by,
+        proven_from=search.scanned_from or feasible,
+        proven_up_to=proven_up_to,
+        scan_step=search.scan_step,
+        evaluations=search.ways.marched + search.bands.marches,
+    )

@@ -6,6 +6,7 @@ The proof for one band is written above its loop in `core/kernels/band_march.py`
 from __future__ import annotations
 
 import math
+from enum import Enum, auto
 from itertools import pairwise
 
 import numpy as np
@@ -47,6 +48,21 @@ STRIDE, STRIDES = 2e-3, 10
 BOTTOM_WIDTH = 1e-12
 # Most attempts to find the pitch at which a dip reaches the margin.
 LOOKS = 40
+
+
+class Descent(Enum):
+    """Why the proven pitches end there.
+
+    LOWEST: all are clear; BORDER: a contact that becomes a graze, as computed, less than 2 BORDER_WIDTH below
+    STUCK: the next BAND_MIN could not be proven; UNBOUNDED: no bound holds, or a handle moves backwards
+    SPENT: BAND_WORK, or the budget, is spent
+    """
+
+    LOWEST = auto()
+    BORDER = auto()
+    STUCK = auto()
+    UNBOUNDED = auto()
+    SPENT = auto()
 
 
 class Bands:
@@ -129,16 +145,13 @@ class Bands:
                 return kernels.FREE
         return clear
 
-    def descend(self, top: float, lowest: float) -> tuple[float, str]:
+    def descend(self, top: float, lowest: float) -> tuple[float, Descent]:
         """The pitch down to which all pitches from `top` are proven clear [m], and the reason for that.
 
-        'lowest': all are clear; 'border': a contact that becomes a graze, as computed, less than 2 BORDER_WIDTH below;
-        'stuck': the next BAND_MIN could not be proven; 'unbounded': no bound holds, a handle moves backwards, or
-        BAND_WORK is spent.
         A band that is not proven is halved, the upper half first. If its lowest pitch touches, the pitch at which that
         contact becomes a graze is searched for, and the band ends there instead.
         """
-        proven, stopped = top, "lowest"
+        proven, stopped = top, Descent.LOWEST
         ends = [lowest, FIRST_BAND * top, top] if lowest < FIRST_BAND * top else [lowest, top]
         bands = [(low, high, math.inf) for low, high in pairwise(ends)]
         while bands:
@@ -150,15 +163,15 @@ class Bands:
             outer = found.proven
             middle = math.sqrt(low * high)
             if self.work >= BAND_WORK or self.search.budget.left <= 0.0:
-                return proven, "unbounded"
+                return proven, Descent.SPENT
             if high - low < BAND_MIN:
                 self.graze = None
-                return proven, "stuck"
+                return proven, Descent.STUCK
             if state in (Ended.UNBOUNDED, Ended.BENCH_FOLDED) and high - low < UNBOUNDED_WITHIN * high:
-                return proven, "unbounded"
+                return proven, Descent.UNBOUNDED
             border = None
             if state is Ended.TOUCHED:
-                bands, stopped, self.graze = [], "border", None
+                bands, stopped, self.graze = [], Descent.BORDER, None
                 if high - low <= WIDTH_FOLLOWED * high:
                     border = self.border(low, high, found)
             if border is None or border <= low:

@@ -130,7 +130,8 @@ class Stops:
         if state is Ended.STUCK and found.touching is not None:
             state, found, half_bracket = search.approach(0.0, last, 1.0)
         if state in (Ended.REACHED, Ended.STUCK) and found.touching is None and to_fold:
-            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
+            assert end.theta is not None
+            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end.theta) else Ended.STUCK
         if state is Ended.REACHED:
             return None
         travel = {Ended.TOUCHED: (found.touching or 0.0) - half_bracket, Ended.STUCK: found.proven}.get(state, 0.0)
@@ -204,7 +205,7 @@ def _checked_pitches(pitches: object) -> Floats:
         raise InvalidValue("pitches", words) from error
     if column.dtype.kind not in "iuf" or column.ndim != 1:
         raise InvalidValue("pitches", words, got=Given(pitches))
-    wrong = np.flatnonzero(~(np.diff(column) >= 0.0))
+    wrong = np.flatnonzero(np.diff(column) < 0.0)
     if wrong.size:
         k = int(wrong[0]) + 1
         rule, got = "must be at least {before}, the one before it", Quantity(float(column[k]), "m")

@@ -7,7 +7,6 @@ import math
 from core import kernels
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
 from core.contact.search import Search, before_fold
-from core.dance import EndReason, RunEnd
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, Quantity, TooMuchWork, quantities, too_much
@@ -77,11 +76,10 @@ class Ways:
                 return state, Marched(0.0, travel, pair)
         if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
-        end = RunEnd(EndReason.FOLD, search.travel_at(fold), fold, bench)
-        last = min(stop, before_fold(end.time))
+        last = min(stop, before_fold(search.travel_at(fold)))
         state, found = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
         if (state is Ended.STUCK and found.touching is None) or (state is Ended.REACHED and last < stop):
-            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end) else Ended.STUCK
+            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
         return state, found
 
     def is_clear(self, pitch: float) -> bool | None:

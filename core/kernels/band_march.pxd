@@ -9,7 +9,7 @@ from core.kernels.clearance cimport row_gap
 from core.kernels.records cimport Nearest
 from core.kernels.scene cimport Band, Found, Scene
 
-cdef double BACKWARDS_WITHIN, CHAIN_WORK, WIDTH_ROUNDING, ACROSS
+cdef double BACKWARDS_WITHIN, CHAIN_WORK, BAND_ROUNDING, ACROSS
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef bint shift_bounds(

@@ -74,10 +74,10 @@ CHAIN_WORK = 5.0
 
 
 # Rounding. Gaps are as good as pairs.py says. For the bounds above, widths are widened by the error of a travel and by
-# WIDTH_ROUNDING of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal to within
+# BAND_ROUNDING of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal to within
 # a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered by the
 # change of the gaps over 4 theta u r beyond both ends, which their mean slope and the curvature over the step bound.
-WIDTH_ROUNDING = 1e-9  # [1]
+BAND_ROUNDING = 1e-9  # [1]
 # shift_bounds() is good to BAND_ROUNDING (pairs.py) of its results. It adds up products of terms >= 0, with fewer than
 # 60 roundings for each bench. These terms are angles between handles, with errors of 2 SLIP / r, at most 1e-12 of
 # themselves (rounding.py) where anything is claimed, and sines and tangents of half these angles, whose errors are at
@@ -219,8 +219,8 @@ class BandMarch(Found):
         if self.lay_out(band, next_radius) == Step.ENDED:
             return Step.ENDED
         self.work += CHAIN_WORK * (STEP_WORK + band.low.handles)
-        band.low.h = self.h * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
-        band.high.h = h_high * (1.0 + WIDTH_ROUNDING) + 2.0 * self.rounding
+        band.low.h = self.h * (1.0 + BAND_ROUNDING) + 2.0 * self.rounding
+        band.high.h = h_high * (1.0 + BAND_ROUNDING) + 2.0 * self.rounding
         band.width = (high - low) * (1.0 + BAND_ROUNDING)
         band.slack = 4.0 * ULP * low * band.low.before[0, THETA] * band.low.before[0, THETA]
         self.bounded = band.low.bound(False) and band.high.bound(False) and shift_bounds(

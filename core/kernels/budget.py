@@ -33,7 +33,10 @@ class Budget:
     def __init__(self, work=None, *, brief=False):
         self.brief = brief
         self.limited = work is not None
-        self.work = self.left = math.inf if work is None else float(work)
+        try:
+            self.work = self.left = math.inf if work is None else float(work)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"work must be a number of steps, got {work!r}") from error
         if not self.work >= 0.0:
             raise ValueError(f"work must be zero or more, got {self.work:g}")
         self.stopped = False

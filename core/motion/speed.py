@@ -9,7 +9,7 @@ import numpy as np
 from core import kernels
 from core.contact.search import Search
 from core.dance import Dance
-from core.errors import InvalidValue, asked_of, bound, checked_number
+from core.errors import InvalidValue, Quantity, asked_of, bound, checked_number
 from core.kernels import Budget, Judged
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
 from core.sampling import bisected
@@ -106,11 +106,12 @@ def highest_speed(
     dragon, clock, end = dance.dragon, dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
-        when, told = "before {end}, when bench {bench} folds", {"end": bound(end.time, 9, -1, "s"), **end.told}
+        when, told = "before {end}, when bench {bench} folds", {"end": bound(end.time, 9, "s"), **end.told}
         if stop is None:
             why = f"the run ends at a fold, towards which speeds grow without bound; it must be {when}"
             raise InvalidValue("stop", f"must be given: {why}", **told)
-        raise InvalidValue("stop", f"must be {when} and speeds grow without bound", **told)
+        rule = f"must be {when} and speeds grow without bound"
+        raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **told)
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = Search(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)

@@ -55,7 +55,10 @@ class Turn(Route):
         theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
         coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
         if turns * pitch <= radius or coil < LENGTH_MIN:
-            rule, least = "must be more than {least}, the radius of the turning circle", radius / pitch
+            rule, least = (
+                "must be more than {least}, so that the coil begins outside the circle",
+                radius / pitch,
+            )
             raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), least=Quantity(least, "turns", 6))
         cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
         entry = inner * np.array([cos, sin])

@@ -118,10 +118,10 @@ class Chain(Follower["Pose"]):
 def newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
     """The one root in a ball around a guess, from the value at the guess and the slope over the ball."""
     if not slope > 0:
-        raise Unproven("a function is not shown to rise")
+        raise Unproven("no ball is shown to hold one place alone: a distance may not rise there")
     root = guess - value / slope
     if not around.contains(root):
-        raise Unproven("a root is not where doubles see it")
+        raise Unproven("a place is not shown to be where doubles put it")
     return root
 
 
@@ -155,7 +155,7 @@ def delta(theta: arb, needed: arb) -> arb:
     value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
     found = newton(guess, around, value, slopes(theta, around)[1])
     if not found > 0:
-        raise Unproven("a next handle is not behind")
+        raise Unproven("the next handle is not shown to be behind")
     if not found < arb.pi() and not rises_to(theta, found):
         raise Unproven("a next handle is not shown to be the nearest behind")
     return found

@@ -47,7 +47,7 @@ def verify_fold(chain: Chain, bench: int, before: arb, after: arb) -> None:
     start.grow_to(bench + 1)
     wall = _wall(float(lowest), float(start.deltas[bench]))
     if not (start.deltas[bench] < wall and _moved(highest, arb(wall)) < needed):
-        raise Unproven("no wall is found behind bench {bench}", bench=bench)
+        raise Unproven("no bound is found on the angle from bench {bench} to the next handle", bench=bench)
     if not _stays_short(lowest, wall, needed):
         raise Unproven("bench {bench} is not shown to fold", bench=bench)
 
@@ -67,7 +67,7 @@ def _wall(theta: float, d: float) -> float:
                 return wall
             falls = falls or slope < 0.0
             wall += step
-    raise Unproven("angles of every size are possible")
+    raise Unproven("no bound is found on the angle to the next handle")
 
 
 def _stays_short(theta: arb, wall: float, needed: arb) -> bool:

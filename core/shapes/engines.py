@@ -28,8 +28,8 @@ KEPT_BENCHES = 2_000
 # may span half as much more, and it ignores dents of up to a hundredth of the growth. So: the growth that GEOS gets,
 # and the largest distance that a point can move, both as a multiple of the required growth [1].
 ARC_CHORDS = 8
-ARC_RADIUS = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
-GROWTH_MOST = 1.01 * ARC_RADIUS
+ARC_GROWTH = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
+GROWTH_MOST = 1.01 * ARC_GROWTH
 # Step of the grid for the points of a union, by which a side can move at most [m]; and number of polygons that are
 # united between two checks of the budget [1].
 GRID, UNITED = 1e-5, 32
@@ -260,7 +260,7 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
     roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
     shapely.prepare(roomy)
     ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
-    return _rings(shapely.set_precision(shapely.buffer(ground, ARC_RADIUS * grown, quad_segs=ARC_CHORDS), GRID))
+    return _rings(shapely.set_precision(shapely.buffer(ground, ARC_GROWTH * grown, quad_segs=ARC_CHORDS), GRID))
 
 
 def _hulls(polygons: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
@@ -290,7 +290,7 @@ def widened(polygons: Polygons, by: float) -> Polygons:
     import shapely
 
     ground = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
-    return _rings(shapely.buffer(ground, ARC_RADIUS * by, quad_segs=ARC_CHORDS))
+    return _rings(shapely.buffer(ground, ARC_GROWTH * by, quad_segs=ARC_CHORDS))
 
 
 def thickened(line: Floats, radius: float) -> Polygons:
@@ -298,7 +298,7 @@ def thickened(line: Floats, radius: float) -> Polygons:
     times that [m]."""
     import shapely
 
-    return _rings(shapely.buffer(shapely.LineString(line), ARC_RADIUS * radius, quad_segs=ARC_CHORDS))
+    return _rings(shapely.buffer(shapely.LineString(line), ARC_GROWTH * radius, quad_segs=ARC_CHORDS))
 
 
 def _rings(ground: object) -> Polygons:

@@ -98,7 +98,9 @@ class ContactProbability(WithArrays):
             told += f" The probability of the model {most}: a union bound over all pairs and instants, {order}."
         if self.tolerance:
             safe = f"While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches"
-            within = f"in {self.samples - (self.strayed or 0)} samples no hole is further away at any of these instants"
+            count = self.samples - (self.strayed or 0)
+            within = "in every sample a hole is further away at one of these instants"
+            within = f"in {count} samples no hole is further away at any of these instants" if count else within
             told += f" {safe} at any time, which is proven; {within}."
         return told
 
@@ -207,7 +209,7 @@ class _Sampled:
             if not going:
                 break
             rows = slice(low, min(low + INSTANTS_PER_COUNTER, count))
-            shared = self._as_it_should_be(rows) if self.model.pitch_error == 0.0 else None
+            shared = self._nominal(rows) if self.model.pitch_error == 0.0 else None
             still = []
             for k in going:
                 places, tangents, safe = shared or self._on_pitch(rows, pitches[k])
@@ -227,7 +229,7 @@ class _Sampled:
             going = still
             yield rows.stop / count
 
-    def _as_it_should_be(self, rows: slice) -> tuple[Floats, Floats, Floats]:
+    def _nominal(self, rows: slice) -> tuple[Floats, Floats, Floats]:
         """Nominal places and tangents (T, n + 1, 2) of all handles, and safe stray of every bench (T, n) [m]."""
         placed = trajectory(self.nominal, self.times[rows])
         places, tangents = placed.position, placed.velocity / placed.speed[..., None]
@@ -253,7 +255,7 @@ class _Sampled:
         return [spiral.pitch + size * float(self.numbers.of(sample, 1).standard_normal()) for sample in batch]
 
     def _on_pitch(self, rows: slice, pitch: float) -> tuple[Floats, Floats, Floats]:
-        """As _as_it_should_be(), on a spiral of another pitch [m], up to its fold at most; no stray counts as safe."""
+        """As _nominal(), on a spiral of another pitch [m], up to its fold at most; no stray counts as safe."""
         spiral, chords = self.nominal.path.spiral, self.nominal.dragon.chords
         assert spiral is not None
         theta = spiral.theta(self.times[rows] * self.nominal.head_speed) * (spiral.pitch / pitch)

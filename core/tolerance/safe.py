@@ -20,14 +20,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from core.contact import clearance
-from core.contact.clearance import PROFILE_STEP, Dip, refined_dip
+from core.contact.clearance import PROFILE_STEP, refined_dip
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
 from core.contact.search import Search
-from core.dance import Dance, RunEnd
+from core.dance import Dance
 from core.dragon import Dragon
 from core.errors import said, said_bound
 from core.kernels import NO_BRACKET, Budget, Ended
+from core.kernels.results import Dip
 from core.tolerance.between import held_apart
 from core.tolerance.reach import Reach, gains, reach, simple_reach
 from core.values import Floats
@@ -57,7 +58,7 @@ class Field:
     edges: Floats | None
     area: str | None
     span: tuple[float, float]
-    fold: RunEnd | None
+    fold: float | None
     work: float
     budget: Budget
     between: int = 1
@@ -105,7 +106,7 @@ def held_stray(field: Field, most: float) -> SafeStray:
     safe = _safe_stray(field, most)
     simple, independent = _simple(field, safe), safe.stray
     found = replace(safe, independent=independent, simple=simple)
-    if safe.touches or field.edges is not None or safe.dip is None or safe.dip[2][1] != safe.dip[2][0] + 2:
+    if safe.touches or field.edges is not None or safe.dip is None or safe.dip.benches[1] != safe.dip.benches[0] + 2:
         return found
     held = held_apart(field.dance, field.span[1], most, field.budget)
     others = SafeStray(held, None, 0)
@@ -119,7 +120,7 @@ def held_stray(field: Field, most: float) -> SafeStray:
 
 def _simple(field: Field, safe: SafeStray) -> float:
     """The simple bound [m], or the safe stray if that is less."""
-    stray = field.sampled(0.0)[0] / field.gain
+    stray = field.sampled(0.0).gap / field.gain
     for _ in range(GRAZE_STEPS):
         if stray < STRAY_MIN:
             return 0.0
@@ -134,14 +135,16 @@ def _safe_stray(field: Field, most: float) -> SafeStray:
     """The largest stray up to `most` that is safe in a field, slightly less than its samples and marches show."""
     begin, until = field.span
     nominal = field.sampled(0.0)
-    if nominal[0] <= 0.0:
+    if nominal.gap <= 0.0:
         state, touch, _ = field.search(0.0).approach(begin, until, field.dance.clock.slowest)
-        at_first = (0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
+        at_first = (
+            Dip(0.0, touch.touching, touch.benches) if touch.touching is not None and state in TOUCHES else nominal
+        )
         return SafeStray(0.0, at_first, touch.steps, touches=True)
     # Two parallel benches that both stray towards each other meet if the stray is half their clearance.
-    first = min(most, nominal[0] * (1.0 if field.edges is not None else 0.5))
+    first = min(most, nominal.gap * (1.0 if field.edges is not None else 0.5))
     dip = field.sampled(first)
-    stray, limiting = (first, None) if dip[0] > 0.0 else _grazing(field, first, dip)
+    stray, limiting = (first, None) if dip.gap > 0.0 else _grazing(field, first, dip)
     steps, proven_to = 0, begin
     for below in BELOW:
         for _ in range(ROUNDS):
@@ -178,14 +181,14 @@ def _grazing(
     """
     slope = 1.0 if field.edges is not None else 2.0
     for _ in range(GRAZE_STEPS):
-        if abs(dip[0]) <= slope * GRAZE_WITHIN * stray:
+        if abs(dip.gap) <= slope * GRAZE_WITHIN * stray:
             break
-        last, stray = (stray, dip[0]), max(stray + dip[0] / slope, 0.0)
+        last, stray = (stray, dip.gap), max(stray + dip.gap / slope, 0.0)
         search = field.search(stray, covered)
-        around, travel = PROFILE_STEP * search.rings.all_shortest, dip[1]
+        around, travel = PROFILE_STEP * search.rings.all_shortest, dip.travel
         dip = refined_dip(search, max(field.span[0], travel - around), travel, min(field.span[1], travel + around))
         if stray != last[0]:
-            slope = max(slope, (dip[0] - last[1]) / (last[0] - stray))
+            slope = max(slope, (dip.gap - last[1]) / (last[0] - stray))
     return stray, dip
 
 
@@ -195,4 +198,4 @@ def safe_words(stray: float) -> str:
     >>> safe_words(0.8250000000000001), safe_words(0.02)
     ('0.825', '0.02')
     """
-    return said(float(said_bound(stray, 12, -1)))
+    return said(float(said_bound(stray, 12)))

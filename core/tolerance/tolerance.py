@@ -138,7 +138,7 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
     if dance.dragon.benches > 2:
         last, fold = travels[1], None
         if dance.nears_fold(span[1]):
-            last, fold = before_fold(last), dance.end
+            last, fold = before_fold(last), dance.end.theta
         fields.append(Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:
         danced = replace(dance, path=venue_route(dance.path, travels[1]))
@@ -151,7 +151,7 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
 def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhibit | None:
     """A pose of the whole dragon in which the pair of a dip overlaps; None if not found. frame: of the search"""
     assert found.dip is not None
-    dragon, (a, b) = field.dance.dragon, found.dip[2]
+    dragon, (a, b) = field.dance.dragon, found.dip.benches
     at = field.dance.clock.steady(np.array(time))
     handles = trajectory(field.dance.steady, at, budget=field.budget).position
     pose, size = bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1)
@@ -179,7 +179,7 @@ def _method(dance: Dance, found: SafeStray, independent: float, span: tuple[floa
     between = ""
     if independent < found.stray:
         between = " Two benches with one between them are held apart by it: distances of handles prove that."
-    elif found.dip is not None and found.dip[2][1] == found.dip[2][0] + 2:
+    elif found.dip is not None and found.dip.benches[1] == found.dip.benches[0] + 2:
         between = " The two benches that limit it have one between them, which is not used here: they are assumed"
         between += " to stray independently, so the stray is lower than it could be."
     return (

@@ -327,14 +327,14 @@ def assert_refused(answer: httpx.Response, place: str, words: tuple[str, ...]) -
 
 @pytest.mark.parametrize("call", ["/trajectory", "/clearance", "/check", "/figures/trajectory.svg"])
 @pytest.mark.parametrize(("path", "place", "words"), BAD_PATHS.values(), ids=BAD_PATHS)
-def test_a_path_that_is_none_is_a_problem_that_names_the_place(
+def test_an_invalid_path_is_a_problem_that_names_the_place(
     client: httpx.Client, call: str, path: Any, place: str, words: tuple[str, ...]
 ) -> None:
     assert_refused(client.post(call, json={"path": path}), place, words)
 
 
 @pytest.mark.parametrize(("fields", "place", "words"), BAD_DANCES.values(), ids=BAD_DANCES)
-def test_a_dance_that_is_none_is_a_problem_that_names_the_place(
+def test_an_invalid_dance_is_a_problem_that_names_the_place(
     client: httpx.Client, fields: dict[str, Any], place: str, words: tuple[str, ...]
 ) -> None:
     body = {"dragon": SHORT, "path": route(LANE), **fields}
@@ -359,7 +359,7 @@ def test_a_dance_that_is_none_is_a_problem_that_names_the_place(
         ("/maximum-head-speed?benches=2001", "benches", ("at most 2000",)),
     ],
 )
-def test_a_turn_that_is_none_is_a_problem(client: httpx.Client, query: str, place: str, words: tuple[str, ...]) -> None:
+def test_an_invalid_turn_is_a_problem(client: httpx.Client, query: str, place: str, words: tuple[str, ...]) -> None:
     assert_refused(client.get(query), place, words)
 
 

@@ -270,5 +270,5 @@ def test_an_answer_that_takes_too_much_work_is_a_problem(client: httpx.Client) -
         ("/paper", "text/csv"),
     ],
 )
-def test_a_form_that_the_call_has_not_is_a_problem(client: httpx.Client, path: str, accept: str) -> None:
+def test_a_media_type_that_the_call_does_not_offer_is_a_problem(client: httpx.Client, path: str, accept: str) -> None:
     assert_problem(client.get(path, headers={"Accept": accept}), 406, "Accept", (accept,))

@@ -228,7 +228,7 @@ def test_benches_that_overlap_at_the_start_are_said_to(tmp_path: Path) -> None:
         ("start = 15", "start = 1", ["start must be at least 7.81", "got 1 s"]),
     ],
 )
-def test_a_dance_that_is_none_is_one_line_and_exit_code_2(dance: Path, old: str, new: str, words: list[str]) -> None:
+def test_an_invalid_dance_is_one_line_and_exit_code_2(dance: Path, old: str, new: str, words: list[str]) -> None:
     dance.write_text(DANCE.replace(old, new))
     done = run("check", str(dance))
     assert (done.returncode, done.stdout) == (2, "")

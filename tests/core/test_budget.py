@@ -134,6 +134,8 @@ def test_work_is_zero_or_more(work: float) -> None:
     with pytest.raises(ValueError, match=f"work must be zero or more, got {work:g}"):
         Budget(work)
     assert Budget(0.0).left == 0.0
+    with pytest.raises(ValueError, match="work must be a number of steps, got 'many'"):
+        Budget(cast(float, "many"))
 
 
 @ALL

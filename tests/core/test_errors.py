@@ -176,7 +176,7 @@ def test_what_a_caller_gave_may_hold_braces() -> None:
 @pytest.mark.parametrize("number", [432.9179242286, -432.9179242286, 0.1, -0.1, 1e-12, 5.0])
 @pytest.mark.parametrize("decimals", [0, 3, 9])
 def test_a_bound_is_rounded_to_the_side_on_which_it_is_true(number: float, decimals: int) -> None:
-    low, high = (float(said_bound(number, decimals, side)) for side in (-1, 1))
+    low, high = (float(said_bound(number, decimals, up=up)) for up in (False, True))
     assert low <= number <= high
     assert high - low <= 1.000001 * 10.0**-decimals
 

@@ -173,7 +173,7 @@ def test_a_stray_and_a_venue_are_met_at_the_time_of_their_place() -> None:
         ("passages", "slow"),
     ],
 )
-def test_passages_that_are_none_are_refused_by_name(field: str, passages: list[Passage]) -> None:
+def test_invalid_passages_are_refused_by_name(field: str, passages: list[Passage]) -> None:
     with pytest.raises(InvalidValue) as refused:
         Dance(DRAGON, SPIRAL, 1.0, passages)
     assert refused.value.field == field

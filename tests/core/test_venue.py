@@ -53,7 +53,7 @@ def test_a_hole_has_its_edges() -> None:
     ],
     ids=["none", "empty", "three points", "open", "height", "no number", "far", "text", "number"],
 )
-def test_rings_that_are_none_are_refused_where_they_are_wrong(rings: Any, words: str) -> None:
+def test_invalid_rings_are_refused_where_they_are_wrong(rings: Any, words: str) -> None:
     with pytest.raises(InvalidValue) as e:
         Area("stage", rings)
     assert e.value.message.startswith(words)
@@ -81,7 +81,7 @@ def test_a_self_crossing_polygon_is_refused_with_the_place() -> None:
     ],
     ids=["hole outside", "nested holes", "cut", "touching itself", "too few points", "crossing hole"],
 )
-def test_a_polygon_that_is_none_is_refused_by_name_in_plain_words(rings: tuple, words: str) -> None:
+def test_an_invalid_polygon_is_refused_by_name_in_plain_words(rings: tuple, words: str) -> None:
     with pytest.raises(InvalidValue) as e:
         Area("stage", rings)
     assert e.value.message.startswith(f"venue: 'stage' must be a valid polygon, got {words}")

@@ -178,13 +178,13 @@ def test_a_dragon_is_not_taken_for_a_dance_and_a_right_dance_keeps_the_words_of_
 
 
 @pytest.mark.parametrize("path", [0.55, None, Spiral, "spiral", DRAGON])
-def test_a_path_that_is_none_says_what_it_must_be(path: Any) -> None:
+def test_an_invalid_path_says_what_it_must_be(path: Any) -> None:
     with pytest.raises(InvalidValue, match=r"^path must be a Spiral or a Route, got "):
         core.first_contact(core.Dance(DRAGON, path))
 
 
 @pytest.mark.parametrize("engine", ["sat", None, 3])
-def test_an_engine_that_is_none_is_refused(engine: Any) -> None:
+def test_an_unknown_engine_is_refused(engine: Any) -> None:
     with pytest.raises(InvalidValue, match=r"^engine must be one of separating_axis, fcl, shapely, angle_sum, got "):
         core.overlaps(POSES, COLUMN, COLUMN, engine=engine)
 

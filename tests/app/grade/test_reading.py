@@ -209,7 +209,7 @@ def test_the_same_workbook_is_read_however_it_is_written(change: Callable[[str, 
     assert [sheet.right for sheet in grade(data).sheets] == [4 * 448, 4 * 224]
 
 
-def test_a_number_that_is_none_is_text() -> None:
+def test_an_invalid_number_is_text() -> None:
     infinite = in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2" t="n"><v>1e999</v></c><c r="Z2"><v>')
     sheet = grade(repacked(small(), infinite)).sheets[0]
     assert "The number in C2 is stored as text." in sheet.notes

@@ -57,9 +57,9 @@ FLAT = [
     Asked("shortest-turn", {"margin": 0.4}, "turning_diameter", "come within 0.4 m"),
     Asked("shortest-turn", {"pitch": 0.8}, "turning_diameter", "benches 0 and 15 touch 13.286258 s after the entry"),
     Asked(
-        "shortest-turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, the radius of the turning"
+        "shortest-turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, so that the coil begins"
     ),
-    Asked("turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, the radius of the turning"),
+    Asked("turn", {"start_turns": 2}, "start_turns", "must be more than 2.64706 turns, so that the coil begins"),
     Asked("turn", {"entry_radius": 5}, "entry_radius", "must be at most 4.5 m, got 5 m"),
     Asked("turn", {"pitch": 0.001, "turning_diameter": 0.002}, "turning_diameter", "must leave arcs with radii from"),
     Asked("turn", {"pitch": 0.001, "turning_diameter": 0.01, "ratio": 0.01}, "ratio", "must leave arcs with radii"),

@@ -29,6 +29,7 @@ from core.paths.spiral import Spiral
 from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict, separation
 from core.shapes.rectangles import bench_poses
+from tests.core.shapes.scenes import unlinked_pairs
 from tests.depth import examples
 
 Floats = NDArray[np.float64]
@@ -51,12 +52,6 @@ def sizes_of(dragon: Dragon) -> Floats:
 
 def poses_of(dragon: Dragon, path: Spiral | Route, times: list[float], head_speed: float = 1.0) -> Floats:
     return bench_poses(trajectory(Dance(dragon, path, head_speed), times).position)
-
-
-def close_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple[int, int]]:
-    """Oracle: every pair that shares no handle, one by one, within the margin."""
-    gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
-    return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
 
 
 def random_dragon(random: np.random.Generator) -> Dragon:
@@ -101,8 +96,8 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons() -> None:
         assert check.agree, (dragon, path, margin, check)
         step = 2.0 * CHECK_TRAVEL / head_speed
         before, after = poses_of(dragon, path, [found.time - step, found.time + step], head_speed)
-        assert close_pairs(before, sizes_of(dragon), margin) == set()
-        assert close_pairs(after, sizes_of(dragon), margin) == {found.benches, *check.together}
+        assert unlinked_pairs(before, sizes_of(dragon), margin) == set()
+        assert unlinked_pairs(after, sizes_of(dragon), margin) == {found.benches, *check.together}
         checked += 1
     assert checked > examples(18, 60)
 
@@ -116,7 +111,7 @@ def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whol
     assert check is not None
     assert check.agree
     assert check.engines == dict.fromkeys(Engine, Verdict(before=None, after=True))
-    assert len(close_pairs(poses_of(dragon, path, [0.0])[0], sizes_of(dragon))) > 1
+    assert len(unlinked_pairs(poses_of(dragon, path, [0.0])[0], sizes_of(dragon))) > 1
     assert check.together == ()
 
 

@@ -145,7 +145,7 @@ def test_benches_that_the_contact_does_not_reach_change_nothing(benches: int) ->
 
 
 def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
-    """Short benches on spirals that only their own neighbouring rings are too wide for; a slow search of 60 has it."""
+    """Short benches on tight spirals, where neighbouring rings meet; a slow search of 60 benches finds the same."""
     benches = 300
     assert_as_slow_search(Dragon(benches, 0.7, 0.7, 0.2, 0.1), Spiral(0.2055, 5.5), margin=0.0)  # at the start
     found = first_contact(Dance(Dragon(benches, 0.7, 0.7, 0.2, 0.1), Spiral(0.2232, 12.0)))

@@ -51,7 +51,7 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
     search = Search(dragon, spiral, 0.0)
     for left in LEFT:
         travel = (1.0 - left) * end.time
-        least = least_to_fold(search, travel, end)
+        least = least_to_fold(search, travel, end.theta)
         assert least is not None
         gaps, _ = SlowDance.of(dragon, spiral).clearance(end.time - left * end.time * np.linspace(1.0, 1e-3, 60) ** 2)
         assert least <= gaps.min() + TIED

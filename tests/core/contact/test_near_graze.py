@@ -83,7 +83,7 @@ def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tupl
 def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_its_former_side(
     owner: int, across: Decimal
 ) -> None:
-    """An axis chosen while the other bench lies to the left says nothing good of it once it lies to the right."""
+    """The gap along an axis chosen while the other bench lies to the left is negative once that lies to the right."""
 
     def bench(x: Decimal, y: Decimal) -> Bench:
         return Bench((x, y), (Decimal(1), Decimal(0)), Decimal(1), Decimal("0.2"))

@@ -102,12 +102,17 @@ def test_no_bench_shifts_faster_with_the_growth_than_its_bounds(seed: int) -> No
         assert (turn <= bounds[:, SHIFT_OMEGA] * slack + rounding / search.dragon.chords.min()).all()
 
 
+# No bound holds so far out.
+NO_BOUND = {17, 29, 33, 47}
+
+
 @pytest.mark.parametrize("seed", range(60))
 def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed: int) -> None:
     """At 9 x 30 samples between the two pitches, down to the radius that is reached, often not the circle."""
     bands, low, high = random_bands(seed)
     state, found = bands.prove(low, high, 3.0 * bands.radius)
-    if state is Ended.UNBOUNDED and not found.steps:  # no bound holds so far out
+    assert (state is Ended.UNBOUNDED and not found.steps) == (seed in NO_BOUND)
+    if seed in NO_BOUND:
         return
     outer = max(3.0 * bands.radius, found.proven)
     benches = min(bands.search.dragon.benches, bands.search.room)

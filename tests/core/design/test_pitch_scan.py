@@ -130,7 +130,7 @@ def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.Mon
     ("pitches", "said"),
     [
         ([0.5, 0.4], "pitches[1] must be at least 0.5 m, the one before it, got 0.4 m"),
-        ([0.5, math.nan], "pitches[1] must be at least 0.5 m, the one before it, got nan m"),
+        ([0.5, math.nan], "pitches[1] must be a finite number, got nan m"),
         ([-0.5, 0.5], "pitches[0] must be positive, got -0.5 m"),
         ([[0.5]], "pitches must be a list of numbers in metres, ascending, got [[0.5]]"),
     ],

@@ -144,7 +144,7 @@ def test_a_spiral_lies_as_a_coil_does() -> None:
     [("path.centre", {"centre": (0.0,)}), ("path.centre.1", {"centre": (0.0, 1e9)}),
      ("path.rotation", {"rotation": float("nan")}), ("path.clockwise", {"clockwise": 1})],
 )  # fmt: skip
-def test_a_place_that_is_none_is_refused_by_name(field: str, given: dict[str, object]) -> None:
+def test_an_invalid_place_is_refused_by_name(field: str, given: dict[str, object]) -> None:
     with pytest.raises(InvalidValue) as refused:
         Spiral(**given)  # type: ignore[arg-type]
     assert refused.value.field == field

@@ -78,7 +78,7 @@ FIELDS_THAT_ARE_NONE: list[tuple[Callable[..., Piece], dict[str, Any], str, str]
     FIELDS_THAT_ARE_NONE,
     ids=[f"{k.__name__} {w}" for k, _, _, w in FIELDS_THAT_ARE_NONE],
 )
-def test_a_piece_refuses_a_field_that_is_none_when_it_is_made(
+def test_a_piece_refuses_an_invalid_field_when_it_is_made(
     kind: Callable[..., Piece], values: dict[str, Any], field: str, words: str
 ) -> None:
     with pytest.raises(InvalidValue) as e:

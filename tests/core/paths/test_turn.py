@@ -41,7 +41,7 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference value
     ],
     ids=["inside the circle", "on the circle", "an arc too small", "the circle", "the entry", "a coil too long"],
 )
-def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
+def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
     with pytest.raises(InvalidValue) as refused:
         Turn(**asked)
     assert refused.value.field == field
@@ -53,7 +53,7 @@ def test_a_turn_that_is_none_names_what_was_asked_and_never_a_piece(asked: dict,
 
 @pytest.mark.uncompiled
 def test_a_start_barely_outside_the_circle_is_refused_as_one_inside_it() -> None:
-    with pytest.raises(InvalidValue, match=r"start_turns must be more than 2\.64706 turns, the radius of the turning"):
+    with pytest.raises(InvalidValue, match=r"start_turns must be more than 2\.64706 turns, so that the coil begins"):
         Turn(1.7, 4.5, start_turns=BARELY_OUTSIDE)
 
 

@@ -6,7 +6,6 @@ import json
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,27 +16,17 @@ from core.errors import ProofRefused
 from core.proof import Certificate, prove_collision_time, prove_minimum_pitch, verify
 from tests.core.forgeries import FORGERIES, edit, through_json
 from tests.core.forgeries import put_at as at
+from tests.core.proof.contacts import CONTACTS, SMALL, proof_of
 from tests.depth import examples
 
 ROOT = Path(__file__).parents[3]
-CONTACTS = {
-    case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
-}
 PITCHES = {
     case["name"]: case for case in json.loads((ROOT / "tests/reference/minimum_pitch.json").read_text())["cases"]
 }
 # The reference pitches are rounded: this much more is free of contact [m].
 PITCH_ROUNDING = 1e-9
-SMALL = CONTACTS["n_5"]
 # A delta from doubles, where F is steep, is this near to the true one [rad].
 DOUBLES = 1e-9
-
-
-def proof_of(case: dict[str, Any], **changes: Any) -> Certificate:
-    dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
-    return prove_collision_time(
-        Dance(dragon, path, changes.pop("head_speed", 1.0)), case["time"] + changes.pop("later", 0.0), **changes
-    )
 
 
 @pytest.fixture(scope="module")

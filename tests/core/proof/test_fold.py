@@ -172,7 +172,7 @@ def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
     with ctx.workprec(96):
         chain = Chain(Dragon(1, 2.2, 2.2, 0.02, 0.1), arb(pitch), 2.0)
         verify_fold(chain, 0, arb(fold * (1.0 + 1e-9)), arb(fold * (1.0 - 1e-9)))
-        with pytest.raises(Unproven, match="no wall"):
+        with pytest.raises(Unproven, match="no bound is found on the angle"):
             verify_fold(chain, 0, arb(fold * 1.01), arb(fold * (1.0 - 1e-9)))
 
 
@@ -207,7 +207,7 @@ FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a bench behind the tail": (at("overlap", "folds", put=14), "bench 14 is not shown to fold on the way"),
     "places exchanged": (lambda c: c["overlap"]["head_theta"].reverse(), "not shown to fold on the way"),
     "one place": (shifted(-2.1e-8, 0.0), "not shown to fold"),
-    "places before the fold": (shifted(1e-7, 1e-7), "not shown to fold|no wall"),
+    "places before the fold": (shifted(1e-7, 1e-7), "not shown to fold|no bound is found"),
     "places within the circle": (shifted(-1e-3, -1e-3), "not shown to fold on the way"),
     "a fold within the circle": (shifted(0.0, -1e-3), "not shown to fold on the way"),
     "a fold outside the start": (shifted(30.0, 0.0), "not shown to fold on the way"),

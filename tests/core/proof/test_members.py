@@ -2,32 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from core import Dance, Dragon, Spiral
 from core.errors import ProofRefused
-from core.proof import Certificate, prove_collision_time, verify
+from core.proof import Certificate, verify
 from tests.core.forgeries import edit, places, refusal, through_json
 from tests.core.forgeries import put_at as at
-
-ROOT = Path(__file__).parents[3]
-CONTACTS = {
-    case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
-}
-SMALL = CONTACTS["n_5"]
-
-
-def proof_of(case: dict[str, Any], **changes: Any) -> Certificate:
-    dragon, path = Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"])
-    return prove_collision_time(
-        Dance(dragon, path, changes.pop("head_speed", 1.0)), case["time"] + changes.pop("later", 0.0), **changes
-    )
+from tests.core.proof.contacts import SMALL, proof_of
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +41,7 @@ MALFORMED = {
         "claim.kind",
         "claim.kind must be collision-time, minimum-pitch, clear, contact or tolerance, got null",
     ),
-    "a claim that is none": (at("claim", put=[]), "claim", "claim must be an object, got a list of 0"),
+    "an invalid claim": (at("claim", put=[]), "claim", "claim must be an object, got a list of 0"),
     "a time in words": (at("claim", "time", put="51"), "claim.time", 'claim.time must be a number, got "51"'),
     "a pitch below all": (at("claim", "pitch", put=-1), "claim.pitch", "claim.pitch must be positive, got -1 m"),
     "a time past the centre": (

@@ -53,9 +53,10 @@ def test_the_chain_in_balls_is_the_dance_of_core(name: str) -> None:
 @pytest.mark.parametrize("chord", [1.65, 4.0, 6.0])
 def test_a_bend_beyond_pi_near_the_centre_is_the_first_root_or_unproven(theta: float, chord: float) -> None:
     needed = arb(chord) ** 2
-    try:
-        found = float(delta(arb(theta), needed))
-    except Unproven:
+    if (theta, chord) == (1.0, 6.0):
+        with pytest.raises(Unproven, match="nearest"):
+            delta(arb(theta), needed)
         return
+    found = float(delta(arb(theta), needed))
     before = np.linspace(0.0, found - DOUBLES, 100_000)
     assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))

@@ -20,25 +20,11 @@ from core.shapes.rectangles import (
     literal_corners,
     paper_corners,
 )
+from tests.core.shapes.scenes import LENGTH, WIDTH, benches, crowd
 
 Floats = NDArray[np.float64]
-Scene = tuple[Floats, Floats, Floats]
 # Rounding of points and distances within ten metres of the origin [m].
 ROUNDING = 2e-14
-LENGTH, WIDTH = 2.2, 0.3
-
-
-def benches(*poses: tuple[float, float, float]) -> Scene:
-    """Equal benches at the given poses."""
-    return np.array(poses, dtype=float).reshape(-1, 3), np.full(len(poses), LENGTH), np.full(len(poses), WIDTH)
-
-
-def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest: float = 5.0) -> Scene:
-    """Benches of mixed sizes in a square."""
-    random = np.random.default_rng(seed)
-    pose = np.stack([*random.uniform(0.0, side, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
-    size = 10 ** random.uniform(math.log10(smallest), math.log10(largest), (2, count))
-    return pose, size[0], size[1]
 
 
 def as_set(points: Floats) -> set[tuple[float, float]]:

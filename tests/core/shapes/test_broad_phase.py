@@ -11,32 +11,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core.errors import SIZE_MAX, TooLarge
-from core.shapes.overlaps import overlaps, separation
+from core.shapes.overlaps import overlaps
 from core.shapes.rectangles import CROSS_CANDIDATES_MAX, PAIRS_MAX, frames, meeting_pairs
+from tests.core.shapes.scenes import WIDTH, Pairs, Scene, all_pairs, crowd
 
 Floats = NDArray[np.float64]
-Pairs = NDArray[np.int64]
-Scene = tuple[Floats, Floats, Floats]
-LENGTH, WIDTH = 2.2, 0.3
-
-
-def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest: float = 5.0) -> Scene:
-    """Benches of mixed sizes in a square."""
-    random = np.random.default_rng(seed)
-    pose = np.stack([*random.uniform(0.0, side, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
-    size = 10 ** random.uniform(math.log10(smallest), math.log10(largest), (2, count))
-    return pose, size[0], size[1]
-
-
-def all_gaps(scene: Scene) -> Floats:
-    """Oracle: the separation of every pair, (n, n) [m]."""
-    pose, length, width = scene
-    size = np.stack([length, width], axis=-1)
-    return separation(pose[:, None], size[:, None], pose[None], size[None]).separation
-
-
-def all_pairs(scene: Scene, margin: float = 0.0) -> Pairs:
-    return np.argwhere(np.triu(all_gaps(scene) <= margin, k=1))
 
 
 def close_pairs(poses: Floats, lengths: Floats, widths: Floats, *, margin: float = 0.0, chained: bool = False) -> Pairs:

@@ -11,17 +11,11 @@ from numpy.typing import NDArray
 
 from core.kernels import Budget
 from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, found_pairs, united
-from core.shapes.overlaps import separation
+from tests.core.shapes.scenes import unlinked_pairs
 from tests.depth import examples
 
 Floats = NDArray[np.float64]
 THREADS = 4
-
-
-def close_pairs(pose: Floats, size: Floats, margin: float = 0.0) -> set[tuple[int, int]]:
-    """Oracle: every pair that shares no handle, one by one, within the margin."""
-    gaps = separation(pose[:, None], size[:, None], pose[None], size[None]).separation
-    return {(int(a), int(b)) for a, b in np.argwhere(np.triu(gaps <= margin, k=2))}
 
 
 def crowds(count: int) -> list[tuple[Floats, Floats]]:
@@ -38,7 +32,7 @@ def crowds(count: int) -> list[tuple[Floats, Floats]]:
 @pytest.mark.parametrize("margin", [0.0, 0.1])
 def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_threads(margin: float) -> None:
     scenes = crowds(KEPT_DRAGONS + 4)
-    truth = [[close_pairs(pose, size, margin) for pose in poses] for poses, size in scenes]
+    truth = [[unlinked_pairs(pose, size, margin) for pose in poses] for poses, size in scenes]
     assert sum(len(pairs) for instants in truth for pairs in instants) > 1_000
     random = np.random.default_rng(5)
     order = random.integers(0, (len(scenes), 3), (examples(60, 400), 2)).tolist()

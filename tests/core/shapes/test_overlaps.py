@@ -17,11 +17,10 @@ from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
 from core.shapes.rectangles import bench_poses
+from tests.core.shapes.scenes import LENGTH, WIDTH, Scene, all_pairs, benches, crowd
 from tests.depth import examples
 
 Floats = NDArray[np.float64]
-Pairs = NDArray[np.int64]
-Scene = tuple[Floats, Floats, Floats]
 
 # Within this of the margin the engines may differ, for each rounds its own corners [m].
 UNDECIDED = 1e-9
@@ -30,31 +29,6 @@ NEAR = 1e-8
 # First contact of the default dragon, computed in 256-bit ball arithmetic [s].
 CONTACT_TIME = 412.473837682
 EXACT = (Engine.SEPARATING_AXIS, Engine.FCL, Engine.SHAPELY)
-LENGTH, WIDTH = 2.2, 0.3
-
-
-def benches(*poses: tuple[float, float, float]) -> Scene:
-    """Equal benches at the given poses."""
-    return np.array(poses, dtype=float).reshape(-1, 3), np.full(len(poses), LENGTH), np.full(len(poses), WIDTH)
-
-
-def crowd(count: int, seed: int, *, side: float, smallest: float = 0.05, largest: float = 5.0) -> Scene:
-    """Benches of mixed sizes in a square."""
-    random = np.random.default_rng(seed)
-    pose = np.stack([*random.uniform(0.0, side, (2, count)), random.uniform(-4.0, 4.0, count)], axis=-1)
-    size = 10 ** random.uniform(math.log10(smallest), math.log10(largest), (2, count))
-    return pose, size[0], size[1]
-
-
-def all_gaps(scene: Scene) -> Floats:
-    """Oracle: the separation of every pair, (n, n) [m]."""
-    pose, length, width = scene
-    size = np.stack([length, width], axis=-1)
-    return separation(pose[:, None], size[:, None], pose[None], size[None]).separation
-
-
-def all_pairs(scene: Scene, margin: float = 0.0) -> Pairs:
-    return np.argwhere(np.triu(all_gaps(scene) <= margin, k=1))
 
 
 def near_pairs(count: int, seed: int, margin: float) -> tuple[Scene, Floats]:
