@@ -12,7 +12,7 @@ import typer
 from app.command import show
 from app.command.options import asks, of_file, unused
 from app.command.paths import PathOptions, dance_of
-from app.command.usage import path
+from app.command.usage import place
 from app.extras import require
 from app.files.disk import DANCE_ENDINGS, checked_output
 from app.files.film_spec import ENDINGS, GIF_TYPE
@@ -51,13 +51,16 @@ def figures(
     context: typer.Context,
     file: Annotated[
         Path | None,
-        typer.Argument(parser=path, help="Dance as a .toml or .json file, as for check: any dragon, path and venue."),
+        place(
+            "FILE",
+            "Dance as a .toml or .json file, as for check: any dragon, path and venue.",
+        ),
     ] = None,
     folder: Annotated[
         Path | None,
-        typer.Argument(
-            parser=path,
-            help="Folder for the files; created if missing. It may stand alone, or before FILE. Default: this folder.",
+        place(
+            "FOLDER",
+            "Folder for the files; created if missing. It may stand alone, or before FILE. Default: this folder.",
         ),
     ] = None,
     kind: Annotated[
@@ -78,18 +81,20 @@ def figures(
     why = "does not apply to the figure {kinds}: leave it out, or draw another --kind too"
     unused(context, FigureOptions.model_fields.keys() - used, why, kinds=" or ".join(kinds))
     requests = {one: of_file(file, ASKED[one].body or FigureOptions, context) if file else asked for one in kinds}
+    files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
+    for picture in files.values() if folder.exists() else ():
+        checked_output("format", picture)
+    drawings = {}
+    for one, request in requests.items():
+        with refusing(request), show.waiting(f"figure {one.value}") as progress:
+            drawings[one] = ASKED[one].whole(request, Terms(progress=progress), format.media_type)
     folder.mkdir(parents=True, exist_ok=True)
+    for one, data in drawings.items():
+        show.write(files[one], data)
     if file and not kind:
         name = Kind.PITCH_SCAN.value
         why = f"it is about all pitches, not about one path: --kind {name} draws it for the dragon of the FILE"
         print(f"{name} is left out: {why}.", file=sys.stderr)
-    files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
-    for picture in files.values():
-        checked_output("format", picture)
-    for one, request in requests.items():
-        with refusing(request), show.waiting(f"figure {one.value}") as progress:
-            data = ASKED[one].whole(request, Terms(progress=progress), format.media_type)
-        show.write(files[one], data)
 
 
 class FilmOptions(FilmFields, PathOptions):

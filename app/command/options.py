@@ -6,7 +6,7 @@ import inspect
 import math
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from types import UnionType
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
@@ -14,6 +14,7 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 import typer
 from pydantic import BaseModel
 
+from app.command.usage import place
 from app.files.disk import object_words, read_dance
 from app.settings import Settings
 from app.wire.dances import DanceFields, SpanFields, TimeRange
@@ -140,7 +141,8 @@ def asks(
             flat = {name: values.pop(name) for name in model.model_fields}
             with _in_options(context):
                 request = of_file(file, body, context, instead) if body and file else checked(model, flat)
-                with refusing(request):
+                # A command with a FILE of its own names its fields itself.
+                with nullcontext() if values.get("file") else refusing(request):
                     command(request, **values)
 
         parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own.values()]
@@ -159,7 +161,7 @@ def _file(body: type[BaseModel]) -> inspect.Parameter:
     """The argument FILE of a command that also answers this request."""
     path = ", any path" if "path" in body.model_fields else "; its path does not count"
     words = f"Dance as a .toml or .json file, as for check: any dragon{path}."
-    annotation = Annotated[Path | None, typer.Argument(help=words)]
+    annotation = Annotated[Path | None, place("FILE", words)]
     return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 

@@ -10,6 +10,7 @@ import typer
 
 from app.command import show
 from app.command.options import Json, asks, unused
+from app.command.usage import place
 from app.files.disk import read_json
 from app.questions import overlaps as together
 from app.questions.figures import InstantQuery
@@ -25,7 +26,11 @@ def overlaps(
     asked: InstantQuery,
     context: typer.Context,
     file: Annotated[
-        Path | None, typer.Argument(help="Benches as for POST /overlaps, in place of a dance (- for standard input).")
+        Path | None,
+        place(
+            "FILE",
+            "Benches as for POST /overlaps, in place of a dance (- for standard input).",
+        ),
     ] = None,
     json: Json = False,
 ) -> None:

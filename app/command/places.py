@@ -11,6 +11,7 @@ import typer
 
 from app.command import show
 from app.command.options import Json
+from app.command.usage import place
 from app.extras import require
 from app.files.disk import checked_output, object_words, read_dance
 from app.files.tables import Language
@@ -29,7 +30,10 @@ from core.shown import counted
 
 
 def places(
-    file: Annotated[Path, typer.Argument(help="A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json.")],
+    file: Annotated[
+        Path,
+        place("FILE", "A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json."),
+    ],
     units: Annotated[
         str | None,
         typer.Option(metavar="metres|degrees", help="Unit of its coordinates; default: recognised from them."),
@@ -73,7 +77,10 @@ def _print(found: DanceParts) -> None:
 
 
 def maps(
-    file: Annotated[Path, typer.Argument(help="Dragon, path and venue as for check, as a .toml or .json file.")],
+    file: Annotated[
+        Path,
+        place("FILE", "Dragon, path and venue as for check, as a .toml or .json file."),
+    ],
     output: Annotated[Path, typer.Option(help="Write .geojson, .kml or .dxf (extra dxf).")] = Path("dance.geojson"),
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     longitude: Annotated[
@@ -99,7 +106,10 @@ def maps(
 
 
 def plan(
-    file: Annotated[Path, typer.Argument(help="Dragon, path, venue and limits as for check: .toml or .json.")],
+    file: Annotated[
+        Path,
+        place("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
+    ],
     output: Annotated[Path, typer.Option(help="Write a .pdf file.")] = Path("plan.pdf"),
     paper: Annotated[Literal["A4", "A3"] | None, typer.Option(help="Size of the paper; default: A4.")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,

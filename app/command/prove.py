@@ -23,6 +23,7 @@ from rich.progress import Progress
 
 import core
 from app.command.options import asks
+from app.command.usage import place
 from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
 from app.questions.tolerance import CircleQuery
@@ -122,7 +123,7 @@ def check_or_prove(
         Path | None, typer.Option(help="Verify this certificate without a search; - reads standard input.")
     ] = None,
 ) -> None:
-    """Prove a contact, a clear run, a pitch or a stray in ball arithmetic, or check a proof. Needs python-flint."""
+    """Prove a contact, a clear run, a pitch or a stray in ball arithmetic, or check a proof (extra proof)."""
     if (check is None) == (context.invoked_subcommand is None):
         raise typer.BadParameter("give either a claim to prove or --check FILE")
     if check is None:
@@ -235,7 +236,8 @@ def turn(asked: TurnClaim, output: Output = Path("turn.proof.json")) -> None:
 @prove.command()
 def dance(
     file: Annotated[
-        Path, typer.Argument(help="Dragon, path, margin and times as for check, as a .toml or .json file.")
+        Path,
+        place("FILE", "Dragon, path, margin and times as for check, as a .toml or .json file."),
     ],
     every_pair: Annotated[bool, typer.Option(help="Prove every pair separately, also those that repeat.")] = False,
     output: Output = Path("dance.proof.json"),

@@ -27,7 +27,7 @@ def serve(
     try:
         processes.serve(host, port, count)
     except OSError as taken:
-        print(f"Error: cannot listen on {host}:{port}: {taken.strerror}", file=sys.stderr)
+        print(f"Error: cannot listen on {host}:{port}: {taken.strerror}; choose another --port", file=sys.stderr)
         raise typer.Exit(2) from taken
     except SystemExit as stop:  # The port is taken, or the address is not local; uvicorn has printed it.
         raise typer.Exit(2 if stop.code else 0) from stop

@@ -42,9 +42,15 @@ def path(text: str | Path) -> Path:
     return Path(text)
 
 
+def place(metavar: str, words: str) -> Any:
+    """An argument with the name of a file or folder. metavar: its own name in help and messages; words: its help"""
+    return typer.Argument(parser=path, metavar=metavar, help=words)
+
+
 def unknown(word: str, known: list[str]) -> str:
-    near = difflib.get_close_matches(word, known, n=1, cutoff=ALIKE_SLIP)
-    return f"{word} is unknown here: " + (f"did you mean {near[0]}?" if near else "see --help")
+    bare = {one.lstrip("-"): one for one in known}
+    near = difflib.get_close_matches(word.lstrip("-"), bare, n=1, cutoff=ALIKE_SLIP)
+    return f"{word} is unknown here: " + (f"did you mean {bare[near[0]]}?" if near else "see --help")
 
 
 def _unfit(parameter: Any, quoted: str) -> str:

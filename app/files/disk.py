@@ -77,15 +77,19 @@ def _standard_input() -> bytes:
     return sys.stdin.buffer.read()
 
 
+def _name(file: Path) -> str:
+    return "standard input" if str(file) == "-" else str(file)
+
+
 def read_json(file: Path) -> dict[str, Any]:
     """The JSON object in a file, or on standard input for -. raises: InvalidValue, OSError"""
     try:
         found = json_of(_standard_input() if str(file) == "-" else file.read_bytes())
     except Unreadable as error:
-        raise error.of("file", str(file)) from error
+        raise error.of("file", _name(file)) from error
     if not isinstance(found, dict):
         words = "{file} must hold a JSON object"
-        raise InvalidValue.in_words("file", words, got=Given(found, shown(found)), file=str(file))
+        raise InvalidValue.in_words("file", words, got=Given(found, shown(found)), file=_name(file))
     return found
 
 
@@ -107,9 +111,9 @@ def read_dance(file: Path) -> dict[str, Any]:
         try:
             asked = toml_of(piped or file.read_bytes())
         except Unreadable as error:
-            raise error.of("file", str(file)) from error
+            raise error.of("file", _name(file)) from error
     if not asked:
-        print(f"{file} is empty: the answer is for the contest's dance.", file=sys.stderr)
+        print(f"{_name(file)} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
     for name in ("venue", "path"):
         if isinstance(asked.get(name), str):

@@ -188,6 +188,7 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
             '--pitch must be a number [m], got "55cm": lengths are in metres, and 55 cm is 0.55 m',
         ),
         ("collision-time --pich 0.5", "--pich is unknown here: did you mean --pitch?"),
+        ("collision-time --stop 5", "--stop is unknown here: see --help"),
         ("collision-time --benches 1e3", "--benches must be a whole number, got 1e3"),
         ("collision-time --cross-check all", "--cross-check must be dragon, pair or none, got all"),
         ("check", "FILE is missing"),
@@ -301,7 +302,7 @@ def test_an_address_of_a_scheduler_is_a_setting(address: str, monkeypatch: pytes
 def test_a_file_that_is_not_json_is_named() -> None:
     done = run("overlaps", "-", text="{benches")
     assert done.returncode == 2
-    assert done.stderr.startswith("Error: - is not JSON: ")
+    assert done.stderr.startswith("Error: standard input is not JSON: ")
 
 
 @pytest.mark.parametrize(

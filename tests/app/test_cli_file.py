@@ -222,11 +222,30 @@ def test_the_figure_of_a_file_is_drawn_at_its_start(tmp_path: Path) -> None:
     assert drawn[0] == drawn[1]
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("stop = 500", "stop must be at most 432.917924228 s, when bench 0 folds, got 500 s"),
+        ("dragon.width = -1", "dragon.width must be at least 0.001 m, got -1 m"),
+    ],
+)
+def test_refused_figures_of_a_file_leave_neither_file_nor_folder(text: str, words: str, tmp_path: Path) -> None:
+    (tmp_path / "dance.toml").write_text(text)
+    done = run("figures", str(tmp_path / "dance.toml"), str(tmp_path / "new"))
+    assert (done.returncode, done.stderr) == (2, f"Error: {words}\n")
+    assert [one.name for one in tmp_path.iterdir()] == ["dance.toml"]
+
+
+def test_an_empty_name_of_a_file_is_refused_by_name() -> None:
+    done = run("trajectory", "")
+    assert (done.returncode, done.stderr) == (2, "Error: FILE must not be an empty name: the current folder is .\n")
+
+
 def test_the_figure_that_a_file_leaves_out_is_named(tmp_path: Path) -> None:
     file = tmp_path / "dance.toml"
     file.write_text("dragon.benches = 3")
-    first, *_ = run("figures", str(file), str(tmp_path)).stderr.splitlines()
-    assert first.startswith("pitch-scan is left out: ")
+    *_, last = run("figures", str(file), str(tmp_path)).stderr.splitlines()
+    assert last.startswith("pitch-scan is left out: ")
     assert run("figures", str(file), str(tmp_path), "--kind", "contact").stderr == f"{tmp_path}/contact.png\n"
 
 
@@ -239,7 +258,7 @@ def test_standard_input_is_json_or_toml(client: httpx.Client, text: str) -> None
 def test_an_empty_standard_input_is_no_dance() -> None:
     done = run("collision-time", "-", text=" ")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("Error: - is not JSON: ")
+    assert done.stderr.startswith("Error: standard input is not JSON: ")
 
 
 @pytest.mark.parametrize("name", ["dance.toml", "dance.json"])
