@@ -17,7 +17,6 @@ from tests.page.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
-LATE = 2_000  # [ms]: longer than all of the staircase of a few benches takes
 SAID = 6_000  # [ms]: how long a message stays
 FINGER = 44  # [px]: the least height of what a finger should hit
 SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
@@ -162,10 +161,20 @@ def test_a_hanging_service_is_noticed_the_next_try_counts_down_and_messages_go_a
 ) -> None:
     page = open_page("?benches=20", failing=True)
     page.clock.install()
-    page.route("**/healthz", lambda route: None)  # it hangs: neither an answer nor an end
-    for words in ("next try in 2 s", "next try in 1 s", "trying again now"):
+    tries: list[Any] = []
+
+    def hang(route: Any) -> None:
+        """Neither an answer nor an end; but the second try is refused at once."""
+        tries.append(route)
+        if len(tries) == 2:
+            route.abort()
+
+    page.route("**/healthz", hang)
+    for words in ("next try in 1 s", "next try in 2 s", "next try in 1 s"):
         page.locator("#lost", has_text=words).wait_for()
-    page.unroute_all()
+        page.clock.fast_forward(1000)
+    page.locator("#lost", has_text="trying again now").wait_for()
+    tries[-1].continue_()
     page.locator("#lost").wait_for(state="hidden")
     shows(page, "#status", "The service is back.")
     page.clock.fast_forward(SAID)
@@ -194,12 +203,11 @@ def test_a_late_first_look_does_not_replace_the_pitch_chart(open_page: Any) -> N
     late: list[Any] = []
     page.route(lambda url: "locate=false" in url, lambda route: late.append(route))
     page.locator("#scan .plot").scroll_into_view_if_needed()
-    page.wait_for_timeout(LATE)
-    assert late
+    page.locator("html[data-pending=look]").wait_for()  # All the rest is answered.
     for look in late:
         look.continue_()
     settled(page)
-    page.locator("#scan:not(.coarse) .uplot").wait_for(timeout=LATE)
+    page.locator("#scan:not(.coarse) .uplot").wait_for(timeout=2_000)
 
 
 def test_in_chinese_proofs_and_refusals_are_chinese(visit: Any, server: str) -> None:

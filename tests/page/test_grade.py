@@ -85,7 +85,7 @@ def test_typed_answers_are_graded_and_cleared(page: Any) -> None:
     expect(boxes).to_have_count(0)
 
 
-def test_a_number_that_is_none_is_refused_in_words(page: Any, visit: Any) -> None:
+def test_an_invalid_number_is_refused_in_words(page: Any, visit: Any) -> None:
     visit(EASY, failing=True)
     page.locator("#typed-pitch").fill("0.45x")
     page.locator("#typed-speed").fill("1.246266")

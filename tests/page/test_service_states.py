@@ -167,7 +167,7 @@ QUICK = "() => void (window.fetch = quick)"
 
 def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(visit: Any, server: str) -> None:
     page = visit(SHORT)
-    page.evaluate(SLOW, 1000)
+    page.evaluate(SLOW, 600)
     slider = page.locator("#controls input[type=range]").first
     for _ in range(20):
         slider.press("ArrowLeft")

@@ -63,7 +63,7 @@ def test_what_no_worker_can_answer_ends_the_run_in_words(tmp_path: Path, address
 
 
 def test_an_address_where_nobody_answers_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 1.0)
+    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 0.3)
     address = f"tcp://127.0.0.1:{free_port()}"
     with pytest.raises(NoScheduler, match=f"no Dask scheduler answers at {address}"):
         Cluster(address)
@@ -76,7 +76,7 @@ def test_an_address_without_a_scheme_is_tried_before_a_client_waits_for_it(monke
 
 
 def test_a_port_that_takes_connections_and_never_answers_is_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 1.0)
+    monkeypatch.setattr("app.sweeps.cluster.CONNECT", 0.3)
     with socket.create_server(("127.0.0.1", 0)) as silent:
         address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
         with pytest.raises(NoScheduler, match=f"no Dask scheduler answers at {address}"):
