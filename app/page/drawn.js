@@ -37,6 +37,12 @@ export class Drawn {
     return this.state.get("path") === "route";
   }
 
+  /** True without a drawing that can be danced. */
+  get #isEmpty() {
+    const { points, path } = this.state.get("drawing");
+    return points.length < 2 && !path;
+  }
+
   #shown() {
     if (!this.#isRoute) return null;
     const { course } = this.questions;
@@ -66,13 +72,13 @@ export class Drawn {
   /** After a change of the drawing or of the kind of dance. */
   show() {
     const drawn = this.#isRoute;
-    const { points, path } = this.state.get("drawing");
+    const { points } = this.state.get("drawing");
     $("main").classList.toggle("drawn", drawn);
     this.picture.drawn = drawn;
     for (const box of [$("#route"), $("#judgement")]) box.hidden = !drawn;
-    $("#save").disabled = points.length < 2 && !path;
+    $("#save").disabled = this.#isEmpty;
     this.editor.show();
-    const empty = drawn && points.length < 2 && !path;
+    const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
     hide($("#invite"), !empty || points.length > 0 || this.editor.active);
     if (!drawn) return;
@@ -101,7 +107,7 @@ export class Drawn {
   /** Show that the service refused the dance, with a better reason if one is known. */
   refused() {
     const refusal = this.questions.refusals.get("contact") ?? this.questions.refusals.get("course");
-    if (!this.#isRoute || !refusal) return;
+    if (!this.#isRoute || this.#isEmpty || !refusal) return;
     this.form.offer(null);
     const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
     if (fields.length) this.judgement.wait(fields);

@@ -110,6 +110,7 @@ export class Player {
   #tick(now, before) {
     this.#frame = requestAnimationFrame((next) => this.#tick(next, now));
     const { dance } = this.questions;
+    if (!dance) return this.#stop();
     if (!dance.track?.at(this.time)) return;
     this.#passed += Math.min(now - before, FRAME_MAX);
     if (this.still.matches && this.#passed < STEP_EVERY) return;

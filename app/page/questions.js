@@ -5,12 +5,11 @@ import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { timeAfter } from "./pace.js";
 import { Pause } from "./pending.js";
 import { CONTACT, DRAGON, FIELDS, SAID, TURN, numbersOf } from "./state.js";
-import { Track } from "./track.js";
+import { Track, speedTimes } from "./track.js";
 
 /** Time without a change after which input counts as paused [ms]. */
 const REST = 250;
 const CLEARANCE_SAMPLES = 400;
-const SPEED_CELLS = 12_000;
 /** Samples of the curve of strays: few, because it is nearly straight. */
 const CURVE = { samples: 13 };
 /** Request for the first view of the pitch chart, many times faster than with the jumps between samples. */
@@ -34,12 +33,6 @@ const VERDICT = { cross_check: "none", details: false };
 const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
 /** Questions whose refusals concern an entered number; other refusals only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["head", "shortest", "minimum", "contact"];
-
-/** Number of instants for the colours of the whole dance: fewer with more handles. */
-function speedTimes({ begin, end, numbers: { benches } }) {
-  const count = Math.min(Math.max(Math.floor(SPEED_CELLS / (benches + 1)), 8), 100);
-  return begin < end ? { start: begin, stop: end, step: (end - begin) / count } : [begin];
-}
 
 /** The last shown instant: first contact, or the time until which nothing touches. */
 const lastInstant = ({ time, time_bracket, end }) => time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
@@ -117,7 +110,8 @@ export class Questions {
     const { drawing } = asked;
     // Without a drawing nothing stays visible, so the next one is asked about again, even if it is an earlier one.
     if (!drawing.path && drawing.points.length < 2) {
-      this.service.drop(["contact"]);
+      this.service.drop(["contact", "course", ...AT_REST]);
+      this.#take(null);
       return this.#asked.clear();
     }
     const { dragon, path } = this.body({}, asked);
@@ -197,11 +191,16 @@ export class Questions {
   }
 
   #accept(dance) {
-    if (this.dance?.track) this.dance.track.stopped = true;
-    this.dance = { ...dance, track: null };
+    this.#take({ ...dance, track: null });
     this.tell("dance");
     if (dance.kind !== "route") this.#askPath();
     if (!this.#rest.lasts) this.#askDance();
+  }
+
+  /** Take a dance in place of the shown one; null: none. */
+  #take(dance) {
+    if (this.dance?.track) this.dance.track.stopped = true;
+    this.dance = dance;
   }
 
   /** The path from behind the tail to the end, sampled as the way of a single bench's head. */

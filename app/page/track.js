@@ -11,6 +11,15 @@ const [CHUNK_CELLS, CHUNK_SAMPLES_MIN] = [30_000, 16];
 const DECIMALS = 5;
 const KEPT = 6;
 
+/** Instants times handles for the colours of the whole dance. */
+const SPEED_CELLS = 12_000;
+
+/** Instants for the colours of the whole dance: fewer with more handles. */
+export function speedTimes({ begin, end, numbers: { benches } }) {
+  const count = Math.min(Math.max(Math.floor(SPEED_CELLS / (benches + 1)), 8), 100);
+  return begin < end ? { start: begin, stop: end, step: (end - begin) / count } : [begin];
+}
+
 export class Track {
   #chunks = new Map();
   #loading = new Set();

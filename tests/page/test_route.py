@@ -102,20 +102,29 @@ def test_the_drawn_path_is_in_the_picture_whatever_answers_late_and_after_anothe
     assert in_the_picture(page)
 
 
-def test_a_verdict_that_comes_late_is_not_shown_without_a_drawing(visit: Any) -> None:
+@pytest.mark.parametrize("late", ["check", "course"])
+def test_what_comes_late_is_not_shown_without_a_drawing_nor_after_a_switch_of_language(
+    visit: Any, late: str, picture: Any, alike: Any
+) -> None:
     page = visit("?path=route&benches=3&route=*-20,0_20,0")
     verdict(page, "Can be danced")
+    settled(page)
     page.locator("#edit").click()
     held: list[Any] = []
-    page.route("**/check", lambda one: held.append(one))
-    with page.expect_request("**/check"):
+    page.route(f"**/{late}", lambda one: held.append(one))
+    with page.expect_request(f"**/{late}"):
         page.locator("#benches").fill("4")
     page.locator("#delete").click()
     while held:
         held.pop(0).continue_()
     page.unroute_all()
     settled(page)
-    assert "Can be danced" not in page.locator("#judgement").inner_text()
+    empty = picture(page)
+    for language, words in (("zh", "可以"), ("en", "Can be danced")):
+        page.locator(f"[data-lang={language}]").click()
+        settled(page)
+        assert words not in page.locator("#judgement").inner_text()
+    assert alike(picture(page), empty)
 
 
 def test_points_are_moved_put_in_and_taken_away_by_keys_and_taps(visit: Any) -> None:
