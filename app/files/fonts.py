@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from functools import cache
 
 from app.extras import MissingPackage
@@ -29,6 +30,8 @@ def families(language: Language) -> tuple[str, ...]:
         return (LATIN,)
     from matplotlib import font_manager
 
+    # Without a bold face the regular one stands in, which matplotlib would tell the user for each word.
+    logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
     manager = font_manager.fontManager
     known = {font.fname for font in manager.ttflist}
     for file in font_manager.findSystemFonts():  # matplotlib's own list may be older than this font

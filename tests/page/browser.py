@@ -37,7 +37,7 @@ DOWNLOADS = (
     "chromium_headless_shell-*/chrome*/*headless?shell.exe",
 )
 ANSWER_TIMEOUT = 20.0  # [s] for --version, which takes 0.05 s, and 0.4 s from a cold disk
-FONT = "fonts-noto-cjk"
+FONT = "fonts-wqy-microhei"
 MISSING = "no Chrome or Chromium starts here: make test installs one if it can; otherwise set CHROME to the path of one"
 
 

@@ -133,11 +133,11 @@ def test_root_gets_the_browser_and_the_font_of_the_system(tmp_path: Path) -> Non
     program(tmp_path / "fc-list", "")
     found, told, ran = got(tmp_path, user=0)
     assert found == f"{tmp_path / 'chromium'}\n"
-    assert told == "Installing chromium fonts-noto-cjk for the tests of the page (once)\n"
+    assert told == "Installing chromium fonts-wqy-microhei for the tests of the page (once)\n"
     assert [(line.split()[1], line.split()[-1]) for line in ran] == [
         ("update", "-qq"),
         ("install", "chromium"),
-        ("install", "fonts-noto-cjk"),
+        ("install", "fonts-wqy-microhei"),
     ]
 
 
