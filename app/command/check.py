@@ -12,7 +12,7 @@ from rich.text import Text
 import core
 from app.command import show
 from app.command.options import Json
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words, read_dance
 from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
@@ -32,10 +32,7 @@ from core.errors import said, said_bound
 def check(
     file: Annotated[
         Path,
-        place(
-            "FILE",
-            "Dragon, path, venue and limits as for POST /check, as a .toml or .json file.",
-        ),
+        path_argument("FILE", "Dragon, path, venue and limits as for POST /check, as a .toml or .json file."),
     ],
     figure: Annotated[Path | None, typer.Option(help="Draw the dance into a .svg or .png file.")] = None,
     time: Annotated[

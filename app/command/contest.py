@@ -10,7 +10,7 @@ import typer
 
 from app.command import show
 from app.command.options import asks
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.contest.films import Wanted
 from app.contest.kit import write_kit
 from app.contest.report import answer_table
@@ -24,7 +24,7 @@ from core import InvalidValue
 @asks(ContestRequest)
 def contest(
     asked: ContestRequest,
-    folder: Annotated[Path, place("FOLDER", "Folder for the files; created if missing.")],
+    folder: Annotated[Path, path_argument("FOLDER", "Folder for the files; created if missing.")],
     language: Annotated[Language, typer.Option(help="Language of names, captions and the report.")] = Language.CHINESE,
     films: Annotated[bool, typer.Option(help="Write dance.mp4 and turn.mp4 (without the extra film: .gif).")] = True,
     gif: Annotated[bool, typer.Option(help="Write the films as .gif too.")] = False,

@@ -12,7 +12,7 @@ import typer
 from app.command import show
 from app.command.options import asks, of_file, unused
 from app.command.paths import PathOptions, dance_of
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import DANCE_ENDINGS, checked_output
 from app.files.film_spec import ENDINGS, GIF_TYPE
@@ -51,14 +51,11 @@ def figures(
     context: typer.Context,
     file: Annotated[
         Path | None,
-        place(
-            "FILE",
-            "Dance as a .toml or .json file, as for check: any dragon, path and venue.",
-        ),
+        path_argument("FILE", "Dance as a .toml or .json file, as for check: any dragon, path and venue."),
     ] = None,
     folder: Annotated[
         Path | None,
-        place(
+        path_argument(
             "FOLDER",
             "Folder for the files; created if missing. It may stand alone, or before FILE. Default: this folder.",
         ),

@@ -14,7 +14,7 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 import typer
 from pydantic import BaseModel
 
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.files.disk import object_words, read_dance
 from app.settings import Settings
 from app.wire.dances import DanceFields, SpanFields, TimeRange
@@ -161,7 +161,7 @@ def _file(body: type[BaseModel]) -> inspect.Parameter:
     """The argument FILE of a command that also answers this request."""
     path = ", any path" if "path" in body.model_fields else "; its path does not count"
     words = f"Dance as a .toml or .json file, as for check: any dragon{path}."
-    annotation = Annotated[Path | None, place("FILE", words)]
+    annotation = Annotated[Path | None, path_argument("FILE", words)]
     return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 

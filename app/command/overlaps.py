@@ -10,7 +10,7 @@ import typer
 
 from app.command import show
 from app.command.options import Json, asks, unused
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.files.disk import read_json
 from app.questions import overlaps as together
 from app.questions.figures import InstantQuery
@@ -27,10 +27,7 @@ def overlaps(
     context: typer.Context,
     file: Annotated[
         Path | None,
-        place(
-            "FILE",
-            "Benches as for POST /overlaps, in place of a dance (- for standard input).",
-        ),
+        path_argument("FILE", "Benches as for POST /overlaps, in place of a dance (- for standard input)."),
     ] = None,
     json: Json = False,
 ) -> None:

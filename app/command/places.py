@@ -11,7 +11,7 @@ import typer
 
 from app.command import show
 from app.command.options import Json
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words, read_dance
 from app.files.tables import Language
@@ -32,7 +32,7 @@ from core.shown import counted
 def places(
     file: Annotated[
         Path,
-        place("FILE", "A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json."),
+        path_argument("FILE", "A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json."),
     ],
     units: Annotated[
         str | None,
@@ -79,7 +79,7 @@ def _print(found: DanceParts) -> None:
 def maps(
     file: Annotated[
         Path,
-        place("FILE", "Dragon, path and venue as for check, as a .toml or .json file."),
+        path_argument("FILE", "Dragon, path and venue as for check, as a .toml or .json file."),
     ],
     output: Annotated[Path, typer.Option(help="Write .geojson, .kml or .dxf (extra dxf).")] = Path("dance.geojson"),
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
@@ -108,7 +108,7 @@ def maps(
 def plan(
     file: Annotated[
         Path,
-        place("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
+        path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json."),
     ],
     output: Annotated[Path, typer.Option(help="Write a .pdf file.")] = Path("plan.pdf"),
     paper: Annotated[Literal["A4", "A3"] | None, typer.Option(help="Size of the paper; default: A4.")] = None,

@@ -23,7 +23,7 @@ from rich.progress import Progress
 
 import core
 from app.command.options import asks
-from app.command.usage import place
+from app.command.usage import path_argument
 from app.files.disk import checked_output, read_dance, write_whole
 from app.questions.check import CheckRequest
 from app.questions.tolerance import CircleQuery
@@ -237,7 +237,7 @@ def turn(asked: TurnClaim, output: Output = Path("turn.proof.json")) -> None:
 def dance(
     file: Annotated[
         Path,
-        place("FILE", "Dragon, path, margin and times as for check, as a .toml or .json file."),
+        path_argument("FILE", "Dragon, path, margin and times as for check, as a .toml or .json file."),
     ],
     every_pair: Annotated[bool, typer.Option(help="Prove every pair separately, also those that repeat.")] = False,
     output: Output = Path("dance.proof.json"),

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 
 from app.command.show import write
-from app.command.usage import path, place
+from app.command.usage import path, path_argument
 from app.extras import require
 from app.files.disk import checked_output
 from app.settings import WORKERS_MAX
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # Exit code that shells use for a command stopped by Ctrl-C.
 INTERRUPTED = 130
 
-Folder = Annotated[Path, place("FOLDER", "Folder of the sweep.")]
+Folder = Annotated[Path, path_argument("FOLDER", "Folder of the sweep.")]
 
 sweep = typer.Typer(
     help="One question for many values of its parameters: up to 10^8 designs in a folder, which a later run continues.",
@@ -47,7 +47,7 @@ def _bar(what: str, total: int) -> Iterator[Callable[[Progress], None]]:
 
 @sweep.command()
 def run(
-    spec: Annotated[Path, place("FILE", "Question, parameters and their values, .toml or .json.")],
+    spec: Annotated[Path, path_argument("FILE", "Question, parameters and their values, .toml or .json.")],
     output: Annotated[
         Path, typer.Option(parser=path, help="Folder for the answers: created if missing, continued if it exists.")
     ],

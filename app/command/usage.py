@@ -42,7 +42,7 @@ def path(text: str | Path) -> Path:
     return Path(text)
 
 
-def place(metavar: str, words: str) -> Any:
+def path_argument(metavar: str, words: str) -> Any:
     """An argument with the name of a file or folder. metavar: its own name in help and messages; words: its help"""
     return typer.Argument(parser=path, metavar=metavar, help=words)
 
