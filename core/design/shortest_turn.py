@@ -177,7 +177,7 @@ class _Entries:
     def tried(self, entry: float) -> Touch:
         """Whether benches meet in the turn with this entry radius [m].
 
-        raises: TooMuchWork if the budget ends before that is known of an entry outside of every bracket
+        raises: TooMuchWork if the budget ends first, and benches are not known to meet at any other entry
         """
         try:
             touch = self._contact(self.turn_at(entry))
