@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from datetime import UTC, datetime
 from enum import StrEnum
 from typing import Any
@@ -56,6 +56,12 @@ class Job:
     size: int
     problem: bytes | None
     expired: int
+
+    @classmethod
+    def of(cls, row: tuple[Any, ...]) -> Job:
+        """The job in a row whose columns are these fields."""
+        found = dict(zip((field.name for field in fields(cls)), row, strict=True))
+        return cls(**found | {"state": JobState(found["state"])})
 
     @property
     def is_finished(self) -> bool:

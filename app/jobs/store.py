@@ -17,7 +17,7 @@ import shutil
 import sqlite3
 import time
 from collections.abc import Container, Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import fields
 from pathlib import Path
 from threading import Lock
@@ -37,6 +37,8 @@ EVENTS_KEPT = 100
 # Number of dead processes after which a job is not tried again.
 DEATHS_MAX = 3
 DAY = 86_400.0  # [s]
+# Largest store that a removal rewrites whole, which takes it half a second [bytes].
+REWRITTEN_MAX = 1 << 26
 # Version of the tables below; a folder with another version is not changed.
 LAYOUT = 2
 TABLES = """
@@ -97,7 +99,8 @@ class Store:
         run("PRAGMA journal_mode = WAL")
         run("PRAGMA synchronous = FULL")
         run("PRAGMA foreign_keys = ON")
-        run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk.
+        run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk; _rewrite removes their copies.
+        run("PRAGMA temp_store = MEMORY")
         with self._change():
             layout = run("PRAGMA user_version").fetchone()[0]
             if layout == 1:
@@ -141,7 +144,7 @@ class Store:
         return bool(changed)
 
     def _tell(self, run: sqlite3.Connection, job: str) -> None:
-        found = _job(run.execute(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", (job,)).fetchone())
+        found = Job.of(run.execute(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", (job,)).fetchone())
         last = run.execute("SELECT coalesce(max(number), 0) FROM events WHERE job = ?", (job,)).fetchone()[0]
         run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(found.status())))
         run.execute("DELETE FROM events WHERE job = ? AND number <= ?", (job, last + 1 - EVENTS_KEPT))
@@ -171,7 +174,7 @@ class Store:
 
     def get(self, job: str) -> Job | None:
         rows = self._read(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", job)
-        return _job(rows[0]) if rows else None
+        return Job.of(rows[0]) if rows else None
 
     def known(self, job: str) -> Job:
         """The job with that name. raises: KeyError if there is none"""
@@ -182,7 +185,7 @@ class Store:
 
     def all(self) -> list[Job]:
         """All jobs, the newest first."""
-        return [_job(row) for row in self._read(f"SELECT {COLUMNS} FROM jobs ORDER BY created DESC, id")]
+        return [Job.of(row) for row in self._read(f"SELECT {COLUMNS} FROM jobs ORDER BY created DESC, id")]
 
     def counts(self) -> tuple[dict[str, int], int, int]:
         """Number of jobs by state; number of answered designs, and of all designs, of the unfinished sweeps."""
@@ -217,16 +220,26 @@ class Store:
         with self._reserve.given():
             return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
 
-    def remove(self, job: str) -> None:
-        """Remove a job with its events and its result."""
-        self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
+    def remove(self, *jobs: str) -> None:
+        """Remove jobs with their events and their results."""
+        for job in jobs:
+            self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
         with self._reserve.given():
             with self._change() as run:
-                run.execute("DELETE FROM jobs WHERE id = ?", (job,))
-            # The write-ahead log still holds the call. While another process copies it, SQLite refuses without waiting.
-            end = time.monotonic() + PATIENCE
-            while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
-                time.sleep(0.01)
+                run.executemany("DELETE FROM jobs WHERE id = ?", [(job,) for job in jobs])
+            self._rewrite()
+
+    def _rewrite(self) -> None:
+        """Leave no byte of what was removed: of its copies where SQLite moved rows between pages, and in the log."""
+        pages = "pragma_page_count, pragma_freelist_count, pragma_page_size"
+        [(size,)] = self._read(f"SELECT (page_count - freelist_count) * page_size FROM {pages}")
+        if size <= REWRITTEN_MAX:
+            with suppress(sqlite3.OperationalError):  # The disk is full: the next removal rewrites the store.
+                self._read("VACUUM")
+        # While another process copies the write-ahead log, SQLite refuses without waiting.
+        end = time.monotonic() + PATIENCE
+        while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
+            time.sleep(0.01)
 
     def has_work(self, days: float) -> bool:
         """True if a runner has work. days: time for which finished jobs are kept"""
@@ -331,10 +344,6 @@ class Store:
             self.result(job).unlink(missing_ok=True)
             with self._change() as run:
                 self._move(run, job, "NOT expired", expired=1, call=b"", size=0, message="Its result has expired.")
-        for (job,) in self._read("SELECT id FROM jobs WHERE finished < ?", latest - days * DAY):
-            self.remove(job)
-
-
-def _job(row: tuple[Any, ...]) -> Job:
-    found = dict(zip((field.name for field in fields(Job)), row, strict=True))
-    return Job(**found | {"state": JobState(found["state"])})
+        gone = [job for (job,) in self._read("SELECT id FROM jobs WHERE finished < ?", latest - days * DAY)]
+        if old or gone:
+            self.remove(*gone)

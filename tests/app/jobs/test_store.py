@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import random
 import re
+import secrets
 import sqlite3
+import time
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
@@ -12,6 +15,7 @@ from threading import Timer
 import orjson
 import pytest
 
+from app.jobs import store as stores
 from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState
 from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, TABLES, Store
 from app.settings import Settings
@@ -193,3 +197,41 @@ def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path: Pa
         with closing(Store(tmp_path)) as store:
             assert store.all() == []
         made.join()
+
+
+def test_a_removal_leaves_no_copy_where_rows_were_moved_unless_the_store_is_too_large(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With these names SQLite moves rows between its pages, and copies stay behind."""
+    seeded = random.Random(10)
+    monkeypatch.setattr(secrets, "token_hex", lambda size: seeded.randbytes(size).hex())
+    many = Settings(jobs_max=100, jobs_client_max=100)
+    made = sorted(store.create("turn", seeded.randbytes(75).hex().encode(), "client", many).id for _ in range(100))
+    for _ in made:
+        store.fail(store.take() or "", PROBLEM)
+
+    def kept() -> int:
+        files = [file.read_bytes() for file in store.folder.glob("jobs.sqlite*")]
+        return sum(any(name.encode() in data for data in files) for name in made[::2])
+
+    monkeypatch.setattr(stores, "REWRITTEN_MAX", 0)
+    store.remove(*made[:-2:2])
+    assert kept() > 1  # the last one, and copies of others
+    monkeypatch.undo()
+    store.remove(made[-2])
+    assert kept() == 0
+    assert len(store.all()) == 50
+
+
+def test_expired_calls_and_jobs_leave_no_byte(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    day_ago = time.time() - 86_400.0
+    with monkeypatch.context() as then:
+        then.setattr(time, "time", lambda: day_ago)
+        job = store.create("turn", b"a call like no other", "client", ROOM).id
+        store.fail(store.take() or "", PROBLEM)
+    data = (store.folder / "jobs.sqlite", store.folder / "jobs.sqlite-wal")
+    for days, left, words in ((0.75, 1, b"a call like no other"), (0.25, 0, job.encode())):
+        assert any(words in file.read_bytes() for file in data)
+        store.expire(days)
+        assert not any(words in file.read_bytes() for file in data)
+        assert len(store.all()) == left
