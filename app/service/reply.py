@@ -14,7 +14,7 @@ import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
-from threading import Event, Lock, Thread, get_ident
+from threading import Event, Lock, Thread, Timer, get_ident
 from typing import Annotated, Any
 
 from fastapi import Depends, Request, Response
@@ -28,7 +28,7 @@ from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task
 from app.questions.registry import CALLS
-from app.service.middleware import Handler, Lanes, client_of, watched
+from app.service.middleware import CHEAP, Handler, Lanes, client_of, watched
 from app.service.problems import Refused
 from app.service.version import build
 from app.settings import Settings
@@ -39,7 +39,8 @@ from core import BenchDragonError, Budget, TooMuchWork
 
 RESPOND_ASYNC = "respond-async"
 # Longest estimated time of a computation that the event loop runs itself [s]: a thread costs a third of a millisecond,
-# a sixth of the answer (2026-11-22). A computation that takes longer is stopped, and repeated in a thread.
+# a sixth of the answer (2026-11-22). A computation that takes longer is stopped, and repeated in a thread: first among
+# the short ones, because a busy machine makes each longer, and if it is not over soon, among the long ones.
 GLANCE = 0.005
 # Time after such a stop during which the loop runs no computation [s]: of 40 at once, each would delay all others.
 REST = 0.1
@@ -159,16 +160,32 @@ class Reply:
 
     async def to_query(self, call: Call, asked: Wire, *form: FileFormat) -> Response:
         """The answer to a request without a body: at once if it should be quick, else from a thread."""
-        if not form and self._is_quick(call, asked):
+        is_quick = not form and self._is_quick(call, asked)
+        if is_quick:
             async with self._glances.turn:
                 if not self._glances.rests:
                     with suppress(TooMuchWork), self._glances.budget() as budget:
                         self.request.state.budget = budget
                         return self(call, asked)
                     self._glances.rest()
-                    self._least_cost = UNKNOWN_COST
         async with watched(self.request, self.settings.deadline_seconds):
+            if is_quick:
+                with suppress(TooMuchWork):
+                    return await run_in_threadpool(self._soon, call, asked)
+                self._least_cost = UNKNOWN_COST
             return await run_in_threadpool(self, call, asked, *form)
+
+    def _soon(self, call: Call, asked: Wire) -> Response:
+        """The answer in the lane of short ones. raises: TooMuchWork if it takes longer than these may"""
+        whole, brief = self.request.state.budget, Budget(brief=True)
+        self.request.state.budget = brief
+        end = Timer(CHEAP, brief.stop, ["soon"])
+        end.start()
+        try:
+            return self(call, asked)
+        finally:
+            end.cancel()
+            self.request.state.budget = whole
 
     def __call__(self, call: Call, asked: Wire, *form: FileFormat) -> Response:
         """The answer to the request, in the best form that the client accepts.
