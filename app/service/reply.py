@@ -168,6 +168,8 @@ class Reply:
                         self.request.state.budget = budget
                         return self(call, asked)
                     self._glances.rest()
+                    is_quick = budget.stopped  # Otherwise it came upon long work itself.
+                    self._least_cost = 0.0 if is_quick else UNKNOWN_COST
         async with watched(self.request, self.settings.deadline_seconds):
             if is_quick:
                 with suppress(TooMuchWork):
