@@ -301,16 +301,15 @@ async def watched(request: Request, seconds: float) -> AsyncIterator[None]:
     """Context in which the request has a budget, which is stopped after `seconds` and when the client is gone."""
     await request.body()  # After the body, the only message is the end of the connection.
     request.state.budget = Budget()
-    task = asyncio.create_task(_watch(request, seconds))
+    task = asyncio.create_task(_watch(request, seconds, request.state.budget))
     try:
         yield
     finally:
         task.cancel()
 
 
-async def _watch(request: Request, seconds: float) -> None:
+async def _watch(request: Request, seconds: float, budget: Budget) -> None:
     lanes: Lanes = request.app.state.lanes
-    budget = request.state.budget
     try:
         async with asyncio.timeout(seconds):
             while (await request.receive())["type"] != "http.disconnect":
