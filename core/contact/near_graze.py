@@ -14,7 +14,7 @@ should have one method.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
 from threading import Lock
 from typing import NamedTuple
@@ -50,19 +50,22 @@ from core.kernels.constants import (
 from core.kernels.results import Marched
 from core.sampling import falls_to_zero
 
-DIGITS = 40
-# Allowed error of a chord [m].
+# An angle has up to 6e5 rad, and its error is enlarged by the radius: at 1e5 m chords are met within 1e-36 m, with 40
+# digits only within 1e-30 m. A near graze takes 12 % longer than with 40 digits (measured 2026-11-26).
+DIGITS = 48
+# Allowed error of a chord [m], and most steps towards it, of which three are enough except near a fold.
 NEGLIGIBLE = Decimal("1e-34")
+LINK_STEPS = 40
 # Smallest term of a series [1]: the five doublings after it enlarge an error at most a thousandfold.
 LAST_TERM = Decimal("1e-51")
-# Largest error of a gap [m]: each of up to LAST_BENCH links has an error of at most NEGLIGIBLE, which a fold may
-# enlarge a hundred million times and overhangs ten thousand times; coordinates of up to 1e5 m have DIGITS digits.
+# Largest error of a gap [m]: each of up to LAST_BENCH links has an error of at most NEGLIGIBLE, or nothing is claimed;
+# a fold may enlarge it a hundred million times, and overhangs ten thousand times.
 GAP_ROUNDING = Decimal("1e-20")
 # Shortest interval of a proof [m].
 SHORTEST = 1e-13
 # Largest relative error of a travel that is divided by the head speed, in doubles, and multiplied again [1].
 CLEAR_ROUNDING = 4.0 * kernels.ULP
-TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502")
+TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502116419498891846156")
 # Last bench of a pair in decimals, because each handle takes a third of a millisecond for each instant [1]; and most
 # intervals before a proof is given up: about a second in all.
 LAST_BENCH = 60
@@ -73,6 +76,10 @@ INTERVALS_MAX = 60
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 
 Vector = tuple[Decimal, Decimal]
+
+
+class Unsolved(ArithmeticError):
+    """A link whose chord is not met within NEGLIGIBLE after LINK_STEPS."""
 
 
 # Decimals hold Python's lock: several threads would not be faster together, and would make all others wait.
@@ -131,7 +138,7 @@ class ExactPair:
         self.can_follow = pair[1] <= LAST_BENCH and not kinds & {CUBIC, CREST}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
-        """The two benches with the head at a travel [m]."""
+        """The two benches with the head at a travel [m]. raises: Unsolved"""
         search = self.search
         search.place_leaders(float(travel), self.pair[1] + 1)
         rows, path = search.placed, search.path
@@ -140,23 +147,28 @@ class ExactPair:
             chord, piece = Decimal(float(search.sizes[k, CHORD])), path.piece_at(rows[k + 1])
             s = Decimal(float(path.along(rows[k + 1, LAG])))
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
-            for _ in range(DIGITS):
+            for _ in range(LINK_STEPS):
                 point = self._point(piece, s)
                 excess = _distance(points[-1], point) - chord
                 if abs(excess) < NEGLIGIBLE:
                     break
                 s += excess / slope
+            else:
+                raise Unsolved(f"link {k}")
             points.append(point)
         first, second = (self._bench(k, points[k], points[k + 1]) for k in self.pair)
         return first, second
 
     def gap(self, travel: Decimal) -> Decimal:
-        """Separation of the two less the margin [m]."""
+        """Separation of the two less the margin [m]. raises: Unsolved"""
         self.search.budget.look()
         return exact_separation(*self.benches(travel))[0] - Decimal(self.search.margin)
 
     def stays_apart(self, start: float, stop: float) -> bool:
-        """True if the two are proven to be further apart than the margin from one travel to another [m]."""
+        """True if the two are proven to be further apart than the margin from one travel to another [m].
+
+        raises: Unsolved
+        """
         search, margin = self.search, Decimal(self.search.margin)
         a, b = self.pair
         tried = 0
@@ -311,7 +323,7 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
     if not others_clear(search, pair.pair, found.proven, found.touching):
         return None
     search.budget.take_time()
-    with _alone(search.budget), localcontext() as context:
+    with _alone(search.budget), localcontext() as context, suppress(Unsolved):
         context.prec = DIGITS
         low, high = Decimal(found.proven), Decimal(found.touching)
         above, below = pair.gap(low), pair.gap(high)
@@ -321,9 +333,9 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
         clear, touching = contact - half, contact + half
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * CLEAR_ROUNDING
-        if pair.gap(later) > -GAP_ROUNDING or not pair.stays_apart(found.proven, beyond):
-            return None
-    return found._replace(proven=clear, touching=touching)
+        if pair.gap(later) <= -GAP_ROUNDING and pair.stays_apart(found.proven, beyond):
+            return found._replace(proven=clear, touching=touching)
+    return None
 
 
 def others_clear(search: Search, pair: tuple[int, int], start: float, stop: float) -> bool:

@@ -11,8 +11,21 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import core.contact.near_graze
-from core import Dance, Dragon, Outcome, Route, Spiral, Turn, Waypoints, first_contact, minimum_pitch, separation
-from core.contact.near_graze import DIGITS, LAST_BENCH, Bench, ExactPair, exact_gap, narrowed
+from core import (
+    Arc,
+    Coil,
+    Dance,
+    Dragon,
+    Outcome,
+    Route,
+    Spiral,
+    Turn,
+    Waypoints,
+    first_contact,
+    minimum_pitch,
+    separation,
+)
+from core.contact.near_graze import DIGITS, LAST_BENCH, NEGLIGIBLE, Bench, ExactPair, exact_gap, narrowed
 from core.contact.near_graze import exact_separation as precise_separation
 from core.contact.search import Search
 from core.kernels import Ended
@@ -52,6 +65,24 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
     size = 2.0 * sizes[:, [HALF_LENGTH, HALF_WIDTH]]
     found = separation(poses[0], size[0], poses[1], size[1]).separation
     assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        *(Spiral(0.55, 1e3), Spiral(1.0, 1e4), Spiral(0.95, 1e5)),
+        Route([Arc((1e5, -1e5), 1e4, 3.0, 6.0)], start=1e3),
+        Route([Coil(1.7, 1e5, 9e4)], start=1e3),
+    ],
+    ids=["550 m", "10 km", "95 km", "arc", "170 km"],
+)
+def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path: Spiral | Route) -> None:
+    model = pair_of(path, (0, 10))
+    with localcontext() as context:
+        context.prec = DIGITS
+        for bench in model.benches(Decimal(7)):
+            size = (bench.along[0] ** 2 + bench.along[1] ** 2).sqrt()
+            assert abs(size - 1) < NEGLIGIBLE
 
 
 boxes = st.tuples(
@@ -157,6 +188,12 @@ def test_where_the_way_before_a_contact_takes_too_many_intervals_the_bracket_sta
     search, found = grazing()
     monkeypatch.setattr(core.contact.near_graze, "INTERVALS_MAX", 2)
     assert narrowed(search, found._replace(proven=found.proven - 1.0), 0.4 * BRACKET) is None
+
+
+def test_where_a_link_is_not_solved_the_bracket_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    search, found = grazing()
+    monkeypatch.setattr(core.contact.near_graze, "LINK_STEPS", 2)
+    assert narrowed(search, found, 0.4 * BRACKET) is None
 
 
 @pytest.mark.parametrize(("half", "within"), [(1e-3, True), (1e-2, False)])
