@@ -22,6 +22,7 @@ from urllib.parse import unquote
 from fastapi import Request, Response
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram
 from starlette.datastructures import Headers
+from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.files.tables import XLSX_TYPE
@@ -166,7 +167,10 @@ class SafetyHeaders(Layer):
 
 
 class Mistakes(Layer):
-    """Answers 500 when the service itself fails, keeps the connection, and writes the traceback only to the log."""
+    """Answers 500 when the service itself fails, keeps the connection, and writes the traceback only to the log.
+
+    A client that ends its connection within its body counts as a 400, although nobody reads the answer.
+    """
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         started = False
@@ -178,11 +182,15 @@ class Mistakes(Layer):
 
         try:
             await self.app(scope, receive, noted)
-        except Exception:
+        except Exception as error:
             if started:
                 raise
-            logger.exception("%s %s failed", scope["method"], scope["path"])
-            await server_problem()(scope, receive, send)
+            if isinstance(error, ClientDisconnect):
+                answer = await http_problem(Request(scope), Refused(400, "The body ended too soon."))
+            else:
+                logger.exception("%s %s failed", scope["method"], scope["path"])
+                answer = server_problem()
+            await answer(scope, receive, send)
 
 
 class Metrics(Layer):

@@ -71,6 +71,16 @@ def test_a_body_that_never_ends_loses_its_connection(held: Service) -> None:
         assert send(held, sent) == b""
 
 
+def test_a_body_that_its_client_breaks_off_or_garbles_is_no_error_of_the_service(held: Service) -> None:
+    head = b"POST /shortest-turn HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+    with socket.create_connection(held.address, timeout=SOON) as peer:
+        peer.sendall(head + b"Content-Length: 9\r\n\r\n{")
+    assert send(held, head + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n").startswith(b"HTTP/1.1 400 ")
+    until(lambda: 'requests_total{path="/shortest-turn",status="400"} 2.0' in httpx.get(f"{held.url}/metrics").text)
+    assert 'path="/shortest-turn",status="500"' not in httpx.get(f"{held.url}/metrics").text
+    assert "/shortest-turn failed" not in held.log.read_text()
+
+
 def test_a_client_that_takes_nothing_of_its_answer_loses_its_connection(held: Service) -> None:
     body = json.dumps({"times": {"stop": 400, "step": 0.1}}).encode()
     head = "POST /trajectory HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
