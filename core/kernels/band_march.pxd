@@ -6,10 +6,9 @@ from core.kernels.rings cimport leaders_reach, radius_beyond
 from core.kernels.pairs cimport BAND_ROUNDING
 from core.kernels.nearest cimport band_least
 from core.kernels.clearance cimport row_gap
-from core.kernels.records cimport Nearest
 from core.kernels.scene cimport Band, Found, Scene
 
-cdef double BACKWARDS_WITHIN, CHAIN_WORK, BAND_ROUNDING, ACROSS
+cdef double BACKWARDS_WITHIN, CHAIN_WORK, ACROSS
 
 @cython.locals(k=cython.Py_ssize_t)
 cdef bint shift_bounds(

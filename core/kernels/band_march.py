@@ -74,11 +74,11 @@ CHAIN_WORK = 5.0
 
 
 # Rounding. Gaps are as good as pairs.py says. For the bounds above, widths are widened by the error of a travel and by
-# BAND_ROUNDING of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal to within
-# a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered by the
-# change of the gaps over 4 theta u r beyond both ends, which their mean slope and the curvature over the step bound.
-BAND_ROUNDING = 1e-9  # [1]
-# shift_bounds() is good to BAND_ROUNDING (pairs.py) of its results. It adds up products of terms >= 0, with fewer than
+# BAND_ROUNDING (pairs.py) of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal
+# to within a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered by
+# the change of the gaps over 4 theta u r beyond both ends, which their mean slope and the curvature over the step bound.
+#
+# shift_bounds() is good to BAND_ROUNDING of its results. It adds up products of terms >= 0, with fewer than
 # 60 roundings for each bench. These terms are angles between handles, with errors of 2 SLIP / r, at most 1e-12 of
 # themselves (rounding.py) where anything is claimed, and sines and tangents of half these angles, whose errors are at
 # most 1e3 times larger because delta stays ACROSS below pi. The only difference is `front`, A above, of which only the

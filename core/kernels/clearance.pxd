@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.records cimport Closest, Faced, Pair
+from core.kernels.records cimport Closest, Pair
 from core.kernels.rectangles cimport bench_gap_within, row_separation
 from core.kernels.hulls cimport hulls_met, nearest_hulls
 from core.kernels.chain cimport place_chain

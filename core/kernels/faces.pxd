@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.gap_curvature cimport band_curvatures, band_between, curvature_along, least_between
 from core.kernels.hulls cimport STEP, Kinds, best_beyond, corner_beyond, facing, gap_beyond, hulls_in
 from core.kernels.hulls cimport nearest_corner, nearest_hulls, uphill, view_of
-from core.kernels.records cimport Axis, Curvatures, Corner, Faced, Hulls, View, Views
+from core.kernels.records cimport Curvatures, Hulls, View, Views
 from core.kernels.scene cimport Band, Interval, Scene
 
 @cython.locals(edge=cython.bint, n=cython.Py_ssize_t)

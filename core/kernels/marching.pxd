@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.records cimport Closest, Laid, Nearest
+from core.kernels.records cimport Closest, Nearest
 from core.kernels.chain cimport extend
 from core.kernels.rings cimport drift
 from core.kernels.scene cimport Found, Interval, Scene

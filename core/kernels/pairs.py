@@ -188,8 +188,8 @@ def proven_gap(scene, interval, i, j, distance, rounding):
     return least - allowance, curvature
 
 
-# Pairs over a band of pitches, see band_march.py. shift_bounds() adds up terms >= 0 with at most 60 roundings for each
-# bench; widening the band by this part of its width makes up for them [1].
+# Pairs over a band of pitches: the largest relative error of shift_bounds(), and the part by which widths are enlarged
+# to make up for it and for their own rounding, see band_march.py [1].
 BAND_ROUNDING = 1e-9
 
 

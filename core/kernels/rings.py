@@ -169,7 +169,7 @@ DISCERNED = 1e-3
 # State:  `gap`, the bound for benches a turn or more apart, the lesser of its values at both growths; `same_turn`, the
 #         bound for benches with another one between them, from their least angle and the largest, of the whole dragon.
 # Output: the lesser of the two, or NO_BOUND.
-def ring_least(growth_low, growth, radius, rings, total=1e150):
+def ring_least(growth_low, growth, radius, rings, total=FREE):
     """Lower bound of the separation of two non-neighbours, the inner one's front handle at `radius` or further out [m].
 
     It holds for every growth in [growth_low, growth] [m/rad]. total: an upper bound of the sum of all chords, where
@@ -228,7 +228,7 @@ def ring_rounding(growth, radius, rings):
     return LEAST_ROUNDING * (radius + TWO_PI * growth + rings.all_length)
 
 
-def ring_clears(growth_low, growth, radius, margin, rings, total=1e150):
+def ring_clears(growth_low, growth, radius, margin, rings, total=FREE):
     """Whether ring_least() certainly exceeds the margin."""
     return ring_least(growth_low, growth, radius, rings, total) > margin + ring_rounding(growth, radius, rings)
 
