@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,9 +13,10 @@ from core.contact.fold import moved_until
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
 from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
-from core.errors import asked_of, checked_number, checked_type
+from core.errors import InvalidValue, Quantity, asked_of, bound, checked_number, checked_type
 from core.kernels import Budget, Ended
 from core.motion.trajectory import trajectory
+from core.paths.following import follows, tightest_bend
 from core.paths.frame import Frame
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -126,14 +127,18 @@ def venue_clearance(
     margin: [m]; stray: largest distance of every hole from its place [m]: then the ground that benches may cover counts
     start, stop: [s], None for dance.default_start and for the end of the run
     nearest: True also finds the least distance, which takes most of the time
-    raises: InvalidValue, also for a path with a bend before the stop that is too tight for a chord; OutsideRun;
-        TooMuchWork
+    raises: InvalidValue, also (stop) for a spiral that becomes too tight for a chord, as most do shortly before their
+        end; OutsideRun; TooMuchWork
     """
     checked_type("venue", venue, Venue)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
     clock, frame = dance.clock, dance.path.frame
-    path = replace(dance, path=venue_route(dance.path, clock.travel(until))).path  # refuses a bend that is too tight
+    path = venue_route(dance.path, clock.travel(until))
+    if not follows(dance.dragon, path):
+        rule = "must be at most {last}, when the path becomes too tight for bench {bench}"
+        last, bench = bound(venue_end(dance), 6, "s"), tightest_bend(dance.dragon)[1]
+        raise InvalidValue("stop", rule, got=Quantity(until, "s"), last=last, bench=bench)
     strayed = checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)  # an area has a Search of its own: its edges, and its share of work
     areas = []

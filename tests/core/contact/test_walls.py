@@ -19,6 +19,7 @@ from core import (
     InvalidValue,
     Line,
     Outcome,
+    Quantity,
     Route,
     Spiral,
     Venue,
@@ -167,8 +168,14 @@ def test_a_spiral_has_its_place_also_before_its_start(start: float, stop: float)
 
 
 def test_a_spiral_too_tight_for_the_head_by_the_stop_is_refused() -> None:
-    with pytest.raises(InvalidValue, match="bench 0"):
-        venue_clearance(Dance(Dragon(benches=3), Spiral()), VENUE_ROUND, stop=432.0)
+    dance = Dance(Dragon(benches=3), Spiral())
+    for stop, got in ((432.0, "432 s"), (None, "432.917")):
+        with pytest.raises(InvalidValue, match=f"bench 0, got {got}") as refused:
+            venue_clearance(dance, VENUE_ROUND, stop=stop)
+        assert refused.value.field == "stop"
+    last = refused.value.values["last"]
+    assert isinstance(last, Quantity)
+    assert venue_clearance(dance, VENUE_ROUND, stop=last.value).areas[0].outcome is Outcome.CLEAR
 
 
 def test_a_dragon_inside_the_square_is_not_misplaced() -> None:
