@@ -24,7 +24,7 @@
 # 3. How tight may the spiral be?
 # 4. How far may people stray from their places?
 #
-# To open it as a notebook: in the folder of the project `pip install '.[data,figures]' jupytext jupyterlab`, then
+# To open it as a notebook: in the folder of the project `pip install -e '.[data,figures]' jupytext jupyterlab`, then
 # `jupytext --to ipynb examples/tour.py`.
 
 # %%
