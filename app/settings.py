@@ -98,7 +98,9 @@ class Settings(BaseModel):
     checked_benches_max: int = Field(
         2_000,
         ge=1,
-        description="Longest dragon in /check, POST /clearance, /maximum-head-speed and /shortest-turn [benches]",
+        description="Longest dragon that is searched bench by bench [benches]: in all questions but trajectory, "
+        "collision_time, minimum_pitch, pitch_scan and GET /clearance; in these, except the trajectory, if the dragon is "
+        "not uniform or the path is no spiral",
     )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
     film_megapixels_max: int = Field(

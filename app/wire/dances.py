@@ -186,7 +186,9 @@ class SpanFields(Wire):
     """A stretch of a dance."""
 
     start: Instant | None = measure(
-        "s", "Start time; default: the start of the dance, or when the whole dragon is on the path", None
+        "s",
+        "Start time; default: when the whole dragon is on the path, with the head at its beginning or further on",
+        None,
     )
     stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
