@@ -99,8 +99,8 @@ class Settings(BaseModel):
         2_000,
         ge=1,
         description="Longest dragon that is searched bench by bench [benches]: in all questions but trajectory, "
-        "collision_time, minimum_pitch, pitch_scan and GET /clearance; in these, except the trajectory, if the dragon is "
-        "not uniform or the path is no spiral",
+        "collision_time, minimum_pitch, pitch_scan and GET /clearance; in these, except the trajectory, if the dragon "
+        "is not uniform or the path is no spiral",
     )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
     film_megapixels_max: int = Field(

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from pydantic import Field
 
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
 from app.wire.dances import PlacedDance
-from app.wire.question import Instant, Question, Terms, Whole, Wire, check_limit, measure
+from app.wire.question import AS_WHOLE, Instant, Question, Terms, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, first_contact
 from core.errors import quantities
 
@@ -28,9 +30,11 @@ class FilmFields(Wire):
         "s", "Last instant; default: first contact, otherwise the end of the run, at most 1,000 s after the start", None
     )
     seconds: float = measure("s", "Length of the film", 20.0, ge=0.1, le=120)
-    rate: Whole | None = measure("1/s", "Frames per second; default: 30, or 12 for a GIF", None, ge=1, le=60)
-    height: Whole | None = measure(
-        "pixels", "Height of the picture, 16 : 9; default: 1080, or 360 for a GIF", None, ge=90, le=2160, multiple_of=2
+    rate: Annotated[int, Field(ge=1, le=60), AS_WHOLE] | None = measure(
+        "1/s", "Frames per second; default: 30, or 12 for a GIF", None
+    )
+    height: Annotated[int, Field(ge=90, le=2160, multiple_of=2), AS_WHOLE] | None = measure(
+        "pixels", "Height of the picture, 16 : 9; default: 1080, or 360 for a GIF", None
     )
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture")
     title: str = Field("", max_length=80, description="Words at the upper right")

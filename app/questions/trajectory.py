@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
+from typing import Annotated
 
 from pydantic import Field
 
 import core
 from app.files import tables
 from app.wire.dances import TimedDance
-from app.wire.question import JSON, Answer, Question, Terms, Whole, measure
+from app.wire.question import AS_WHOLE, JSON, Answer, Question, Terms, measure
 
 
 class TrajectoryRequest(TimedDance):
     """Positions and speeds of every handle at every instant."""
 
-    decimals: Whole | None = Field(None, ge=0, le=15, description="Decimals of x, y and speed; default: full precision")
+    decimals: Annotated[int, Field(ge=0, le=15), AS_WHOLE] | None = Field(
+        None, description="Decimals of x, y and speed; default: all, and 6 in a workbook"
+    )
 
 
 class TrajectoryTable(Answer):

@@ -18,7 +18,7 @@ import core
 from app.sweeps.questions import Question, question_of
 from app.wire.dances import AXIS
 from app.wire.messages import checked
-from app.wire.question import Whole, measure
+from app.wire.question import AS_WHOLE, Whole, measure
 from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
 
@@ -47,7 +47,9 @@ class Range(_Told):
 
     start: float = measure("as the parameter", "First value")
     stop: float = measure("as the parameter", "Last value")
-    count: Whole | None = Field(None, ge=2, le=DESIGNS_MAX, description="Number of values; null: sampled")
+    count: Annotated[int, Field(ge=2, le=DESIGNS_MAX), AS_WHOLE] | None = Field(
+        None, description="Number of values; null: sampled"
+    )
     scale: Literal["linear", "log"] = Field(
         "linear", description="linear: evenly spaced values; log: evenly spaced logarithms"
     )
@@ -101,8 +103,8 @@ class Spec(_Told):
     )
     request: dict[str, Any] = Field(default_factory=dict, description="The other parameters; default: their defaults")
     samples: Samples | None = Field(None, description="Method for ranges without a count")
-    shard_size: Whole | None = Field(
-        None, ge=1, le=SHARD_MAX, description="Designs in a shard; null: about 5 s of work"
+    shard_size: Annotated[int, Field(ge=1, le=SHARD_MAX), AS_WHOLE] | None = Field(
+        None, description="Designs in a shard; null: about 5 s of work"
     )
 
     @classmethod

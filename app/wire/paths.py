@@ -11,6 +11,7 @@ from pydantic import ConfigDict, Discriminator, Field, Tag
 
 import core
 from app.wire.question import (
+    AS_WHOLE,
     Angle,
     Coordinate,
     Margin,
@@ -18,7 +19,6 @@ from app.wire.question import (
     SpiralFields,
     StartTurns,
     TurningDiameter,
-    Whole,
     Wire,
     check_limit,
     measure,
@@ -31,7 +31,7 @@ PIECES_MAX = 1_000
 
 Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
-Leg = Annotated[Whole, Field(ge=0, lt=POINTS_MAX)]
+Leg = Annotated[int, Field(ge=0, lt=POINTS_MAX), AS_WHOLE]
 Start = Annotated[float, measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6)]
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[

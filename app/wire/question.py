@@ -59,8 +59,10 @@ def _whole(value: Any) -> Any:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
-# A whole number of JSON, of which 223.0 is one.
-Whole = Annotated[int, BeforeValidator(_whole)]
+# A whole number of JSON, of which 223.0 is one. Limits stand before the validator where a number may be null or is in a
+# list: elsewhere pydantic would name them in the schema by words of its own.
+AS_WHOLE = BeforeValidator(_whole)
+Whole = Annotated[int, AS_WHOLE]
 # Least and largest sizes of a bench [m].
 LENGTHS, WIDTHS, OVERHANGS = (1e-3, 50.0), (1e-3, 5.0), (0.0, 5.0)
 Length = Annotated[float, Field(ge=LENGTHS[0], le=LENGTHS[1])]

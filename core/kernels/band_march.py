@@ -75,8 +75,9 @@ CHAIN_WORK = 5.0
 
 # Rounding. Gaps are as good as pairs.py says. For the bounds above, widths are widened by the error of a travel and by
 # BAND_ROUNDING (pairs.py) of themselves. The radii at which the chains of b_L and of b_R begin and end a step are equal
-# to within a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered by
-# the change of the gaps over 4 theta u r beyond both ends, which their mean slope and the curvature over the step bound.
+# to within a rounding of theta, a travel of theta u r each. So the least values on b = b_L and on b = b_R are lowered
+# by the change of the gaps over 4 theta u r beyond both ends, which their mean slope and the curvature over the step
+# bound.
 #
 # shift_bounds() is good to BAND_ROUNDING of its results. It adds up products of terms >= 0, with fewer than
 # 60 roundings for each bench. These terms are angles between handles, with errors of 2 SLIP / r, at most 1e-12 of

@@ -103,6 +103,43 @@ def holds_floats(field: Any) -> bool:
     return field.get("type") == "number" or any(isinstance(one, dict) and holds_floats(one) for one in inner)
 
 
+# JSON Schema 2020-12 and OpenAPI 3.1.
+KEYWORDS = {
+    *("$ref", "additionalProperties", "allOf", "anyOf", "const", "contentEncoding", "contentMediaType", "default"),
+    *("description", "discriminator", "enum", "example", "examples", "exclusiveMaximum", "exclusiveMinimum", "format"),
+    *(
+        "items",
+        "maxItems",
+        "maxLength",
+        "maxProperties",
+        "maximum",
+        "minItems",
+        "minLength",
+        "minProperties",
+        "minimum",
+    ),
+    *("multipleOf", "not", "oneOf", "pattern", "prefixItems", "properties", "propertyNames", "required", "title"),
+    *("type", "uniqueItems"),
+}
+
+
+def keywords(schema: Any) -> set[str]:
+    """All words with which a schema and those within it describe values."""
+    if not isinstance(schema, dict):
+        return set()
+    named = [one for word in ("properties", "$defs") for one in schema.get(word, {}).values()]
+    listed = [one for word in ("allOf", "anyOf", "oneOf", "prefixItems") for one in schema.get(word, [])]
+    single = [schema.get(word) for word in ("additionalProperties", "items", "not", "propertyNames")]
+    return schema.keys() | {word for one in (*named, *listed, *single) for word in keywords(one)}
+
+
+def test_schemas_say_their_limits_in_words_that_programs_know(document: Any) -> None:
+    calls = [call for path in document["paths"].values() for call in path.values()]
+    schemas = [one["schema"] for call in calls for one in call.get("parameters", [])]
+    found = {word for one in (*document["components"]["schemas"].values(), *schemas) for word in keywords(one)}
+    assert {word for word in found - KEYWORDS if not word.startswith("x-")} == set()
+
+
 def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) -> None:
     assert [name for name, field in fields(document) if "$ref" not in field and not field.get("description")] == []
     # Directions, ratios, probabilities and numbers of benches have no unit, and the paper's numbers theirs beside them.
