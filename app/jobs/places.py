@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from http import HTTPStatus
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from http.client import HTTPException
 from pathlib import Path
 from typing import Any, cast
-from urllib.error import HTTPError, URLError
+from urllib.error import HTTPError
+from urllib.parse import quote
 from urllib.request import Request, urlopen
 
 import orjson
@@ -18,6 +22,8 @@ from core.errors import Given
 
 # Longest wait for an answer of a service [s].
 PATIENCE = 60.0
+# Fields of every status.
+STATUS = {"jobID", "processID", "status", "progress", "created"}
 
 
 class NoJob(BenchDragonError):
@@ -33,22 +39,36 @@ class InFolder:
         if not (folder / "jobs.sqlite").is_file():
             words = "--data must be a data folder of the service, got {folder} without jobs"
             raise InvalidValue.in_words("data", words, folder=str(folder))
-        self.store = Store(folder)
+        self.folder = folder
+        with self._used():
+            self.store = Store(folder)
+
+    @contextmanager
+    def _used(self) -> Iterator[None]:
+        """A context in which the store is used. raises: InvalidValue if it is damaged or locked"""
+        try:
+            yield
+        except sqlite3.Error as error:
+            words = "--data {folder} cannot be used: {why}"
+            raise InvalidValue.in_words("data", words, folder=str(self.folder), why=str(error)) from error
 
     def list(self) -> list[dict[str, Any]]:
-        return [job.status() for job in self.store.all()]
+        with self._used():
+            return [job.status() for job in self.store.all()]
 
     def show(self, job: str) -> dict[str, Any]:
-        found = self.store.get(job)
+        with self._used():
+            found = self.store.get(job)
         if found is None:
             raise NoJob.in_words("job", "there is no job {job} in {folder}", job=job, folder=str(self.store.folder))
         return found.status()
 
     def cancel(self, job: str) -> str:
         self.show(job)
-        if self.store.dismiss(job):
-            return JobState.DISMISSED
-        self.store.remove(job)
+        with self._used():
+            if self.store.dismiss(job):
+                return JobState.DISMISSED
+            self.store.remove(job)
         return "removed"
 
     def result(self, job: str) -> bytes:
@@ -77,23 +97,35 @@ class OfService:
             try:
                 detail = orjson.loads(error.read())["detail"]
             except (orjson.JSONDecodeError, KeyError, TypeError):
-                detail = f"{error.code} {HTTPStatus(error.code).phrase}"
+                detail = f"{error.code} {error.reason}"
             raise NoJob.in_words("job", "{answer}", answer=str(detail)) from error
-        except URLError as error:
-            words = "--url {url} does not answer: {why}"
-            raise InvalidValue.in_words("url", words, url=self.url, why=str(error.reason)) from error
+        # No connection, or a lost one; an answer that is no HTTP; an address that is none.
+        except (OSError, HTTPException, ValueError) as error:
+            why = str(getattr(error, "reason", error)).strip() or type(error).__name__
+            raise InvalidValue.in_words("url", "--url {url} does not answer: {why}", url=self.url, why=why) from error
+
+    def _told(self, path: str) -> dict[str, Any]:
+        try:
+            found = orjson.loads(self._ask(path))
+        except orjson.JSONDecodeError:
+            found = None
+        jobs = found.get("jobs", [found]) if isinstance(found, dict) else [None]
+        if all(isinstance(job, dict) and job.keys() >= STATUS for job in jobs):
+            return cast(dict[str, Any], found)
+        raise InvalidValue.in_words("url", "--url {url} does not answer as Bench Dragon does", url=self.url)
 
     def list(self) -> list[dict[str, Any]]:
-        return cast(list[dict[str, Any]], orjson.loads(self._ask("/jobs"))["jobs"])
+        return cast(list[dict[str, Any]], self._told("/jobs")["jobs"])
 
     def show(self, job: str) -> dict[str, Any]:
-        return cast(dict[str, Any], orjson.loads(self._ask(f"/jobs/{job}")))
+        return self._told(f"/jobs/{quote(job, safe='')}")
 
     def cancel(self, job: str) -> str:
-        return JobState.DISMISSED if self._ask(f"/jobs/{job}", "DELETE") else "removed"
+        self.show(job)
+        return JobState.DISMISSED if self._ask(f"/jobs/{quote(job, safe='')}", "DELETE") else "removed"
 
     def result(self, job: str) -> bytes:
-        return self._ask(f"/jobs/{job}/result")
+        return self._ask(f"/jobs/{quote(job, safe='')}/result")
 
 
 def place(data: Path | None, url: str, token: str) -> InFolder | OfService:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import socketserver
 import subprocess
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -64,15 +66,50 @@ def test_a_result_goes_to_standard_output(service: Service) -> None:
         (["list", "--data", "/nowhere"], "/nowhere without jobs"),
         (["list", "--data", ".", "--url", "http://127.0.0.1:1"], "give one of the two"),
         (["list", "--url", "http://127.0.0.1:1"], "--url http://127.0.0.1:1 does not answer"),
+        (["list", "--url", "http://127.0.0.1:x"], "--url http://127.0.0.1:x does not answer: nonnumeric port: 'x'"),
         (["list", "--url", "ftp://x"], "--url must begin with http:// or https://"),
     ],
-    ids=["nowhere", "no_folder", "both", "nobody", "no_http"],
+    ids=["nowhere", "no_folder", "both", "nobody", "no_port", "no_http"],
 )
 def test_what_is_wrong_is_one_line(arguments: list[str], words: str) -> None:
     done = run(*arguments)
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        (b"HTTP/1.1 200 OK\r\nContent-Length: 13\r\n\r\n<html></html>", "does not answer as Bench Dragon does"),
+        (b'HTTP/1.1 200 OK\r\nContent-Length: 13\r\n\r\n{"jobs": [{}]}', "does not answer as Bench Dragon does"),
+        (b"HTTP/1.1 200 OK\r\nContent-Length: 99\r\n\r\n{", "does not answer: IncompleteRead"),
+        (b"HTTP/1.1 520 Odd\r\nContent-Length: 0\r\n\r\n", "520 Odd"),
+        (b"SSH-2.0-OpenSSH_9.2\r\n", "does not answer: SSH-2.0-OpenSSH_9.2"),
+        (b"", "does not answer: Remote end closed connection without response"),
+    ],
+    ids=["page", "no_jobs", "broken_off", "odd_status", "no_http", "nothing"],
+)
+def test_an_address_of_something_else_is_refused_in_one_line(answer: bytes, words: str) -> None:
+    class Answering(socketserver.StreamRequestHandler):
+        def handle(self) -> None:
+            while self.rfile.readline().strip():
+                pass
+            self.wfile.write(answer)
+
+    with socketserver.TCPServer(("127.0.0.1", 0), Answering) as other, ThreadPoolExecutor() as beside:
+        beside.submit(other.handle_request)
+        done = run("list", "--url", f"http://127.0.0.1:{other.server_address[1]}")
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_damaged_store_is_refused_in_one_line(tmp_path: Path) -> None:
+    (tmp_path / "jobs.sqlite").write_bytes(b"no database" * 1_000)
+    done = run("list", "--data", str(tmp_path))
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert f"--data {tmp_path} cannot be used: file is not a database" in done.stderr
 
 
 def test_a_service_says_what_it_refuses(service: Service) -> None:
