@@ -20,7 +20,7 @@ from copyreg import __newobj__  # type: ignore[attr-defined]
 from functools import wraps
 from inspect import signature
 from numbers import Real
-from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, ParamSpec, Self, TypeVar, cast
 
 from core.kernels import Budget, Halted
 
@@ -298,14 +298,20 @@ def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]
         def asked(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 checked_type(name, args[0] if args else kwargs[name], kind)
-            if (budget := kwargs.get("budget")) is not None:
+            if (budget := cast(Budget | None, kwargs.get("budget"))) is not None:
                 checked_type("budget", budget, Budget)
             try:
                 return question(*args, **kwargs)
             except Halted as halted:
                 if not found:
                     raise
-                spent, given = halted.budget, signature(question).bind(*args, **kwargs).arguments
+                spent = halted.budget
+            # A part of the question, which has no limit of its own that it could name.
+            except TooMuchWork as part:
+                if not (found and part.stopped and budget is not None):
+                    raise
+                spent = budget
+            given = signature(question).bind(*args, **kwargs).arguments
             dance = given.get("dance") or getattr(given.get("contact"), "dance", None)
             if dragon := given.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")

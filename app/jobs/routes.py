@@ -176,7 +176,7 @@ def ask_later(
         advice = "did you mean {near}?" if near else "it must be one of {known}"
         told: dict[str, Any] = {"near": near[0] if near else "", "known": ", ".join(sorted(CALLS))}
         told["question"] = shown(wanted.question)
-        raise Refused(422, f"question {{question}} is unknown here: {advice}", {"pointer": "/question"}, **told)
+        raise Refused(422, "question {question} is unknown here", {"pointer": "/question"}, reason=advice, **told)
     call, values = CALLS[wanted.question], dict(wanted.request)
     accept = wanted.accept
     if call.question.formats and "format" in values:  # The format is part of the path of the call.

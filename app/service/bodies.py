@@ -140,7 +140,7 @@ async def reply_body(request: Request) -> Reply:
 async def refuse_query(request: Request) -> None:
     """raises: Refused (422) when a request has query parameters but its call takes none"""
     if names := list(request.query_params)[:ERRORS_MAX]:
-        raise Refused.names(names, "is unknown here: this call takes no query parameters: leave it out")
+        raise Refused.names(names, "is unknown here", "this call takes no query parameters: leave it out")
 
 
 BodyReply = Annotated[Reply, Depends(reply_body)]

@@ -17,7 +17,7 @@ from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, item_of, problem_
 from app.wire.question import shown
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
-from core.errors import Value
+from core.errors import Parameter, Value
 
 # Advice to a client whose answer takes too much work.
 A_JOB = "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
@@ -44,9 +44,10 @@ class Refused(HTTPException):
         self.errors = [] if place is None else [item_of(self.told, **place)]
 
     @classmethod
-    def names(cls, names: Iterable[str], rule: str) -> Self:
-        """A refusal (422) of names in a query; rule: what is wrong with each, and what to do."""
-        refused = [cls(422, f"{{name}} {rule}", {"name": name}, name=name[:60]) for name in names]
+    def names(cls, names: Iterable[str], rule: str, advice: str) -> Self:
+        """A refusal (422) of names in a query; rule: what is wrong with each; advice: what to do."""
+        words = f"{{field}} {rule}"
+        refused = [cls(422, words, {"name": name}, reason=advice, field=Parameter(name[:60])) for name in names]
         refused[0].errors = [item for one in refused for item in one.errors]
         return refused[0]
 

@@ -270,7 +270,7 @@ async def reply_query(request: Request) -> Reply:
     if len(given) > len(request.query_params):
         times = collections.Counter(name for name, _ in given)
         twice = sorted(name for name in times if times[name] > 1)[:ERRORS_MAX]
-        raise Refused.names(twice, "is given more than once: give it once")
+        raise Refused.names(twice, "is given more than once", "give it once")
     return Reply(request)
 
 

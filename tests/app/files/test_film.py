@@ -159,4 +159,6 @@ def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
     spec = FilmSpec(0.0, 60.0, 2.0, 12)
     with pytest.raises(TooMuchWork, match="the film was not drawn"):
         film(Dance(Dragon(benches=5), Spiral()), spec, form, budget=budget, progress=stop_after)
+    with pytest.raises(TooMuchWork, match="the film was not drawn"):  # not: the trajectory of the first frames
+        film(Dance(Dragon(benches=5), Spiral()), spec, form, budget=budget)
     assert len(film(Dance(Dragon(benches=5), Spiral()), FilmSpec(0.0, 1.0, 0.2, 10), form)) > 1000
