@@ -277,12 +277,11 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
     """Check the type of a value. raises: InvalidValue naming the parameter if the value is of none of the kinds"""
     if not isinstance(value, kinds):
-        words = " or a ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
+        some = (*(kinds if isinstance(kinds, tuple) else (kinds,)), type(value))
+        *words, own = (f"{'an' if one.__name__[0] in 'AEIOU' else 'a'} {one.__name__}" for one in some)
         plain = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
-        given: Value = Given(value) if plain else f"a {type(value).__name__}"
-        if isinstance(value, type):
-            given = f"the class {value.__name__}"
-        raise InvalidValue(name, "must be a {kinds}", got=given, kinds=words)
+        given = f"the class {value.__name__}" if isinstance(value, type) else Given(value) if plain else own
+        raise InvalidValue(name, "must be {kinds}", got=given, kinds=" or ".join(words))
 
 
 def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -302,15 +301,10 @@ def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]
                 checked_type("budget", budget, Budget)
             try:
                 return question(*args, **kwargs)
-            except Halted as halted:
-                if not found:
+            except (Halted, TooMuchWork) as ended:  # the latter of a part of the question, which others stopped
+                spent = ended.budget if isinstance(ended, Halted) else budget if ended.stopped else None
+                if not found or spent is None:
                     raise
-                spent = halted.budget
-            # A part of the question, which has no limit of its own that it could name.
-            except TooMuchWork as part:
-                if not (found and part.stopped and budget is not None):
-                    raise
-                spent = budget
             given = signature(question).bind(*args, **kwargs).arguments
             dance = given.get("dance") or getattr(given.get("contact"), "dance", None)
             if dragon := given.get("dragon") or (dance and dance.dragon):

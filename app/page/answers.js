@@ -57,7 +57,7 @@ function engines(check, benches, asked) {
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
   const grounds = rows.length === 1 && say("judgedGrounds", { count: check.judged.length });
   const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, asked)}`, say(check.agree ? "agree" : "disagree")];
-  const list = check.together.map((both) => Object.values(pair(both, benches)).join(say("comma"))).join("; ");
+  const list = check.together.map((both) => Object.values(pair(both, benches)).join(say("listed"))).join(say("semicolon"));
   if (list) words.push(say("together", { list }));
   const caption = make("caption", { textContent: words.join(" ") });
   return make("table", {}, caption, make("thead", {}, heads), make("tbody", {}, ...rows));
@@ -136,7 +136,7 @@ export function showMinimumPitch(box, answer, asked, key, use) {
   const pitches = say(all ? "larger" : "largerTried");
   const lines = [sayOf("toCircle", asked, { diameter, pitches }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
-  if (islands.length) lines.push(say("islands", { list: islands.join(say("comma")) }));
+  if (islands.length) lines.push(say("islands", { list: islands.join(say("listed")) }));
   const [low, high] = answer.pitch_bracket;
   const rows = [
     low < high ? bracket("bracketPitch", [low, high], 13) : [say("bracket"), say("bracketNone")],
@@ -164,7 +164,7 @@ export function showShortestTurn(box, answer, asked, use) {
 /** answer: of /maximum-head-speed; use(speed) sets it */
 export function showHeadSpeed(box, answer, asked, use) {
   const { head_speed, head_speed_bracket: [low, high], handles, time } = answer;
-  const name = handles.map((handle) => handleName(handle, Number(asked.benches))).join(say("comma"));
+  const name = handles.map((handle) => handleName(handle, Number(asked.benches))).join(say("listed"));
   const lines = [say("headSpeedIs", { limit: asked.speed_limit, name, time: time.toFixed(6) })];
   const known = low === null ? paragraph(say("headSpeedOpen", { high: bound(high, 9, 1) })) : facts(bracket("bracketHeadSpeed", [low, high], 9));
   show(box, say("headSpeed"), `${head_speed.toFixed(9)} m/s`, lines, [known]);
@@ -187,7 +187,7 @@ export function showTolerance(box, answer, benches, diameter) {
 export function showHighestSpeed(box, fastest, { benches }) {
   if (!fastest) return show(box, say("highest"), say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
   const { speed, speed_bracket, time, handles } = fastest;
-  const name = handles.map((handle) => handleName(handle, benches)).join(say("comma"));
+  const name = handles.map((handle) => handleName(handle, benches)).join(say("listed"));
   const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
   const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
   show(box, say("highest"), `${speed.toFixed(6)} m/s`, [whose], known);
@@ -214,6 +214,6 @@ export const mendWords = (names) => say("mend", { names: names.map((name) => say
 export function insetWords({ benches: [a, b], corner, edge }, gap, asked) {
   const name = (bench) => benchName(bench, asked.benches);
   const meet = () => sayOf("insetMeet", asked, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) });
-  const words = corner && edge ? meet() : `${name(a)}, ${name(b)}`;
-  return gap === null ? words : `${words}; ${gapWords(gap)}`;
+  const words = corner && edge ? meet() : [a, b].map(name).join(say("listed"));
+  return gap === null ? words : `${words}${say("semicolon")}${gapWords(gap)}`;
 }

@@ -63,7 +63,7 @@ function outline({ x, y }, dragon, k) {
 /**
  * Adds to a path the ground that bench k of a pose covers while each of its holes is within the stray [m] of its place:
  * a side moves out by the stray between the holes, and a corner by (d + D) / chord times the stray, where d and D are
- * its distances from the two holes.
+ * its distances from the two holes. The path is left open, as filling closes it.
  */
 export function addGround(path, { x, y }, dragon, k, stray) {
   const { overhang, width } = sizeOf(dragon, k);
@@ -81,7 +81,6 @@ export function addGround(path, { x, y }, dragon, k, stray) {
     path.arc(...place(overhang, half), reach, way, way + Math.PI / 2);
     path.lineTo(...place(0, half + stray));
   });
-  path.closePath();
 }
 
 /** The two ends of an edge by its name in the service; inner is the side nearer to the centre. */
@@ -116,7 +115,7 @@ class Pen {
     context.resetTransform();
     context.clearRect(0, 0, width, height);
     context.setTransform(zoom, 0, 0, -zoom, width / 2 - x * zoom, height / 2 + y * zoom);
-    Object.assign(this, { context, scale });
+    Object.assign(this, { context, scale, right: x + wide / (2 * scale) });
   }
 
   fill(path, colour) {
@@ -168,8 +167,10 @@ class Pen {
     context.translate(x, y);
     context.scale(1 / scale, -1 / scale);
     Object.assign(context, { font: "600 14px system-ui, sans-serif", lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
-    context.strokeText(text, 10, -10);
-    context.fillText(text, 10, -10);
+    const { width } = context.measureText(text);
+    const from = x + (10 + width) / scale > this.right ? -10 - width : 10;
+    context.strokeText(text, from, -10);
+    context.fillText(text, from, -10);
     context.restore();
   }
 }
@@ -250,8 +251,11 @@ export class Dance {
   covered(rectangles) {
     const { pose, contact } = this.scene;
     const places = Array.from(pose.x, (x, k) => this.view.toScreen(x, pose.y[k]));
-    if (contact?.point) places.push(...Array(places.length).fill(this.view.toScreen(...contact.point)));
-    return rectangles.map(({ left, top, right, bottom }) => places.filter(([x, y]) => x > left && x < right && y > top && y < bottom).length);
+    const point = contact?.point ? this.view.toScreen(...contact.point) : [NaN, NaN];
+    return rectangles.map(({ left, top, right, bottom }) => {
+      const isUnder = ([x, y]) => x > left && x < right && y > top && y < bottom;
+      return places.filter(isUnder).length + (isUnder(point) ? places.length : 0);
+    });
   }
 
   /** The path, with arrows in the direction of travel. */
@@ -286,7 +290,10 @@ export class Dance {
     const paths = this.#palette.map(() => new Path2D());
     const share = (speed) => Math.min(Math.max((speed - low) / (high - low), 0), 1);
     const shade = (speed) => (low === null || high - low < SPEED_SPREAD_MIN ? SHADES - 1 : Math.round(share(speed) * (SHADES - 1)));
-    for (let k = pose.x.length - 2; k >= 0; k--) this.bench(k, paths[shade(pose.speed[k])]);
+    for (let k = pose.x.length - 2; k >= 0; k--) {
+      const corners = outline(pose, this.scene.dragon, k);
+      trace([...corners, corners[0]], paths[shade(pose.speed[k])], false); // in Chromium each closePath() looks at the whole path
+    }
     const all = new Path2D();
     paths.forEach((path, k) => {
       pen.fill(path, this.#palette[k]);

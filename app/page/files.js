@@ -67,10 +67,10 @@ export class Files {
     const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof found[one] === "number").map((one) => [one, String(found[one])]));
     if (this.state.get("path") !== "route") this.state.choosePath("route");
     const opened = drawingOf({ ...found, venue: typeof venue === "object" ? venue : null });
-    // A map without a path keeps the drawn path, and one without a venue keeps the venue.
+    // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
     const { points, straight, radius, begin, path: given, things, origin } = this.state.get("drawing");
     if (!path) Object.assign(opened, { points, straight, radius, begin, path: given });
-    if (!venue) Object.assign(opened, { things, origin });
+    if (!venue && !("dragon" in found)) Object.assign(opened, { things, origin });
     const told = {
       ...("dragon" in found && { csv: tableOf(dragon) }),
       ...("passages" in found && { passages: passagesText(found.passages) }),
@@ -78,7 +78,8 @@ export class Files {
     };
     this.state.set({ ...own, ...numbers, ...told, time: null, view: null });
     this.steps.take(opened);
-    announce(() => [say("opened", { name }), ...(found.notes ?? [])].join(" "));
+    const notes = found.notes ?? [];
+    announce(() => [say("opened", { name }), ...notes].join(" "), notes.length > 0);
   }
 
   /** The dance in the format of `bench-dragon check`. */

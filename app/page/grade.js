@@ -79,6 +79,10 @@ export class Grader {
     });
     this.#answers = found;
     for (const [k, [query, file]] of asked.entries()) {
+      if (file?.size === 0) {
+        found.push(refusedBox(file.name, { textContent: say("fileEmpty") }));
+        continue;
+      }
       this.#tell(say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: asked.length }));
       try {
         found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
@@ -108,7 +112,7 @@ function boxes({ files, answers }) {
   const typed = answers.map((one) => {
     const { found, expected, unit, verdict, digits, notes } = one;
     const words = verdict === "right" ? [say("digitsGo", { digits }), ...notes] : [say("rightIs", { value: expected.toFixed(9), unit })];
-    return box(`${say(`typed_${one.answer}`)}: ${found} ${unit}`, verdict, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
+    return box(`${say(`typed_${one.answer}`)}${say("colon")}${found} ${unit}`, verdict, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
   });
   return [...typed, ...files.map(fileBox)];
 }

@@ -109,7 +109,7 @@ export class Graphs {
     const stops = answer.head && !(strayOf(numbers) > 0);
     const words = stops
       ? say("scanAt", { pitch, radius: answer.head.radius.toFixed(6) })
-      : `${say("pitch")} ${pitch} m: ${outcomeWords(answer, numbers)}`;
+      : `${say("pitch")} ${pitch} m${say("colon")}${outcomeWords(answer, numbers)}`;
     $("#scan .reading").textContent = [kind === "spiral" && words, !scan && say("scanLook")].filter(Boolean).join(" · ");
   }
 }

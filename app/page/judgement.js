@@ -42,7 +42,8 @@ export class Judgement {
     const [outcome, mark] = OUTCOMES[dance.verdict];
     const rows = dance.failures.map((failure) => this.#row([`${failure.time.toFixed(DECIMALS)} s`, failure.clock].filter(Boolean).join(" · "), words(failure, dance), () => this.seek(failure)));
     const { length } = course ?? {};
-    const lines = [length === undefined ? "" : say("pathLength", { length: length.toFixed(2), time: (dance.end - dance.begin).toFixed(1) })];
+    const time = (dance.end - dance.begin).toFixed(1);
+    const lines = [length === undefined ? "" : say(Number(time) ? "pathLength" : "pathOnly", { length: length.toFixed(2), time })];
     this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent);
   }
 

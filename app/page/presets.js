@@ -40,10 +40,11 @@ const drawings = {
       },
       { kind: "circle", name: "well", points: [[2.5, -2.5]], radius: 1.5 },
       { kind: "block", name: "stage", points: box(-17, 1.5, -6, 9.5) },
-      { kind: "circle", name: "linden tree", points: [[11, -7]], radius: 0.4 },
-      { kind: "circle", name: "chestnut tree", points: [[10.5, 3.5]], radius: 0.5 },
+      { kind: "circle", name: "linden", points: [[11, -7]], radius: 0.4 },
+      { kind: "circle", name: "chestnut", points: [[10.5, 3.5]], radius: 0.5 },
     ],
   },
 };
 
+/** Things of a preset have keys of words as names. */
 export const PRESETS = Object.fromEntries(Object.entries(drawings).map(([name, drawing]) => [name, { ...EMPTY, ...drawing }]));

@@ -10,12 +10,14 @@ const read = (field) => (NUMBER.test(field.value.trim()) ? Number(field.value.tr
 /** An element with a text, or a label, that follows the language. */
 const said = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
 const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
-const number = (key, act) => labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange: ({ target }) => act(read(target)) });
+/** Least and largest numbers of the fields, as the service takes them. */
+const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4] };
 const unitOf = (textContent) => make("span", { className: "unit", textContent });
 const removing = { className: "reset", textContent: "✕" };
-/** Show a value unless a person is typing there. */
+const isRefused = (field) => field.getAttribute("aria-invalid") === "true";
+/** Show a value unless a person is typing there, or typed what was refused. */
 const put = (field, value) => {
-  if (document.activeElement !== field && field.value !== String(value)) field.value = value;
+  if (document.activeElement !== field && !isRefused(field) && field.value !== String(value)) field.value = value;
 };
 
 export class RouteForm {
@@ -27,10 +29,11 @@ export class RouteForm {
     Object.assign(this, { box, state, steps, editor });
     this.preset = labelled("select", "preset", { id: "preset", onchange: () => this.beginWith(this.preset.value) });
     this.preset.append(said("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => said("option", `preset_${name}`, { value: name })));
-    this.corner = number("cornerRadius", (radius) => radius > 0 && this.#take({ radius }));
-    this.limit = number("speedLimit", (limit) => this.#take({ limit: limit > 0 ? limit : null }));
-    this.begin = number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
-    this.origin = ["latitude", "longitude"].map((key) => number(key, () => this.#placed()));
+    this.corner = this.#number("cornerRadius", (radius) => radius && this.#take({ radius }));
+    this.limit = this.#number("speedLimit", (limit) => this.#take({ limit }));
+    this.begin = this.#number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
+    this.origin = ["latitude", "longitude"].map((key) => this.#number(key, () => this.#placed()));
+    this.wrong = make("p", { className: "error", role: "alert" });
     this.rows = make("tbody");
     this.list = make("ul");
     this.pointsTitle = make("summary");
@@ -54,6 +57,31 @@ export class RouteForm {
 
   get #drawing() {
     return this.state.get("drawing");
+  }
+
+  /** A field for a number; what is none, or beyond its limits, is refused below it. act: takes the number, or null for an empty field */
+  #number(key, act) {
+    const [low, high] = LIMITS[key];
+    const onchange = ({ target }) => {
+      const found = read(target);
+      const isRight = !target.value.trim() || (found !== null && low <= found && found <= high);
+      this.#mark(target, isRight ? "" : say("noNumberIn", { what: say(key), low, high, text: target.value }));
+      if (isRight) act(found);
+    };
+    return labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange });
+  }
+
+  /** Show why a number is refused, until it is right, another one is refused or the drawing changes; without words it is right. */
+  #mark(field, words) {
+    const before = this.refused?.field;
+    if (!words && field !== before) return;
+    before?.removeAttribute("aria-invalid");
+    this.refused = words ? { field, drawing: this.#drawing } : null;
+    this.wrong.textContent = words;
+    if (!words) return this.wrong.remove();
+    field.setAttribute("aria-invalid", "true");
+    field.closest("table, ul, .line").after(this.wrong);
+    if (before !== field) this.show();
   }
 
   #take(changes, kind = null) {
@@ -81,17 +109,20 @@ export class RouteForm {
   /** Begin with a preset; a person's own square stays, unless the preset has one. */
   beginWith(name) {
     const { things, origin, limit } = this.#drawing;
-    const isOwn = Object.values(PRESETS).every((one) => JSON.stringify(one.things) !== JSON.stringify(things));
+    const shapes = (some) => JSON.stringify(some.map(({ name: _, ...shape }) => shape));
+    const isOwn = Object.values(PRESETS).every((one) => shapes(one.things) !== shapes(things));
     this.preset.value = "";
     this.editor.edit(null);
     this.state.set({ view: null, time: null });
     const preset = PRESETS[name] ?? EMPTY;
-    this.steps.take(isOwn && !preset.things.length ? { ...preset, things, origin, limit } : preset);
+    const named = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
+    this.steps.take({ ...preset, ...(isOwn && !named.length ? { things, origin, limit } : { things: named }) });
   }
 
   /** Show the drawing; rows are made again only if their number changes. */
   show() {
     const { points, straight, radius, limit, begin, things, path, origin } = this.#drawing;
+    if (this.refused && this.refused.drawing !== this.#drawing) this.#mark(this.refused.field, "");
     put(this.corner, radius);
     put(this.limit, limit ?? "");
     put(this.begin, begin);
@@ -130,7 +161,7 @@ export class RouteForm {
 
   #pointRow(k) {
     const fields = ["pointX", "pointY"].map((key, axis) =>
-      number(key, (value) => value !== null && this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
+      this.#number(key, (value) => value !== null && this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
     );
     const leg = labelled("input", "straightOn", { type: "checkbox", onchange: () => this.steps.take(bent(this.#drawing, k)) });
     const remove = labelled("button", "remove", { type: "button", ...removing, onclick: () => this.steps.take(removed(this.#drawing, null, k)) });
@@ -151,7 +182,7 @@ export class RouteForm {
     const row = {
       edit: button({}, edit),
       name: labelled("input", "thingName", { autocomplete: "off", spellcheck: false, onchange: rename }),
-      radius: number("thingRadius", (radius) => radius > 0 && this.steps.take(withThing(this.#drawing, k, { radius }))),
+      radius: this.#number("thingRadius", (radius) => radius && this.steps.take(withThing(this.#drawing, k, { radius }))),
       unit: unitOf("m"),
       remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(k, 1) })),
     };

@@ -165,7 +165,8 @@ export class State {
     const query = new URLSearchParams();
     const { drawing, csv, ...others } = this.#values;
     for (const [name, value] of Object.entries(others)) {
-      if (value !== this.initial(name)) query.set(name, name === "view" ? value.map((one) => +one.toPrecision(6)) : value);
+      if (value === this.initial(name)) continue;
+      query.set(name, { view: () => value.map((one) => +one.toPrecision(6)), time: () => +value.toFixed(9) }[name]?.() ?? value);
     }
     const plain = query.toString();
     if (csv) query.set("csv", csv);

@@ -4,7 +4,7 @@ import { showRefusal } from "./answers.js";
 import { $ } from "./elements.js";
 import { refusalWords } from "./text.js";
 
-/** Titles of the boxes that show a refusal. */
+/** Titles of the boxes that show a refusal, in the order of the page. */
 const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", head: "headSpeed", fastest: "highest" };
 
 /** boxOf(kind): selector of the box of this kind of answer */
@@ -12,7 +12,9 @@ export function tellRefusals(questions, graphs, boxOf) {
   // Each message appears once: beside its field, or in the first box that it concerns.
   const wordsOf = (told) => refusalWords(told).textContent;
   const shown = new Set([...questions.errors().values()].map(wordsOf));
-  for (const [kind, { told, errors }] of questions.refusals) {
+  const inOrder = [...Object.keys(TITLES), ...questions.refusals.keys()].filter((kind, k, all) => questions.refusals.has(kind) && all.indexOf(kind) === k);
+  for (const kind of inOrder) {
+    const { told, errors } = questions.refusals.get(kind);
     const words = [told, ...errors].map(wordsOf);
     const first = words.some((one) => shown.has(one)) ? null : told;
     for (const one of words) shown.add(one);

@@ -42,7 +42,7 @@ function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
   context.scale(1 / pen.scale, -1 / pen.scale);
   Object.assign(context, { font: FONT, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
-  const places = [away, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
+  const places = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
   const isInside = ([dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
   const isFree = ([dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
   const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : (places.find(isInside) ?? places[0]));

@@ -50,6 +50,13 @@ def test_no_text_is_missing_in_either_language(visit: Any) -> None:
         empty = "[...document.querySelectorAll('[data-text]')].filter((one) => !one.textContent).length"
         assert page.evaluate(empty) == 0
         assert "undefined" not in page.locator("body").inner_text()
+    keys = page.evaluate(
+        """async () => {
+          const rooms = await Promise.all(["dance", "answers", "more"].map((one) => import(`/page/words/${one}.js`)));
+          return rooms.flatMap(Object.values).flatMap(Object.keys);
+        }"""
+    )
+    assert len(keys) == len(set(keys)) > 300
 
 
 def test_the_page_is_used_by_keyboard_alone(open_page: Any) -> None:

@@ -35,6 +35,8 @@ QUERIES = (
     ("collision-time", {"stray": 0.9}),
     ("collision-time", {"overhang": 1.2, "body_length": 2.2}),
     ("minimum-pitch", {"margin": 1.6}),
+    ("minimum-pitch", {"width": 5}),
+    ("minimum-pitch", {"benches": 9, "turning_diameter": 200, "start_turns": 1}),
     ("minimum-pitch", {"head_length": 2.2, "overhang": 0.8}),
     ("minimum-pitch", {"start_turns": 1e-9}),
     ("minimum-pitch", {"benches": 100_001}),

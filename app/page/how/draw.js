@@ -107,6 +107,7 @@ export class Picture extends Sheet {
       words.push("A", r, r, 0, 0, 0, ...this.at(x + radius * Math.cos(to), y + radius * Math.sin(to)));
     };
     addGround(path, pose, dragon, k, stray);
+    path.closePath();
     this.add("path", { class: className, d: words.join(" ") });
   }
 

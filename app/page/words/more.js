@@ -72,6 +72,7 @@ export const MORE = {
   toDecimals: ["{verdict} to {decimals} decimals", "{verdict}到 {decimals} 位小数"],
   noNumber: ["{what} must be a number such as {example}: you typed “{text}”.", "{what}应为数字，例如 {example}：现为“{text}”。"],
   fileTooLong: ["The file is longer than {most} MB: a workbook of the contest has 2 MB.", "文件超过 {most} MB：竞赛工作簿约 2 MB。"],
+  fileEmpty: ["The file is empty.", "文件是空的。"],
   grading: ["Grading {name} ({k} of {count}) …", "正在评阅 {name}（第 {k} 个，共 {count} 个）……"],
   mark_right: ["right", "正确"],
   mark_rounded: ["rounded", "已舍入"],
