@@ -1,9 +1,17 @@
-"""Types of arrays and points."""
+"""Types of arrays, points and listeners."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]
+# Called with the share of the work that is done, 0 to 1.
+Progress = Callable[[float], None]
+
+
+def unheard(share: float) -> None:
+    """Listener that ignores progress."""

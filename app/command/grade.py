@@ -39,7 +39,9 @@ SUMMARY = ("file", "workbook", "verdict", "cells", "right", "missing", "diagnosi
 def grade(
     files: Annotated[
         list[Path] | None,
-        typer.Argument(help="result1.xlsx, result2.xlsx, result4.xlsx, or CSV; or folders of many students."),
+        typer.Argument(
+            metavar="[FILE]...", help="result1.xlsx, result2.xlsx, result4.xlsx, or CSV; or folders of many students."
+        ),
     ] = None,
     collision_time: Annotated[str | None, typer.Option(help="Answer to question 2: time of first contact [s]")] = None,
     pitch: Annotated[str | None, typer.Option(help="Answer to question 3: minimum pitch [m]")] = None,

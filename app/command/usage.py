@@ -25,7 +25,8 @@ def told(error: Any) -> str:
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
     if parameter is not None and not error.message:
-        name = parameter.name.upper() if parameter.param_type_name == "argument" else parameter.opts[0]
+        own = parameter.metavar or parameter.name.upper()
+        name = own if parameter.param_type_name == "argument" else parameter.opts[0]
         return f"{name} is missing" if hasattr(error, "param_type") else f"{name} {EMPTY}"  # refused by path()
     if parameter is not None and said:
         return _unfit(parameter, said[1])

@@ -23,6 +23,7 @@ from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
 from core.dragon import BENCHES_MAX, wider_pin
 from core.errors import said
+from core.values import Progress, unheard
 
 JSON = "application/json"
 # Any file.
@@ -235,10 +236,6 @@ class DanceQuery(HeadSpeed, SpiralFields, UniformDragon):
 UNKNOWN_COST = 1.0
 
 
-def unheard(share: float) -> None:
-    """Listener that ignores progress."""
-
-
 class FileFormat(StrEnum):
     """Formats of a file: endings of an address, each with its media type."""
 
@@ -261,7 +258,7 @@ class Terms:
 
     settings: Settings = field(default_factory=Settings)
     budget: Budget = field(default_factory=Budget)
-    progress: Callable[[float], None] = unheard
+    progress: Progress = unheard
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -31,7 +31,7 @@ from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import Spiral
 from core.shown import WithArrays, counted, extent
 from core.tables import data_frame
-from core.values import Floats
+from core.values import Floats, Progress, unheard
 
 if TYPE_CHECKING:
     import pandas
@@ -146,7 +146,7 @@ def pitch_scan(
     start_turns: float = 16.0,
     margin: float = 0.0,
     locate: bool = True,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress | None = None,
     budget: Budget | None = None,
 ) -> PitchScan:
     """First-contact radius at every pitch, and at more pitches where it falls by more than JUMP between two samples.
@@ -186,7 +186,7 @@ def pitch_scan(
             middle = 0.5 * (low + high)
             known[middle] = radius(middle)
             intervals += [(low, middle), (middle, high)]
-        progress((k + 1) / len(pitches))
+        (progress or unheard)((k + 1) / len(pitches))
     return _scan(known, jumps)
 
 
@@ -235,7 +235,7 @@ def scan_near_minimum(
     margin: float,
     samples: int,
     locate: bool = True,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress | None = None,
     budget: Budget | None = None,
 ) -> tuple[PitchScan, MinimumPitch]:
     """The scan at pitches_near() the minimum pitch and at its bracket, and that minimum.

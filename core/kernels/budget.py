@@ -36,6 +36,8 @@ class Budget:
         self.brief = brief
         self.limited = work is not None
         try:
+            if isinstance(work, (bool, str, bytes)):  # float() takes these too
+                raise TypeError
             self.work = self.left = math.inf if work is None else float(work)
         except (TypeError, ValueError) as error:
             raise ValueError(f"work must be a number of steps, got {work!r}") from error
@@ -46,7 +48,7 @@ class Budget:
         self.then = f"within {self.work:g} steps of work, each a bench placed or a pair of benches tried"
 
     def __repr__(self):
-        left = "no limit" if math.isinf(self.work) else f"{self.left:g} of {self.work:g} steps of work left"
+        left = "no limit" if math.isinf(self.work) else f"{max(self.left, 0.0):g} of {self.work:g} steps of work left"
         left = left if self.limited else "the default work of each question"
         return f"<Budget: {left}{', brief' if self.brief else ''}{', stopped' if self.stopped else ''}>"
 

@@ -81,6 +81,8 @@ class Trajectory(WithArrays):
         returns: the given axes, or those of a new figure, in metres
         raises: ImportError without matplotlib, naming the extra; IndexError if there is no such instant
         """
+        if not self.time.size:
+            raise IndexError("there is no instant to plot: the trajectory was asked for at no time")
         axes = plots.wanted_axes(ax, "Trajectory.plot()")
         time = self.time.reshape(-1)[instant]
         handles, velocity, speed = (

@@ -12,15 +12,16 @@ from flint import __FLINT_VERSION__, __version__, ctx
 
 from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
-from core.errors import InvalidValue, OutsideRun, ProofRefused
+from core.errors import InvalidValue, OutsideRun, ProofRefused, checked_type
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
 from core.proof.dances import ClearClaim, ContactClaim, last_stop
 from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
 from core.proof.paths import core_path, recorded_path
 from core.proof.strays import ToleranceClaim, recorded_pose
-from core.proof.sweeps import Progress, found, recorded, swept
+from core.proof.sweeps import found, recorded, swept
 from core.proof.words import runs
 from core.tolerance.exhibit import Exhibit
+from core.values import Progress, unheard
 
 FORMAT = "bench-dragon proof 1"
 # Working precision [bits]: the claims decide gaps of about 1e-12 m; 96 bits leave 1e-24 m after 1e5 handles.
@@ -40,7 +41,7 @@ class Proof:
 
 
 def prove_collision_time(
-    dance: Dance, time: float, *, margin: float = 0.0, every_pair: bool = False, progress: Progress = lambda share: None
+    dance: Dance, time: float, *, margin: float = 0.0, every_pair: bool = False, progress: Progress | None = None
 ) -> Certificate:
     """A certificate that nothing touches in [0, time - 1e-10], and that a pair strictly overlaps at time + 1e-10 [s].
 
@@ -65,7 +66,7 @@ def prove_minimum_pitch(
     start_turns: float = 16.0,
     margin: float = 0.0,
     every_pair: bool = False,
-    progress: Progress = lambda share: None,
+    progress: Progress | None = None,
 ) -> Certificate:
     """A certificate that nothing touches on the way to the circle, and that a pair overlaps at a pitch 1e-6 m smaller.
 
@@ -73,6 +74,7 @@ def prove_minimum_pitch(
     within the circle; then the certificate proves that instead. It proves nothing about larger pitches.
     pitch, turning_radius: [m]; margin, every_pair, progress, returns, raises: as prove_collision_time()
     """
+    checked_type("dragon", dragon, Dragon)
     return _proven(MinimumPitchClaim(dragon, pitch, start_turns, turning_radius, margin), every_pair, progress)
 
 
@@ -83,7 +85,7 @@ def prove_clear(
     start: float | None = None,
     margin: float = 0.0,
     every_pair: bool = False,
-    progress: Progress = lambda share: None,
+    progress: Progress | None = None,
 ) -> Certificate:
     """A certificate that nothing touches in [start, stop] [s], or comes within the margin [m].
 
@@ -107,7 +109,7 @@ def prove_contact(
     start: float | None = None,
     margin: float = 0.0,
     every_pair: bool = False,
-    progress: Progress = lambda share: None,
+    progress: Progress | None = None,
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
     record, begin = recorded_path(_steady(dance).path), dance.default_start if start is None else start
@@ -122,7 +124,7 @@ def prove_tolerance(
     start: float = 0.0,
     stop: float | None = None,
     every_pair: bool = False,
-    progress: Progress = lambda share: None,
+    progress: Progress | None = None,
 ) -> Certificate:
     """A certificate that nothing touches in [start, stop] [s] while every hole is within the stray of its place [m].
 
@@ -144,21 +146,25 @@ def prove_tolerance(
 
 def _steady(dance: Dance) -> Dance:
     """The dance, whose places and times are proportional. raises: InvalidValue for passages"""
+    checked_type("dance", dance, Dance)
     if dance.passages:
         rule = "must be left out for a proof, which is about places of the head: prove dance.steady"
         raise InvalidValue("passages", f"{rule}, whose times are those places divided by its head speed")
     return dance.steady
 
 
-def _proven(claim: AnyClaim, every_pair: bool, progress: Progress, pose: dict[str, Any] | None = None) -> Certificate:
+def _proven(
+    claim: AnyClaim, every_pair: bool, progress: Progress | None, pose: dict[str, Any] | None = None
+) -> Certificate:
+    report = progress or unheard
     with ctx.workprec(PRECISION), refusing("claim"):
         chain = claim.chain
-        overlap = pose or claim.find_overlap(lambda share: progress(claim.search_share * share))
+        overlap = pose or claim.find_overlap(lambda share: report(claim.search_share * share))
         claim.verify_overlap(overlap)
         repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
 
         def going_on(share: float) -> None:
-            progress(1.0 - (1.0 - claim.search_share) * (1.0 - share))
+            report(1.0 - (1.0 - claim.search_share) * (1.0 - share))
 
         sweeps = swept(chain, *claim.way, repeats_from, found(chain), going_on, claim.follows)
     certificate = {
@@ -180,7 +186,7 @@ def _values(claim: AnyClaim) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value or name not in ("margin", "shown")}
 
 
-def verify(certificate: Certificate, *, progress: Progress = lambda share: None) -> Proof:
+def verify(certificate: Certificate, *, progress: Progress | None = None) -> Proof:
     """The statement that a certificate proves, after every inequality in it was verified again, without a search.
 
     certificate: as made here, or read from JSON; the balls have the precision that it states
@@ -196,7 +202,7 @@ def verify(certificate: Certificate, *, progress: Progress = lambda share: None)
         raise ProofRefused.in_words("digest", "the certificate was changed after it was made")
     try:
         with ctx.workprec(certificate["precision"]), refusing("certificate"):
-            return _verified(content, progress)
+            return _verified(content, progress or unheard)
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"

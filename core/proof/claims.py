@@ -18,9 +18,10 @@ from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unfinished, Unproven, above, below
-from core.proof.sweeps import AnyChain, OverlapFound, Progress, found, swept
+from core.proof.sweeps import AnyChain, OverlapFound, found, swept
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisected
+from core.values import Progress
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"

@@ -16,8 +16,9 @@ from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
 from core.proof.paths import chain_on, core_path, described
 from core.proof.route import RouteChain
-from core.proof.sweeps import AnyChain, Progress
+from core.proof.sweeps import AnyChain
 from core.proof.words import apart_words, contact_words, danced_words
+from core.values import Progress
 
 # Time after the stop of a claim by which the run is certainly over, if the claim includes the end: exact decimal [s].
 END_BRACKET = "1e-9"

@@ -16,9 +16,9 @@ from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
 from core.proof.pairs import Benches, Unproven, above, below
-from core.proof.sweeps import Progress
 from core.proof.words import apart_words, danced_words, spiral_words
 from core.tolerance.exhibit import Exhibit
+from core.values import Progress
 
 # Added to the strays of a pose in doubles, to be shown in balls: above the rounding of places up to 1e4 m [m].
 SHOWN_ROUNDING = 1e-9

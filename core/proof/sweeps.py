@@ -13,13 +13,13 @@ from core.proof.ground import AT_ONCE, ONE_BY_ONE, best_side
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, Unfinished, Unproven, malformed
 from core.proof.route import RouteChain
 from core.proof.route_stretch import RouteStretch
+from core.values import Progress
 
 # First width of a stretch, its growth after a success, and the width at which the search gives up [rad], [m].
 WIDTH_FIRST = 0.5
 WIDTH_GROWTH = 1.5
 WIDTH_LEAST = 1e-13
 
-Progress = Callable[[float], None]
 AnyChain = Chain | RouteChain
 AnyStretch = SpiralStretch | RouteStretch
 # Proof that a pair is apart: a face, or with a stray one side of their grounds or nine (16.).

@@ -162,6 +162,8 @@ def _checked_handles(handles: object) -> Floats:
     if places.dtype.kind not in "iuf" or places.ndim < 2 or places.shape[-1] != 2:
         words = "must be places of shape (..., n + 1, 2) in metres"
         raise InvalidValue("handles", words, got=f"{places.dtype.name} of shape {places.shape}")
+    if not np.isfinite(places).all():
+        raise InvalidValue("handles", "must be finite")
     return places.astype(np.float64, copy=False)
 
 

@@ -11,7 +11,7 @@ machine with the same release of NumPy, in any order, and beside any other sampl
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from numbers import Integral
 
@@ -29,7 +29,7 @@ from core.tolerance.safe import safe_words
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
-from core.values import Floats
+from core.values import Floats, Progress, unheard
 
 # Number of instants whose numbers come from one counter [1]. It is part of the definition of a sample: another value
 # changes the samples.
@@ -120,7 +120,7 @@ def contact_probability(
     start: float | None = None,
     stop: float | None = None,
     budget: Budget | None = None,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress | None = None,
 ) -> ContactProbability:
     """Probability that two benches touch when people wobble, from dances drawn at random.
 
@@ -156,7 +156,7 @@ def contact_probability(
         for first in range(0, len(which), together):
             batch = which[first : first + together]
             for share in sampled.dance(batch, found, first):
-                progress((first + share * len(batch)) / len(which))
+                (progress or unheard)((first + share * len(batch)) / len(which))
         bound = None if model.pitch_error or model.play else union_bound(steady, model, at, budget)
     except Halted as halted:
         rule = "must be fewer, or the time asked about shorter: the probability of a contact was not found {then}"

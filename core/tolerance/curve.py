@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from core.paths.spiral import Spiral
 from core.shown import WithArrays, extent
 from core.tables import data_frame
 from core.tolerance.tolerance import Tolerance, tolerance
-from core.values import Floats
+from core.values import Floats, Progress, unheard
 
 if TYPE_CHECKING:
     import pandas
@@ -68,7 +68,7 @@ def tolerance_curve(
     *,
     turning_radius: float = 4.5,
     start_turns: float = 16.0,
-    progress: Callable[[float], None] = lambda share: None,
+    progress: Progress | None = None,
     budget: Budget | None = None,
 ) -> ToleranceCurve:
     """Stray that is safe at each of some pitches, from the start until the head is on the turning circle.
@@ -96,7 +96,7 @@ def tolerance_curve(
                 raise
             rule = "must be fewer: the tolerance was found for only {found} of them {then}"
             raise too_much(budget, "pitches", rule, column.size, found=k) from None
-        progress((k + 1) / column.size)
+        (progress or unheard)((k + 1) / column.size)
     return ToleranceCurve(column, np.array([one.stray for one in answers]), tuple(answers))
 
 

@@ -193,6 +193,7 @@ def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str
         ("collision-time --cross-check all", "--cross-check must be dragon, pair or none, got all"),
         ("check", "FILE is missing"),
         ("sweep run spec.toml", "--output is missing"),
+        ("sweep run", "FILE is missing"),
         ("check dance.toml --margin 1.3", "--margin is unknown here: see --help"),
         ("foo", "foo is unknown here: see --help"),
         ("overlap", "overlap is unknown here: did you mean overlaps?"),

@@ -91,6 +91,8 @@ def test_a_trajectory_without_its_dance_shows_the_handles_alone(axes: Axes) -> N
 def test_an_instant_that_is_not_there_is_refused(axes: Axes) -> None:
     with pytest.raises(IndexError):
         trajectory(DANCE, [0.0]).plot(axes, instant=1)
+    with pytest.raises(IndexError, match="there is no instant to plot"):
+        trajectory(DANCE, []).plot(axes)
 
 
 def test_a_clearance_profile_shows_its_grazes(axes: Axes) -> None:

@@ -22,6 +22,18 @@ def test_a_loop_has_to_end_when_its_work_is_done_or_when_it_is_stopped() -> None
     assert budget.uses_up(1.0)
 
 
+@pytest.mark.parametrize("work", ["1", b"1", True, "x", -1.0, float("nan"), [3]])
+def test_what_is_no_amount_of_work_is_refused(work: object) -> None:
+    with pytest.raises(ValueError, match="work must be"):
+        Budget(work)  # type: ignore[arg-type]
+
+
+def test_a_spent_budget_shows_that_nothing_is_left() -> None:
+    budget = Budget(3.0)
+    budget.spend(5.0)
+    assert repr(budget) == "<Budget: 0 of 3 steps of work left>"
+
+
 def test_a_brief_budget_refuses_long_work_alone() -> None:
     Budget(brief=True).afford(1.0)
     Budget().take_time()

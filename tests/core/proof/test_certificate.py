@@ -12,8 +12,16 @@ import pytest
 from flint import ctx
 
 from core import Dance, Dragon, Spiral, first_contact
-from core.errors import ProofRefused
-from core.proof import Certificate, prove_collision_time, prove_minimum_pitch, verify
+from core.errors import InvalidValue, ProofRefused
+from core.proof import (
+    Certificate,
+    prove_clear,
+    prove_collision_time,
+    prove_contact,
+    prove_minimum_pitch,
+    prove_tolerance,
+    verify,
+)
 from tests.core.forgeries import FORGERIES, edit, through_json
 from tests.core.forgeries import put_at as at
 from tests.core.proof.contacts import CONTACTS, SMALL, proof_of
@@ -114,6 +122,14 @@ def test_a_certificate_is_checked_with_the_precision_that_it_states(
     with pytest.raises(ProofRefused):
         verify(edit(at("precision", put=precision))(small))
     assert used == [precision]
+
+
+def test_what_is_no_dance_and_what_is_no_dragon_are_refused_by_name() -> None:
+    for prove in (prove_clear, prove_collision_time, prove_contact, prove_tolerance):
+        with pytest.raises(InvalidValue, match="dance must be a Dance, got 3"):
+            prove(3, 1.0)  # type: ignore[operator]
+    with pytest.raises(InvalidValue, match="dragon must be a Dragon, got 3"):
+        prove_minimum_pitch(3, 0.5)  # type: ignore[arg-type]
 
 
 def test_progress_rises_to_one_and_the_precision_is_left_as_it_was() -> None:

@@ -286,6 +286,12 @@ def test_handles_that_are_no_places_are_refused(handles: object) -> None:
         bench_poses(handles)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+def test_handles_must_be_finite(number: float) -> None:
+    with pytest.raises(InvalidValue, match=r"^handles must be finite"):
+        bench_poses(np.array([[number, 0.0], [0.0, 0.0]]))
+
+
 @given(st.integers(1, 6), st.integers(0, 3), st.data())
 def test_poses_of_many_instants_equal_those_one_by_one(benches: int, instants: int, data: st.DataObject) -> None:
     numbers = 2 * (benches + 1) * instants
