@@ -36,7 +36,7 @@ from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Per
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
-from core.shown import Shown
+from core.shown import Readable
 from core.values import Floats
 
 # Length of the default table of whole seconds, as in the contest [s].
@@ -59,7 +59,7 @@ class EndReason(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class RunEnd(Shown):
+class RunEnd(Readable):
     """End of the run: reason, time [s], theta of the head on a spiral [rad], and the bench that folds if one does."""
 
     reason: EndReason
@@ -151,7 +151,7 @@ class Clock:
 
 
 @dataclass(frozen=True, repr=False)
-class Dance(Shown):
+class Dance(Readable):
     """A dragon that follows a path. Every question about a given path takes a dance.
 
     head_speed: speed of the head outside the passages [m/s]

@@ -24,7 +24,7 @@ from core.errors import (
     quantities,
 )
 from core.names import checked_name
-from core.shown import REPR_MOST, TABLE_DIGITS, Shown, extent, worded
+from core.shown import REPR_MOST, TABLE_DIGITS, Readable, extent, worded
 from core.values import Floats
 
 BENCHES_MAX = 10_000_000
@@ -66,7 +66,7 @@ def told_chords(dragon: Dragon) -> dict[str, Value]:
 
 
 @dataclass(frozen=True, init=False, eq=False)
-class Dragon(Shown):
+class Dragon(Readable):
     """n benches in a row, joined by n + 1 handles; bench 0 is the head, handle 0 leads.
 
     benches: number of benches; there is one more handle
@@ -206,7 +206,7 @@ class Dragon(Shown):
 
 
 @dataclass(frozen=True, slots=True)
-class Stray(Shown):
+class Stray(Readable):
     """Largest distance of every hole from its place, by people and by play.
 
     people: largest distance of a person from the nominal place [m]; hole, pin: diameters in a joint [m]. A pin has

@@ -13,7 +13,7 @@ from core.dragon import Dragon
 from core.errors import said, said_bound
 from core.motion.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
 from core.paths.path import HeadState
-from core.shown import Shown
+from core.shown import Readable
 
 # Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
 EXCESS_KNOWN = 1e-6
@@ -33,7 +33,7 @@ class FailureKind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Failure(Shown):
+class Failure(Readable):
     """One failed or undecided condition.
 
     time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail

@@ -26,7 +26,7 @@ from core.kernels import Budget
 from core.motion.joints import SharpestBend, sharpest_bend
 from core.motion.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.passages import TIME_MAX
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 from core.venue import Venue
 
 # Length of the judged interval if benches already touch at the start [s].
@@ -42,16 +42,17 @@ class Judgement(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Report(Shown):
+class Report(Readable):
     """The verdict on a dance, and the answers behind it.
 
     start, stop: the judged interval [s], which ends at a touch of two benches
     verdict: see Judgement; passed: True for PASSES
     failures: in order of time, none after the stop, with the undecided conditions
     first_contact: within the margin; least_clearance: of any two benches, None for fewer than three
-    venue: None without one; sharpest_bend: None for a single bench
+    venue: None without one, or if no bench can be followed there from the start on
+    sharpest_bend: None for a single bench
     highest_speed: None in a run to a fold, where speeds grow without bound
-    A quick check leaves the last three None if the verdict does not need them.
+    A quick check leaves venue, sharpest_bend and highest_speed None if the verdict does not need them.
     """
 
     start: float

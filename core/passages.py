@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number, said
-from core.shown import Shown
+from core.shown import Readable
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]
@@ -19,7 +19,7 @@ LISTED = 6
 
 
 @dataclass(frozen=True, slots=True)
-class Passage(Shown):
+class Passage(Readable):
     """A part of the dance with one speed of the head. It begins where the passage before it ends, or at time 0.
 
     speed: [m/s], 0 for a pause; until_s: s of the head at its end [m], or until_time: time of its end [s]

@@ -34,7 +34,7 @@ _FIELDS = {
 UNITS = {name: unit for unit, names in _FIELDS.items() for name in names.split()}
 
 
-class Shown:
+class Readable:
     """Base of dataclasses that print one line, and in a notebook a table of their fields with units.
 
     A class overrides `_line` and `_rows` to show more than its fields.
@@ -70,7 +70,7 @@ class Shown:
         return [(name.replace("_", " "), value, units.get(name, "")) for name, value in told if value is not None]
 
 
-class WithArrays(Shown):
+class WithArrays(Readable):
     """Base of results with arrays: equal if all fields are, and not hashable."""
 
     __slots__ = ()
@@ -138,7 +138,7 @@ def _alike(name: str, value: object) -> bool:
 
 
 def _entries(values: Sequence[object], digits: int) -> str:
-    between = "; " if values and isinstance(values[0], Shown) else ", "
+    between = "; " if values and isinstance(values[0], Readable) else ", "
     more = f" and {len(values) - ENTRIES_MOST} more" if len(values) > ENTRIES_MOST else ""
     return between.join(_entry(value, digits) for value in values[:ENTRIES_MOST]) + more
 
@@ -154,4 +154,4 @@ def _entry(value: object, digits: int) -> str:
         return f"{value + 0.0:.{digits}g}"  # no -0
     if isinstance(value, tuple):
         return f"({_entries(value, digits)})"
-    return value._line() if isinstance(value, Shown) and type(value).__repr__ is Shown.__repr__ else str(value)
+    return value._line() if isinstance(value, Readable) and type(value).__repr__ is Readable.__repr__ else str(value)

@@ -12,7 +12,7 @@ import numpy as np
 from core.errors import Given, InvalidValue, Value, checked_point, checked_type, listed
 from core.names import checked_name
 from core.shapes.engines import polygon_fault
-from core.shown import Shown, extent
+from core.shown import Readable, extent
 from core.values import Floats, Point
 
 Ring = tuple[Point, ...]
@@ -40,7 +40,7 @@ def refuse_many_edges(rings: Iterable[Sequence[object]]) -> None:
 
 
 @dataclass(frozen=True, repr=False)
-class Area(Shown):
+class Area(Readable):
     """A polygon: the square, or an obstacle in it.
 
     rings: the outer one, then the holes; each closed, at least 4 points (x, y) [m]
@@ -86,7 +86,7 @@ class Area(Shown):
 
 
 @dataclass(frozen=True, repr=False)
-class Venue(Shown):
+class Venue(Readable):
     """The square with its holes, and the obstacles in it.
 
     >>> Venue(Area("square", (((0, 0), (9, 0), (9, 9), (0, 0)),))).square.edges.shape

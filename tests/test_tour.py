@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import pytest
 from matplotlib.axes import Axes
 
-from core.shown import Shown
+from core.shown import Readable
 
 TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
 NOTEBOOK = jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
@@ -51,7 +51,7 @@ def test_it_is_a_notebook_of_words_and_code() -> None:
 def test_every_cell_runs_and_shows_something_short_or_a_picture(tour: tuple[dict[str, Any], list[Any]]) -> None:
     _, answers = tour
     assert sum(isinstance(answer, Axes) for answer in answers) >= 4
-    told = [repr(answer) for answer in answers if isinstance(answer, Shown) or hasattr(answer, "to_dataframe")]
+    told = [repr(answer) for answer in answers if isinstance(answer, Readable) or hasattr(answer, "to_dataframe")]
     assert len(told) >= 6
     assert max(map(len, told)) <= SHOWN_MOST
 

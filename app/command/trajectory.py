@@ -17,7 +17,7 @@ from app.command.options import Json, asks, given, numbers, unused
 from app.command.paths import PathOptions, dance_of
 from app.files import tables
 from app.files.disk import checked_output, write_whole
-from app.files.tables import TABLE_ENDINGS, trajectory_writer
+from app.files.tables import SHOWN_HANDLES, TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import TimeRange
@@ -26,8 +26,7 @@ from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
 from core.shown import counted
 
-# Handles that a terminal shows, as the contest asks; and the largest number of instants, if that many fit.
-SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
+# Largest number of instants that a terminal shows, if that many fit.
 SHOWN_INSTANTS = 7
 # In a run that ends in a fold: a handle this many times faster than the head shows that the fold is near [1]; and the
 # mark of such an instant.

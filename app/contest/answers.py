@@ -10,7 +10,7 @@ from core import EndReason, MinimumPitch, Outcome, ShortestTurn
 
 
 @dataclass(frozen=True)
-class Given:
+class Result:
     """One number of an answer.
 
     question: 1 to 5; bracket: interval that is proven to hold the exact value, if there is one; how: the evidence
@@ -24,7 +24,7 @@ class Given:
     how: str
 
 
-def answers(solved: Solved, say: Say) -> list[Given]:
+def answers(solved: Solved, say: Say) -> list[Result]:
     """The numbers of the five answers, in the order of the questions."""
     found = [*_inwards(solved, say), *_contact(solved, say), _pitch(solved.pitch, say)]
     if solved.turned:
@@ -32,7 +32,7 @@ def answers(solved: Solved, say: Say) -> list[Given]:
     return found
 
 
-def _inwards(solved: Solved, say: Say) -> list[Given]:
+def _inwards(solved: Solved, say: Say) -> list[Result]:
     found, stop = solved.inwards, solved.inwards.time[-1]
     how = say(
         "every handle from the chord equation, every speed from the rigid links: good to 1e-11 m and 1e-11 m/s",
@@ -40,18 +40,18 @@ def _inwards(solved: Solved, say: Say) -> list[Given]:
     )
     rear, at = say("rear handle of the tail", "龙尾（后）把手"), say(f" at {stop:g} s", f"（{stop:g} s）")
     places = [
-        Given(1, f"{name}{say(', ', ' ')}{axis}{at}", float(found.position[-1, k, i]), "m", None, how)
+        Result(1, f"{name}{say(', ', ' ')}{axis}{at}", float(found.position[-1, k, i]), "m", None, how)
         for name, k in ((say("head", "龙头"), 0), (rear, -1))
         for i, axis in enumerate("xy")
     ]
-    return [*places, Given(1, f"{rear}{say(', speed', '速度')}{at}", float(found.speed[-1, -1]), "m/s", None, how)]
+    return [*places, Result(1, f"{rear}{say(', speed', '速度')}{at}", float(found.speed[-1, -1]), "m/s", None, how)]
 
 
-def _contact(solved: Solved, say: Say) -> list[Given]:
+def _contact(solved: Solved, say: Say) -> list[Result]:
     found = solved.contact
     if found.time is None or found.benches is None or found.head is None:
         name = say("no contact until", "直到此刻没有碰撞")
-        return [Given(2, name, solved.met_at, "s", found.time_bracket, _why_ended(solved, say))]
+        return [Result(2, name, solved.met_at, "s", found.time_bracket, _why_ended(solved, say))]
     a, b = found.benches
     pair = say(f"benches {a} and {b}", f"第 {a} 节与第 {b} 节板凳（龙头为 0）")
     steps = found.certificate.steps
@@ -61,8 +61,8 @@ def _contact(solved: Solved, say: Say) -> list[Given]:
     )
     place = say("the head at that time", "该时刻的龙头")
     return [
-        Given(2, say("first contact", "首次碰撞时刻"), found.time, "s", found.time_bracket, how),
-        Given(2, say("distance of the head from the centre", "龙头到中心的距离"), found.head.radius, "m", None, place),
+        Result(2, say("first contact", "首次碰撞时刻"), found.time, "s", found.time_bracket, how),
+        Result(2, say("distance of the head from the centre", "龙头到中心的距离"), found.head.radius, "m", None, place),
     ]
 
 
@@ -78,7 +78,7 @@ def _why_ended(solved: Solved, say: Say) -> str:
     return say("the head is at the centre", "龙头已到中心")
 
 
-def _pitch(found: MinimumPitch, say: Say) -> Given:
+def _pitch(found: MinimumPitch, say: Say) -> Result:
     pair = found.benches or ()
     whose = say(" of benches {} and {}", "（第 {} 节与第 {} 节板凳）").format(*pair) if pair else ""
     words = {
@@ -92,10 +92,10 @@ def _pitch(found: MinimumPitch, say: Say) -> Given:
     sampled = say("larger pitches are partly sampled, not proven", "更大的螺距有一部分是抽样而非证明")
     limit = say("limited by ", "限制因素：") + words[found.limited_by.value]
     how = f"{limit}{say('; ', '；')}{proven if every else sampled}"
-    return Given(3, say("minimum pitch", "最小螺距"), found.pitch, "m", found.pitch_bracket, how)
+    return Result(3, say("minimum pitch", "最小螺距"), found.pitch, "m", found.pitch_bracket, how)
 
 
-def _turn(turned: Turned, say: Say) -> list[Given]:
+def _turn(turned: Turned, say: Say) -> list[Result]:
     shortest, even, length = turned.shortest, turned.even, turned.path.length
     why = say(
         "closed form. The sum of the radii is S = sqrt(R^2 + (p / 2 pi)^2) at every ratio, and both arcs have the "
@@ -114,7 +114,7 @@ def _turn(turned: Turned, say: Say) -> list[Given]:
     ]
     if even and even.turn.length < shortest.turn.length:
         found.append((equal, even.turn.length, _why_shortest(even, say)))
-    return [Given(4, name, value, "m", None, how) for name, value, how in found]
+    return [Result(4, name, value, "m", None, how) for name, value, how in found]
 
 
 def _why_shortest(found: ShortestTurn, say: Say) -> str:
@@ -128,11 +128,11 @@ def _why_shortest(found: ShortestTurn, say: Say) -> str:
     return say(f"entry at a radius of {radius}; limit: {limit}", f"在半径 {radius} 处进入；限制：{limit}")
 
 
-def _speed(turned: Turned, limit: float, say: Say) -> Given:
+def _speed(turned: Turned, limit: float, say: Say) -> Result:
     found = turned.fastest
     handles = ", ".join(map(str, found.handles))
     how = say(
         f"handles {handles} reach {limit:g} m/s at {found.time:.6f} s, {found.speed_ratio:.6f} times the head's speed",
         f"第 {handles} 号把手在 {found.time:.6f} s 达到 {limit:g} m/s，为龙头速度的 {found.speed_ratio:.6f} 倍",
     )
-    return Given(5, say("maximum head speed", "龙头最大速度"), found.head_speed, "m/s", found.head_speed_bracket, how)
+    return Result(5, say("maximum head speed", "龙头最大速度"), found.head_speed, "m/s", found.head_speed_bracket, how)

@@ -16,7 +16,7 @@ from pathlib import Path
 import orjson
 
 from app.contest import films
-from app.contest.answers import Given, answers
+from app.contest.answers import Result, answers
 from app.contest.report import report
 from app.contest.solved import ContestRequest, Solved, solve
 from app.contest.tables import paper_tables
@@ -53,7 +53,7 @@ class Kit:
     """
 
     files: list[str] = field(default_factory=list)
-    given: list[Given] = field(default_factory=list)
+    given: list[Result] = field(default_factory=list)
     missing: MissingPackage | None = None
     no_turn: str = ""
 

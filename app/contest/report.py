@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from app.contest.answers import Given
+from app.contest.answers import Result
 from app.contest.solved import Solved
 from app.contest.tables import Table, in_markdown
 from app.files.words import Say
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 DIGITS = 9
 
 
-def answer_table(given: Sequence[Given], say: Say) -> str:
+def answer_table(given: Sequence[Result], say: Say) -> str:
     """The five answers as a table in Markdown."""
     heads = say("question|what|value|bracket|how it is known", "问题|量|数值|区间|依据").split("|")
     rows = [
@@ -26,7 +26,7 @@ def answer_table(given: Sequence[Given], say: Say) -> str:
     return in_markdown([heads, ["---", "---", "---:", "---", "---"], *rows])
 
 
-def _bracket(one: Given) -> str:
+def _bracket(one: Result) -> str:
     if one.bracket is None:
         return ""
     return ", ".join("?" if end is None else said(end) for end in one.bracket) + f" {one.unit}"
@@ -34,7 +34,7 @@ def _bracket(one: Given) -> str:
 
 def report(
     solved: Solved,
-    given: Sequence[Given],
+    given: Sequence[Result],
     tables: Sequence[Table],
     drawn: Sequence[Drawn],
     films: Sequence[str],

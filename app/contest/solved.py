@@ -10,13 +10,12 @@ import numpy as np
 from pydantic import Field
 
 import core
+from app.files.tables import SHOWN_HANDLES
 from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
 from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 
-# Handles in the tables that the contest requires: the head, those of six bodies, and the rear of the tail.
-SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
-# Number of intervals between the instants of those tables; for the turn, between -span and span.
+# Number of intervals between the instants of the tables that the contest requires; for the turn, from -span to span.
 SHOWN_STEPS, TURN_STEPS = 5, 4
 # Ratio of equal arcs [1], which allows the deepest entry: both arcs are as tight as the benches allow.
 EVEN = 1.0

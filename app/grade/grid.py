@@ -10,7 +10,7 @@ from app.grade.words import Note
 Cell = float | str | None
 
 
-class Unreadable(Exception):
+class UnreadableTable(Exception):
     """A file that cannot be graded. said: the reason, and what to change"""
 
     def __init__(self, said: Note) -> None:

@@ -6,7 +6,7 @@ import csv
 import io
 from contextlib import suppress
 
-from app.grade.grid import Cell, Grid, Unreadable
+from app.grade.grid import Cell, Grid, UnreadableTable
 from app.grade.words import Note, note
 from app.grade.workbook import sheets_of
 from core import Budget
@@ -26,14 +26,14 @@ def grids_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
     """The sheets of a file, and notes on the whole file.
 
     data: a workbook (.xlsx, .xlsm) or CSV
-    raises: Unreadable; Halted when the budget ends
+    raises: UnreadableTable; Halted when the budget ends
     """
     if len(data) > FILE_MAX:
-        raise Unreadable(note("too_long", most=f"{FILE_MAX / 1e6:.0f}"))
+        raise UnreadableTable(note("too_long", most=f"{FILE_MAX / 1e6:.0f}"))
     if not data.strip():
-        raise Unreadable(note("empty"))
+        raise UnreadableTable(note("empty"))
     if data.startswith(OLE):
-        raise Unreadable(note("encrypted" if ENCRYPTED in data else "old_format"))
+        raise UnreadableTable(note("encrypted" if ENCRYPTED in data else "old_format"))
     if data.startswith(ZIP):
         return sheets_of(data, budget)
     return [_of_csv(data, budget)], []
@@ -51,21 +51,21 @@ def _of_csv(data: bytes, budget: Budget) -> Grid:
             budget.look()
             cells += len(line)
             if len(rows) >= LINES_MAX or cells > CELLS_MAX:
-                raise Unreadable(note("too_many_cells", most=CELLS_MAX))
+                raise UnreadableTable(note("too_many_cells", most=CELLS_MAX))
             rows.append([_number(word, decimal) for word in line])
     except csv.Error as error:
-        raise Unreadable(note("no_csv")) from error
+        raise UnreadableTable(note("no_csv")) from error
     return Grid("", rows)
 
 
 def _decoded(data: bytes) -> str:
     is_wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
     if b"\0" in data and not is_wide:
-        raise Unreadable(note("no_csv"))
+        raise UnreadableTable(note("no_csv"))
     for coding in ("utf-16",) if is_wide else CODINGS:
         with suppress(UnicodeDecodeError):
             return data.decode(coding)
-    raise Unreadable(note("no_csv"))
+    raise UnreadableTable(note("no_csv"))
 
 
 def _number(word: str, decimal: str) -> Cell:

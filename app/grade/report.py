@@ -11,7 +11,7 @@ from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import KINDS, cells_of
-from app.grade.grid import Unreadable
+from app.grade.grid import UnreadableTable
 from app.grade.judged import JudgedSheet, Rating, judged, workbook_of, worst_of
 from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind, cell_name, tables_of
 from app.grade.reading import ZIP, grids_of
@@ -115,7 +115,7 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
     """The grade of one file. name: of the file, which may say which workbook it is; raises: TooMuchWork"""
     try:
         return _graded(name, data, language, budget)
-    except Unreadable as error:
+    except UnreadableTable as error:
         return unreadable(name, error.said, language)
     except Halted as error:
         raise too_long(data, budget) from error
@@ -143,7 +143,7 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     tables = [table for grid in grids for table in tables_of(grid)]
     if not tables:
         is_named_so = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
-        raise Unreadable(note("no_workbook" if is_named_so and not data.startswith(ZIP) else "no_table"))
+        raise UnreadableTable(note("no_workbook" if is_named_so and not data.startswith(ZIP) else "no_table"))
     workbook = workbook_of(tables, PurePath(name).stem)
     judgements = [judged(table, workbook) for table in tables]
     findings = diagnosed(judgements, budget)

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from app.extras import require
-from app.grade.grid import Cell, Grid, Unreadable
+from app.grade.grid import Cell, Grid, UnreadableTable
 from app.grade.words import Note, note
 from core import Budget
 from core.kernels import Halted
@@ -59,7 +59,7 @@ class _Watched(io.BytesIO):
 def sheets_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
     """The sheets of a workbook, and notes on the whole file.
 
-    raises: Unreadable; MissingPackage without openpyxl; Halted when the budget ends
+    raises: UnreadableTable; MissingPackage without openpyxl; Halted when the budget ends
     """
     require("xlsx", "file", "A workbook")
     from openpyxl import load_workbook
@@ -72,27 +72,27 @@ def sheets_of(data: bytes, budget: Budget) -> tuple[list[Grid], list[Note]]:
             warnings.simplefilter("ignore")
             with closing(load_workbook(source, read_only=True, data_only=True, keep_links=False)) as book:
                 return _sheets(book, budget), notes
-    except (Unreadable, Halted):
+    except (UnreadableTable, Halted):
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError) as error:
-        raise Unreadable(note("truncated")) from error
+        raise UnreadableTable(note("truncated")) from error
     except Exception as error:  # openpyxl raises many kinds of errors for missing or invalid parts.
-        raise Unreadable(note("broken", why=f"{type(error).__name__}: {error}"[:120])) from error
+        raise UnreadableTable(note("broken", why=f"{type(error).__name__}: {error}"[:120])) from error
 
 
 def _refuse_traps(archive: zipfile.ZipFile) -> list[Note]:
-    """Notes on macros, formulas and merged cells. raises: Unreadable for an archive that is harmful or no workbook"""
+    """Notes on macros, formulas, merged cells. raises: UnreadableTable for an archive that is harmful or no workbook"""
     parts, names = archive.infolist(), archive.namelist()
     if any(part.flag_bits & 1 for part in parts):
-        raise Unreadable(note("encrypted"))
+        raise UnreadableTable(note("encrypted"))
     unpacked = sum(part.file_size for part in parts)
     if unpacked > UNPACKED_MAX or len(parts) > PARTS_MAX:
         sizes = {"size": f"{unpacked / 1e6:.0f}", "parts": len(parts), "most": f"{UNPACKED_MAX / 1e6:.0f}"}
-        raise Unreadable(note("bomb", **sizes))
+        raise UnreadableTable(note("bomb", **sizes))
     if MAIN not in names:
-        raise Unreadable(note("other_archive"))
+        raise UnreadableTable(note("other_archive"))
     if STRICT in archive.read(MAIN):
-        raise Unreadable(note("strict"))
+        raise UnreadableTable(note("strict"))
     notes, elements = [note("macros")] if MACROS in names else [], 0
     for part in parts:
         found, more = _survey(archive, part, ELEMENTS_MAX - elements)
@@ -103,19 +103,19 @@ def _refuse_traps(archive: zipfile.ZipFile) -> list[Note]:
 def _survey(archive: zipfile.ZipFile, part: zipfile.ZipInfo, most: int) -> tuple[list[Note], int]:
     """Notes on formulas and merged cells of a part, and the number of its elements.
 
-    raises: Unreadable for a declared document type, and for more elements than `most`
+    raises: UnreadableTable for a declared document type, and for more elements than `most`
     """
     elements, cell = 0, ""
     seen: dict[str, list[str]] = {"formulas": [], "unstored": [], "merged": []}
 
     def refuse(*_: object) -> None:
-        raise Unreadable(note("declared", part=part.filename))
+        raise UnreadableTable(note("declared", part=part.filename))
 
     def start(tag: str, given: dict[str, str]) -> None:
         nonlocal elements, cell
         elements += 1
         if elements > most:
-            raise Unreadable(note("too_many_elements", most=f"{ELEMENTS_MAX:,}"))
+            raise UnreadableTable(note("too_many_elements", most=f"{ELEMENTS_MAX:,}"))
         if tag == CELL:
             cell = given.get("r", "")
         elif tag == FORMULA:

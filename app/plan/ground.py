@@ -186,9 +186,7 @@ def _draw_marks(sheet: Sheet, ground: GroundMap, scale: Scale, line: Floats) -> 
         sheet.label(marks.names[k], MARK_TYPE, free or along, room, **look)
 
 
-def draw_benches(
-    sheet: Sheet, ground: GroundMap, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle
-) -> None:
+def draw_benches(sheet: Sheet, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle) -> None:
     """Draw every bench in its true size, with its name where there is room for it.
 
     outlines: corners (n, 4, 2) [m]

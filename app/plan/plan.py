@@ -82,7 +82,7 @@ def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
     for time, handles in zip(timing.moments, core.trajectory(dance, timing.moments).position, strict=True):
         sheet = Sheet(scale.paper, say, plan.family, plan.budget)
         frame = draw_ground(sheet, ground, scale, numbers=False)
-        draw_benches(sheet, ground, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
+        draw_benches(sheet, scale, core.bench_outlines(dance.dragon, handles), plan.names, frame)
         when = plan.clock.words(time)
         yield _Page(sheet, say(f"Place of each bench at {when}", f"{when} 时各节板凳的位置"), scale, True)
 

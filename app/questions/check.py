@@ -161,7 +161,8 @@ class Report(Answer):
         description="Least clearance of any two benches; null with fewer than three, or without details"
     )
     venue: VenueClearance | None = Field(
-        description="Distances between the benches and the venue; null without a venue"
+        description="Distances between the benches and the venue; null without a venue, or if the benches cannot be "
+        "followed there from the start on"
     )
     highest_speed: HighestSpeed | None = Field(
         description="Highest speed of any handle; null in a run to a fold, where speed has no bound, or without details"

@@ -13,7 +13,7 @@ from core.errors import InvalidValue, said
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.shapes.rectangles import bench_outlines
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +32,7 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Feature(Shown):
+class Feature(Readable):
     """A corner or an edge of one bench. Corners: front-outer, front-inner, rear-outer, rear-inner;
     edges: front, rear, outer, inner. front is towards the lower handle, outer away from the centre."""
 
@@ -44,7 +44,7 @@ class Feature(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Evidence(Shown):
+class Evidence(Readable):
     """Evidence for the answer; a certificate that others can check comes from `core.proof`.
 
     method: the claim and its proof, in sentences (core/contact/first_contact.py)
@@ -63,7 +63,7 @@ class Evidence(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class FirstContact(Shown):
+class FirstContact(Readable):
     """First time at which two benches that share no handle come within the margin.
 
     outcome: what the search found; certificate: how that is known

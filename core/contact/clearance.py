@@ -20,7 +20,7 @@ from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip
 from core.motion.trajectory import instants
 from core.sampling import dips
-from core.shown import Shown, WithArrays, counted, worded
+from core.shown import Readable, WithArrays, counted, worded
 from core.tables import data_frame, data_set
 from core.values import Floats
 
@@ -44,7 +44,7 @@ Pair = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Graze(Shown):
+class Graze(Readable):
     """A local minimum of the clearance over time: time [s], clearance [m], the pair."""
 
     time: float
@@ -104,7 +104,7 @@ class ClearanceProfile(WithArrays):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class LeastClearance(Shown):
+class LeastClearance(Readable):
     """The least clearance over an interval of the dance.
 
     distance: the least one found [m], reached at `time` [s] by `benches`. If benches touch, it is 0 at the first touch,

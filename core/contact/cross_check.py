@@ -22,7 +22,7 @@ from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
 from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs, upright_boxes
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 from core.tolerance.reach import SHORT, Reach, reach
 from core.values import Floats
 
@@ -48,7 +48,7 @@ CLOSE_MAX = 30_000
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class ContactCheck(Shown):
+class ContactCheck(Readable):
     """The engines' verdicts on a reported contact.
 
     agree: True if every engine finds nothing before, and only the reported pair after

@@ -22,7 +22,7 @@ from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.shapes.engines import inside
 from core.shapes.rectangles import bench_poses
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 from core.values import Floats, Point
 from core.venue import Area, Venue
 
@@ -33,7 +33,7 @@ SURELY = 1e-9
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Nearest(Shown):
+class Nearest(Readable):
     """Smallest distance between the benches and an area's edges, holes included.
 
     distance: the least one found [m], reached at `time` [s] by `bench`; 0 at the first touch
@@ -50,7 +50,7 @@ class Nearest(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class AreaClearance(Shown):
+class AreaClearance(Readable):
     """The benches and the edges of one area, by the name of the area.
 
     outcome: of the search for a bench within the margin; time: of the first one [s], None if clear or undecided
@@ -76,7 +76,7 @@ class AreaClearance(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Misplaced(Shown):
+class Misplaced(Readable):
     """A bench that starts outside the square or in an obstacle: the area's name, the bench, its centre (x, y) [m]."""
 
     name: str
@@ -85,7 +85,7 @@ class Misplaced(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class VenueClearance(Shown):
+class VenueClearance(Readable):
     """The benches in the venue.
 
     misplaced: the first bench that starts outside the square or in an obstacle; areas: the square, then the obstacles

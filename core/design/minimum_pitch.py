@@ -18,7 +18,7 @@ from core.errors import SIZE_MAX, InvalidValue, Quantity, asked_of, checked_numb
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
 from core.sampling import bisected
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 
 # Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].
 PASSED_OVER = 1e-9
@@ -62,7 +62,7 @@ class JustifiedBy(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class MinimumPitch(Shown):
+class MinimumPitch(Readable):
     """The smallest pitch such that every larger one is free of contact down to the turning circle.
 
     pitch: [m]; pitch_bracket: (infeasible, feasible) [m], with equal ends if the start is the limit without a contact;

@@ -42,7 +42,7 @@ from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 from core.tolerance.reach import reach
 
 # Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
@@ -80,7 +80,7 @@ class TurnLimit(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class ShortestTurn(Shown):
+class ShortestTurn(Readable):
     """The turn with the smallest entry radius such that all larger ones up to the circle can be danced.
 
     turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit

@@ -53,7 +53,7 @@ from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shapes.rectangles import bench_outlines
-from core.shown import Shown, WithArrays, counted
+from core.shown import Readable, WithArrays, counted
 from core.values import Floats
 
 # Least and largest excess that a question may ask for [m].
@@ -76,7 +76,7 @@ CELL_WORK, ENVELOPE_WORK = 300.0, 1e8
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class SweepProof(Shown):
+class SweepProof(Readable):
     """Evidence of an envelope: the claim in sentences, and the number of cells."""
 
     method: str
@@ -107,7 +107,7 @@ class Envelope(WithArrays):
     def _rows(self) -> list[tuple[str, str]]:
         points = sum(len(ring) for rings in self.polygons for ring in rings)
         words = f"{counted(len(self.polygons), 'polygon')}, {points} points"
-        return [("polygons", words), *((name, text) for name, text in Shown._rows(self) if name != "polygons")]
+        return [("polygons", words), *((name, text) for name, text in Readable._rows(self) if name != "polygons")]
 
     def distance(self, line: object) -> float:
         """Least distance of a line through points, or of a single point, from the envelope; 0 where they meet [m].

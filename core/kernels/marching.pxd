@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.records cimport Closest, Nearest
+from core.kernels.records cimport Closest, PairBounds
 from core.kernels.chain cimport extend
 from core.kernels.rings cimport drift
 from core.kernels.scene cimport Found, Interval, Scene
@@ -44,7 +44,7 @@ cdef class March(Found):
     cdef Step try_step(self, Scene scene, Interval interval) noexcept nogil
     @cython.locals(k=cython.Py_ssize_t)
     cdef bint must_follow(self, Scene scene, Interval interval) noexcept nogil
-    cdef Step narrow(self, Scene scene, Interval interval, Nearest nearest) noexcept nogil
+    cdef Step narrow(self, Scene scene, Interval interval, PairBounds nearest) noexcept nogil
     cdef double peek(self, Scene scene, Py_ssize_t a, Py_ssize_t b) noexcept nogil
     @cython.locals(dips=cython.bint)
     cdef void note_graze(self, Scene scene, Interval interval, double least) noexcept nogil

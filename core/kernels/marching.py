@@ -12,7 +12,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.nearest import interval_least
     from core.kernels.pairs import pair_most
-    from core.kernels.records import Closest, Nearest
+    from core.kernels.records import Closest, PairBounds
     from core.kernels.repeats import chain_between, leader_may_reverse, passed, slid_back
     from core.kernels.rings import drift
     from core.kernels.scene import Found
@@ -222,7 +222,7 @@ class March(Found):
         interval.handles = laid.last
         self.work += laid.last * (1.0 + scene.edges / EDGES_PER_WORK)
         interval.widen(self.h, self.rounding)
-        nearest = Nearest(FREE, 0.0, 0, 0, FREE, 0.0, 0)
+        nearest = PairBounds(FREE, 0.0, 0, 0, FREE, 0.0, 0)
         if self.active > 0:
             if self.placed < interval.handles:
                 self.placed = extend(scene.curve, self.placed, interval.handles, scene.sizes, interval.before)

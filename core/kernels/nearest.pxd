@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.records cimport Nearest, Rounding
+from core.kernels.records cimport PairBounds, Rounding
 from core.kernels.rings cimport RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
 from core.kernels.rounding cimport spiral_error
 from core.kernels.route cimport stands_first
@@ -8,7 +8,7 @@ from core.kernels.pairs cimport BAND_ROUNDING, any_rounding, proven_band_gap, pr
 from core.kernels.scene cimport Band, Interval, Scene
 
 @cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t, first=cython.Py_ssize_t, tried=cython.Py_ssize_t)
-cdef Nearest interval_least(Scene scene, Interval interval, Py_ssize_t active) noexcept nogil
+cdef PairBounds interval_least(Scene scene, Interval interval, Py_ssize_t active) noexcept nogil
 cdef Rounding interval_rounding(Scene scene, Interval interval) noexcept nogil
 cdef double innermost(Scene scene, Interval interval, Py_ssize_t k, double rate) noexcept nogil
 cdef double reach_of(Scene scene, Interval interval, Py_ssize_t i, double error) noexcept nogil
@@ -18,4 +18,4 @@ cdef bint coil_stays_beyond(Scene scene, Interval interval, Py_ssize_t leaders, 
 @cython.locals(handles=cython.Py_ssize_t)
 cdef Rounding band_rounding(Scene scene, Band band) noexcept nogil
 @cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t, tried=cython.Py_ssize_t)
-cdef Nearest band_least(Scene scene, Band band, Py_ssize_t leaders) noexcept nogil
+cdef PairBounds band_least(Scene scene, Band band, Py_ssize_t leaders) noexcept nogil

@@ -6,7 +6,7 @@ from cython.cimports.libc.math import isnan, sqrt
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.pairs import BAND_ROUNDING, any_rounding, proven_band_gap, proven_gap
-    from core.kernels.records import Nearest, Rounding
+    from core.kernels.records import PairBounds, Rounding
     from core.kernels.rings import RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
     from core.kernels.rounding import spiral_error
     from core.kernels.route import stands_first
@@ -14,7 +14,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 # Input:  an interval whose chains are laid out, and the number of benches that lead pairs (`active`).
 # State:  the least bound so far with its K and its pair; `widest`, the widest interval that these pairs would allow.
-# Output: the record Nearest.
+# Output: the record PairBounds.
 #
 # Each pair that is near enough gets a bound of its own from pair_least(), less the rounding of its gaps: one rough
 # bound for all pairs where no handle had to be followed, else a bound for each pair (proven_gap()). Pairs too far apart
@@ -29,15 +29,15 @@ def interval_least(scene, interval, active):
     curvature = 0.0
     tried = a = b = 0
     if not interval.bound(False):
-        return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+        return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     rounding = interval_rounding(scene, interval)
     # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
     reach = scene.margin * (1.0 + 1e-12) + 16.0 * rounding.point
     if not stays_beyond(scene, interval, active, rounding.point):
-        return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+        return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(active):
         if scene.budget.stopped:
-            return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+            return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
         far = reach_of(scene, interval, i, rounding.point)
         first = i + scene.between + 1
         end = interval.handles
@@ -57,7 +57,7 @@ def interval_least(scene, interval, active):
             tried += 1
             least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
             if isnan(least):
-                return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+                return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
             width2 = 8.0 * (least - scene.margin) / k + interval.h * interval.h
             widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
             if least < best:
@@ -65,7 +65,7 @@ def interval_least(scene, interval, active):
                 curvature = k
                 a = i
                 b = j
-    return Nearest(best, curvature, a, b, widest, rounding.point, tried)
+    return PairBounds(best, curvature, a, b, widest, rounding.point, tried)
 
 
 def interval_rounding(scene, interval):
@@ -170,10 +170,10 @@ def band_least(scene, band, leaders):
     rounding = band_rounding(scene, band)
     error = rounding.point
     if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a band
-        return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+        return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(leaders):
         if scene.budget.stopped:
-            return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+            return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
         beyond = growth_high * band.high.before[i + 1, THETA]
         beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
         beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error
@@ -192,7 +192,7 @@ def band_least(scene, band, leaders):
             tried += 1
             least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
             if isnan(least):
-                return Nearest(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+                return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
             if least < best:
                 best = least
                 curvature = k
@@ -200,4 +200,4 @@ def band_least(scene, band, leaders):
                 b = j
             width2 = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
             widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
-    return Nearest(best, curvature, a, b, widest, error, tried)
+    return PairBounds(best, curvature, a, b, widest, error, tried)

@@ -26,7 +26,7 @@ cdef struct Closest:
 cdef struct Laid:
     Py_ssize_t last, leading
 
-cdef struct Nearest:
+cdef struct PairBounds:
     double least, gap_curvature
     Py_ssize_t first, second
     double width, error

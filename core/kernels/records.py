@@ -89,7 +89,7 @@ class Laid(NamedTuple):
     leading: int  # number of benches that can be the inner one of a touching pair
 
 
-class Nearest(NamedTuple):
+class PairBounds(NamedTuple):
     """Proven bounds for all pairs over an interval."""
 
     least: float  # a lower bound of their separations [m], FREE without pairs, or NO_BOUND

@@ -14,7 +14,7 @@ from core.errors import asked_of
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.sampling import dips
-from core.shown import Shown
+from core.shown import Readable
 from core.values import Floats
 
 # Refinement of a peak to 1e-9 of a step: instants of one round around it, in steps; number of rounds; and number of
@@ -29,7 +29,7 @@ BATCH = 1_000
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class SharpestBend(Shown):
+class SharpestBend(Readable):
     """The largest angle between two consecutive benches [rad], its time [s], the benches. TightBend is about a path."""
 
     angle: float

@@ -13,7 +13,7 @@ from core.errors import InvalidValue, Quantity, asked_of, bound, checked_number
 from core.kernels import Budget, Judged
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
 from core.sampling import bisected
-from core.shown import Shown
+from core.shown import Readable
 
 # Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12.
 RATE_TOLERANCE = 1e-9
@@ -47,7 +47,7 @@ HALVINGS = 50
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class HighestSpeed(Shown):
+class HighestSpeed(Readable):
     """speed: the highest one found [m/s]; time [s]; handles: those that reach it together
     speed_bracket: (found, proven upper bound: None if the proof was given up) [m/s]
     passage: index of its passage; None outside all passages"""
@@ -60,7 +60,7 @@ class HighestSpeed(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class MaximumHeadSpeed(Shown):
+class MaximumHeadSpeed(Readable):
     """head_speed: the largest one [m/s]
     head_speed_bracket: (proven to keep the limit: None if the proof was given up, found to reach it) [m/s]
     speed_ratio: highest handle speed over head speed; handles: those that reach the limit together
@@ -77,7 +77,7 @@ class MaximumHeadSpeed(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class FirstExcess(Shown):
+class FirstExcess(Readable):
     """First time at which a handle is faster than a limit.
 
     time_bracket: (time until which the limit is proven to be kept, to within SPEED_PROVEN of it; time at which a handle

@@ -14,7 +14,7 @@ from core.errors import Given, InvalidValue, checked_number, checked_size, liste
 from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, point_too_near
 from core.paths.route import Route
-from core.shown import REPR_MOST, Shown
+from core.shown import REPR_MOST, Readable
 from core.values import Floats, Point
 
 # Default radius of an arc at a corner [m].
@@ -71,7 +71,7 @@ class Legs(Route):
     def __repr__(self) -> str:
         given = f"{list(self.points)!r}, {sorted(self.straight)!r}, radius={self.radius!r}, start={self.start!r}"
         listed = f"Legs({given}{self._ends})"
-        return listed if len(listed) <= REPR_MOST else Shown.__repr__(self)
+        return listed if len(listed) <= REPR_MOST else Readable.__repr__(self)
 
     def _laid_out(self, start_heading: float | None, end_heading: float | None) -> tuple[list[Piece], list[int]]:
         """Lines, arcs and curves in the order of the dance, and the first point of each."""

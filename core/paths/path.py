@@ -7,14 +7,14 @@ from typing import Protocol, Self
 
 from core import kernels
 from core.paths.frame import Frame
-from core.shown import Shown
+from core.shown import Readable
 from core.values import Floats
 
 Columns = tuple[Floats, Floats, Floats]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class HeadState(Shown):
+class HeadState(Readable):
     """Handle 0 at one instant: theta on a spiral in its own frame [rad, unwrapped], None on a route; radius from the
     centre of the spiral, or from the origin [m]; x [m], y [m]."""
 

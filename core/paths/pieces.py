@@ -12,7 +12,7 @@ from core.errors import InvalidValue, Quantity, checked_angle, checked_number, c
 from core.kernels import Budget
 from core.kernels.constants import S_END, S_START
 from core.paths.cubics import cut
-from core.shown import REPR_MOST, Shown
+from core.shown import REPR_MOST, Readable
 from core.values import Floats, Point
 
 # Least distance between two consecutive waypoints [m]: nearer ones are a mistake.
@@ -51,7 +51,7 @@ def _row(kind: str, start: float, end: float, curvature: Point, *parameters: flo
 
 
 @dataclass(frozen=True)
-class Line(Shown):
+class Line(Readable):
     """A straight piece from start to end, (x, y) [m]."""
 
     _units = {"start": "m", "end": "m"}  # noqa: RUF012
@@ -72,7 +72,7 @@ class Line(Shown):
 
 
 @dataclass(frozen=True)
-class Arc(Shown):
+class Arc(Readable):
     """Part of a circle: centre (x, y) [m], radius [m], start_angle [rad], sweep [rad].
 
     A positive sweep goes counter-clockwise.
@@ -98,7 +98,7 @@ class Arc(Shown):
 
 
 @dataclass(frozen=True)
-class Coil(Shown):
+class Coil(Readable):
     """Part of an Archimedean spiral: inwards (clockwise) or outwards (counter-clockwise).
 
     pitch: [m]; start_turns, end_turns: turns from its centre at its beginning and at its end
@@ -131,7 +131,7 @@ class Coil(Shown):
 
 
 @dataclass(frozen=True, repr=False)
-class Waypoints(Shown):
+class Waypoints(Readable):
     """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
 
     start_heading, end_heading: direction at its ends [rad]; None: no curvature at that end

@@ -15,7 +15,7 @@ from core.kernels.constants import K_END, K_START, POINT_CURVATURE, PX, PY, S_EN
 from core.paths.frame import WORLD
 from core.paths.path import Columns, HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece
-from core.shown import REPR_MOST, TABLE_DIGITS, Shown, counted, worded
+from core.shown import REPR_MOST, TABLE_DIGITS, Readable, counted, worded
 from core.values import Floats
 
 # Largest drawn distance from the start of a route [m], and number of points.
@@ -30,7 +30,7 @@ BENDS = slice(K_START, K_END + 1)
 PIECES_LISTED = 6
 
 
-class Route(Shown):
+class Route(Readable):
     """Pieces joined into one path, with s = 0 at `start` metres from the beginning of the first one.
 
     pieces: in the order of the dance; joints must agree within JOINT_GAP and JOINT_KINK

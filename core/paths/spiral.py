@@ -19,7 +19,7 @@ from core.paths.path import Columns, HeadState
 from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.sampling import bisected
-from core.shown import TABLE_DIGITS, Shown, worded
+from core.shown import TABLE_DIGITS, Readable, worded
 from core.values import Floats, Point
 
 START_TURNS_MAX = 1e5
@@ -33,7 +33,7 @@ FOLD_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, repr=False)
-class Spiral(Shown):
+class Spiral(Readable):
     """Archimedean spiral r = growth * theta, danced inwards from start_turns turns.
 
     pitch: radial advance per full turn [m]; start_turns: turns from the centre to the start, s = 0

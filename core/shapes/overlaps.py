@@ -25,7 +25,7 @@ from core.errors import (
 from core.kernels import Budget
 from core.shapes.engines import JUDGES, Engine, able, found_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
-from core.shown import Shown, WithArrays, counted, worded
+from core.shown import Readable, WithArrays, counted, worded
 from core.values import Floats
 
 # Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
@@ -80,7 +80,7 @@ class CrossCheck(WithArrays):
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict(Shown):
+class Verdict(Readable):
     """True if an engine finds the pair overlapping just before, and just after first contact; None: no time before."""
 
     before: bool | None

@@ -22,7 +22,7 @@ from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.shapes.rectangles import bench_poses, frames, frames_separation
-from core.shown import Shown, worded
+from core.shown import Readable, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, SafeStray, held_stray, safe_words
 from core.venue import Venue
@@ -38,7 +38,7 @@ class Limit(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class StrayProof(Shown):
+class StrayProof(Readable):
     """Evidence of the safe stray: the claim in sentences, and the number of steps that the march took."""
 
     method: str
@@ -46,7 +46,7 @@ class StrayProof(Shown):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Tolerance(Shown):
+class Tolerance(Readable):
     """Tolerance of a dance to strays of people.
 
     stray: [m], proven safe: while no hole is further from its place at any instant, nothing touches; 0: no stray is

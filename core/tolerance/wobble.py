@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from core.dance import Dance
 from core.dragon import wider_pin
 from core.errors import SIZE_MAX, InvalidValue, Parameter, Quantity, checked_number, quantities
-from core.shown import Shown
+from core.shown import Readable
 
 # Least number of instants in a correlation time [1].
 INSTANTS_PER_TIME = 5
@@ -20,7 +20,7 @@ SIZE_PART, PITCH_PART = 0.1, 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class Wobble(Shown):
+class Wobble(Readable):
     """Model of wobbling people. At two steps a second, a correlation time of 5 s is ten steps.
 
     lateral, forward: displacement that a person wants, across the path and along it [m]: normal numbers with these
