@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from app.jobs.places import OfService
+from core import BenchDragonError
 from tests.app import command
 from tests.app.jobs.service import SHORT, Service, direct
 
@@ -99,10 +101,10 @@ def test_an_address_of_something_else_is_refused_in_one_line(answer: bytes, word
 
     with socketserver.TCPServer(("127.0.0.1", 0), Answering) as other, ThreadPoolExecutor() as beside:
         beside.submit(other.handle_request)
-        done = run("list", "--url", f"http://127.0.0.1:{other.server_address[1]}")
-    assert done.returncode == 2
-    assert words in done.stderr
-    assert done.stderr.count("\n") == 1
+        with pytest.raises(BenchDragonError) as refused:
+            OfService(f"http://127.0.0.1:{other.server_address[1]}", "").list()
+    assert words in refused.value.message
+    assert "\n" not in refused.value.message
 
 
 def test_a_damaged_store_is_refused_in_one_line(tmp_path: Path) -> None:
