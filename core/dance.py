@@ -44,8 +44,9 @@ DEFAULT_SPAN = 300
 # A run that stops nearer to its fold than this is searched up to the fold [m of head travel]. Handle speeds grow
 # without bound there, so steps would shrink to nothing; a bound on the remaining motion replaces them.
 NEAR_FOLD = 1e-5
-# Largest relative error of a time that is turned into a travel and back [1]: three operations each way.
-TIME_ROUNDING = 1e-15
+# Largest relative error of a time that is turned into a travel and back [1]: each way three operations, and the
+# rounding of a node's time and travel, 10 u in all.
+TIME_ROUNDING = 2e-15
 
 
 class EndReason(StrEnum):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import Decimal, localcontext
 from typing import NamedTuple
 
 from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number, said
@@ -14,6 +15,8 @@ HEAD_SPEED_MAX = 1e4  # [m/s]
 TIME_MAX = 1e12  # [s]
 S_MAX = 1e9  # [m]
 PASSAGES_MAX = 1_000
+# Digits in which the ends of passages are added up [1].
+NODE_DIGITS = 60
 # Most passages that a sentence lists one by one [1].
 LISTED = 6
 
@@ -60,30 +63,34 @@ class Period(NamedTuple):
 
 
 # With passages 0 to n - 1, node k is the time and the travel at which passage k begins, node n where the last one ends;
-# node 0 is time 0 at travel 0.
+# node 0 is time 0 at travel 0. They are added up in decimals, so that each has one rounding however many there are.
 def nodes(passages: Sequence[Passage]) -> tuple[list[float], list[float]]:
     """Times [s] and travels [m] of the nodes. raises: InvalidValue for a passage that ends before it begins"""
     times, travels = [0.0], [0.0]
-    for k, passage in enumerate(passages):
-        time, travel = _ended(k, passage, times[-1], travels[-1])
-        times.append(time)
-        travels.append(travel)
+    with localcontext() as context:
+        context.prec = NODE_DIGITS
+        node = Decimal(0), Decimal(0)
+        for k, passage in enumerate(passages):
+            node = _ended(k, passage, *node)
+            times.append(float(node[0]))
+            travels.append(float(node[1]))
     return times, travels
 
 
-def _ended(k: int, passage: Passage, time: float, travel: float) -> tuple[float, float]:
+def _ended(k: int, passage: Passage, time: Decimal, travel: Decimal) -> tuple[Decimal, Decimal]:
     """Time and travel of the end of a passage, from those of its beginning. raises: InvalidValue"""
     if passage.until_time is not None:
-        if passage.until_time <= time:
+        if passage.until_time <= float(time):
             rule, got = "must be after the passage begins, at {begin}", Quantity(passage.until_time, "s")
-            raise InvalidValue(f"passages.{k}.until_time", rule, got=got, begin=Quantity(time, "s"))
-        return passage.until_time, travel + (passage.until_time - time) * passage.speed
+            raise InvalidValue(f"passages.{k}.until_time", rule, got=got, begin=Quantity(float(time), "s"))
+        end = Decimal(passage.until_time)
+        return end, travel + (end - time) * Decimal(passage.speed)
     until = passage.until_s
     assert until is not None
-    if until <= travel:
+    if until <= float(travel):
         rule = "must be further than where the passage begins, at {begin}"
-        raise InvalidValue(f"passages.{k}.until_s", rule, got=Quantity(until, "m"), begin=Quantity(travel, "m"))
-    return time + (until - travel) / passage.speed, until
+        raise InvalidValue(f"passages.{k}.until_s", rule, got=Quantity(until, "m"), begin=Quantity(float(travel), "m"))
+    return time + (Decimal(until) - travel) / Decimal(passage.speed), Decimal(until)
 
 
 def checked_passages(given: object) -> tuple[Passage, ...]:

@@ -4,6 +4,14 @@ export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];
 export const onClick = (selector, act) => $(selector).addEventListener("click", act);
 
+const NUMBER = /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i;
+
+/** The number that a person typed, also with a decimal comma; any other text stays. */
+export function numberIn(text) {
+  const given = text.trim();
+  return NUMBER.test(given) ? Number(given.replace(",", ".")) : given;
+}
+
 /** Save a file. blob: its content */
 export function download(blob, name) {
   const link = make("a", { href: URL.createObjectURL(blob), download: name });

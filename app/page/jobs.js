@@ -142,7 +142,7 @@ export class Jobs {
     const going = UNFINISHED.includes(status.status);
     const name = what(status.processID, job.spec);
     const labelled = (key, act) => button({ id: `${key}-${id}`, textContent: say(key), "aria-label": `${say(key)}: ${name}` }, act);
-    const words = Object.entries({ what: name, state: stateWords(status) }).map(([className, textContent]) => make("span", { className, textContent }));
+    const words = Object.entries({ title: name, state: stateWords(status) }).map(([className, textContent]) => make("span", { className, textContent }));
     const row = make("li", { "data-state": status.status }, ...words);
     if (going) row.append(make("progress", { max: 100, value: status.progress, "aria-label": `${name}: ${status.progress} %` }));
     const { href, type } = resultOf(status);

@@ -62,11 +62,11 @@ const REQUESTS = {
     return figure("trajectory", form, { body: questions.placed({ time }) });
   },
   contact(questions, form) {
-    const { kind, query, numbers, end } = questions.dance;
+    const { kind, query, numbers, answer, begin, end } = questions.dance;
     // The figure of a contact shows everybody in their place: with a stray, the figure of the last shown instant replaces it.
     if (strayOf(query) > 0) return figure("trajectory", form, { body: questions.placed({ time: end }) });
     const { stray, hole, pin, ...flat } = query;
-    return figure("contact", form, kind === "spiral" && isPlain(questions.dance) ? { query: flat } : { body: questions.placed({ margin: numbers.margin }) });
+    return figure("contact", form, kind === "spiral" && isPlain(questions.dance) ? { query: flat } : { body: questions.placed({ margin: numbers.margin, start: begin, ...(kind === "turn" && answer.time === null && { stop: end }) }) });
   },
   stairs: (questions, form) => figure("pitch-scan", form, questions.pitchOf(["margin"])),
   film(questions) {
@@ -98,7 +98,8 @@ export class Keep {
     Object.assign(this, { service, questions, jobs, canvas });
     onClick("#share", () => {
       state.write();
-      this.#copy(location.href);
+      // An address without anything opens in motion.
+      this.#copy(location.href + (location.search || state.get("time") !== null ? "" : "?time=end"));
     });
     onClick("#copy-curl", () => this.#copy($("#curl").textContent));
     $("#kept").append(...ITEMS.map((item) => this.#row(item)));
@@ -136,13 +137,14 @@ export class Keep {
     $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(REQUESTS[item.ask](this.questions, item.forms[0]), item)]))().join("\n");
   }
 
-  /** The command for a question. item: its first format goes into a file */
+  /** The command for a question. item: its first format goes into a file; what takes long is asked as a job */
   #curl({ path, query, body }, item) {
     const base = new URL("./", location).href;
+    if (item?.job) return this.#curl({ path: "jobs", body: { question: path, request: body, accept: TYPES[item.forms[0]] } });
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
     const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";
     const form = item?.forms[0];
-    const kept = form && form !== "JSON" ? ` -H 'Accept: ${TYPES[form]}' -o ${named(item.file ?? "dance", form)}` : "";
+    const kept = form && form !== "JSON" ? ` -H 'Accept: ${TYPES[form]}' -fo ${named(item.file ?? "dance", form)}` : "";
     return `curl '${base}${url}'${sent}${kept}`;
   }
 

@@ -1,24 +1,21 @@
 /** Speeds and times of the head: passages in addition to the head speed, and the time of day at time 0. */
 
-import { button, make, worded } from "./elements.js";
+import { button, make, numberIn, worded } from "./elements.js";
 import { refusalWords, say } from "./text.js";
 
 const DAY = 86_400;
 const [HOUR, MINUTE] = [3_600, 60];
 const CLOCK = /^([01]\d|2[0-3]):[0-5]\d(:[0-5]\d)?$/;
-const NUMBER = /^-?\d+([.,]\d+)?$/;
 /** End of a passage: a place [m] or a time [s]. */
 const ENDS = { m: "until_s", s: "until_time" };
 /** Duration of an added pause, and of an added passage [s]. */
 const [PAUSE, LONG] = [10, 20];
 
-const read = (text) => (NUMBER.test(text.trim()) ? Number(text.trim().replace(",", ".")) : text.trim());
-
 /** Passages of an address, such as 0.5@20m_0@100s, in the service's format; the service refuses wrong numbers. */
 export function passagesIn(text) {
   return text.split("_").filter(Boolean).map((one) => {
     const [, speed, until, unit] = /^(.*?)@(.*?)([ms]?)$/.exec(one) ?? [null, one, "", ""];
-    return { speed: read(speed), [ENDS[unit] ?? ENDS.s]: read(until) };
+    return { speed: numberIn(speed), [ENDS[unit] ?? ENDS.s]: numberIn(until) };
   });
 }
 
@@ -84,7 +81,7 @@ export class Pace {
 
   /** The typed passages: [speed, until, unit] of each. */
   get #typed() {
-    return this.#rows.map(({ speed, until, unit }) => `${read(speed.value)}@${read(until.value)}${unit.value}`);
+    return this.#rows.map(({ speed, until, unit }) => `${numberIn(speed.value)}@${numberIn(until.value)}${unit.value}`);
   }
 
   /** A passage after the last one, or a pause at the instant shown if that comes later. */

@@ -1,6 +1,7 @@
 /** The clock of the dance: plays, steps, scrubs, and stops at first contact. */
 
 import { $, onClick } from "./elements.js";
+import { announce } from "./overlays.js";
 import { pending } from "./pending.js";
 import { RATES } from "./state.js";
 import { say } from "./text.js";
@@ -111,6 +112,10 @@ export class Player {
     this.#frame = requestAnimationFrame((next) => this.#tick(next, now));
     const { dance } = this.questions;
     if (!dance) return this.#stop();
+    if (dance.track?.stopped) {
+      announce(() => say("notPlayed"));
+      return this.#stop();
+    }
     if (!dance.track?.at(this.time)) return;
     this.#passed += Math.min(now - before, FRAME_MAX);
     if (this.still.matches && this.#passed < STEP_EVERY) return;

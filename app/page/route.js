@@ -1,12 +1,15 @@
 /** The form of a drawn dance: presets, its points and its venue as lists, files in and out. */
 
 import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
-import { button, hide, make } from "./elements.js";
+import { button, hide, make, numberIn } from "./elements.js";
 import { PRESETS } from "./presets.js";
 import { say } from "./text.js";
 
-const NUMBER = /^-?\d+([.,]\d+)?$/;
-const read = (field) => (NUMBER.test(field.value.trim()) ? Number(field.value.trim().replace(",", ".")) : null);
+/** The number in a field; null if there is none. */
+function read(field) {
+  const found = numberIn(field.value);
+  return typeof found === "number" ? found : null;
+}
 /** An element with a text, or a label, that follows the language. */
 const said = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
 const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
@@ -14,10 +17,13 @@ const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data
 const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4] };
 const unitOf = (textContent) => make("span", { className: "unit", textContent });
 const removing = { className: "reset", textContent: "✕" };
+/** Fields that may be empty. */
+const OPTIONAL = ["speedLimit", "latitude", "longitude"];
 const isRefused = (field) => field.getAttribute("aria-invalid") === "true";
 /** Show a value unless a person is typing there, or typed what was refused. */
 const put = (field, value) => {
-  if (document.activeElement !== field && !isRefused(field) && field.value !== String(value)) field.value = value;
+  field.kept = String(value);
+  if (document.activeElement !== field && !isRefused(field) && field.value !== field.kept) field.value = value;
 };
 
 export class RouteForm {
@@ -29,9 +35,9 @@ export class RouteForm {
     Object.assign(this, { box, state, steps, editor });
     this.preset = labelled("select", "preset", { id: "preset", onchange: () => this.beginWith(this.preset.value) });
     this.preset.append(said("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => said("option", `preset_${name}`, { value: name })));
-    this.corner = this.#number("cornerRadius", (radius) => radius && this.#take({ radius }));
+    this.corner = this.#number("cornerRadius", (radius) => this.#take({ radius }));
     this.limit = this.#number("speedLimit", (limit) => this.#take({ limit }));
-    this.begin = this.#number("pathBegin", (begin) => begin !== null && this.#take({ begin }));
+    this.begin = this.#number("pathBegin", (begin) => this.#take({ begin }));
     this.origin = ["latitude", "longitude"].map((key) => this.#number(key, () => this.#placed()));
     this.wrong = make("p", { className: "error", role: "alert" });
     this.rows = make("tbody");
@@ -66,7 +72,9 @@ export class RouteForm {
       const found = read(target);
       const isRight = !target.value.trim() || (found !== null && low <= found && found <= high);
       this.#mark(target, isRight ? "" : say("noNumberIn", { what: say(key), low, high, text: target.value }));
-      if (isRight) act(found);
+      if (!isRight) return;
+      if (found === null && !OPTIONAL.includes(key)) target.value = target.kept;
+      else act(found);
     };
     return labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange });
   }
@@ -161,7 +169,7 @@ export class RouteForm {
 
   #pointRow(k) {
     const fields = ["pointX", "pointY"].map((key, axis) =>
-      this.#number(key, (value) => value !== null && this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
+      this.#number(key, (value) => this.steps.take(moved(this.#drawing, null, k, this.#drawing.points[k].with(axis, value)))),
     );
     const leg = labelled("input", "straightOn", { type: "checkbox", onchange: () => this.steps.take(bent(this.#drawing, k)) });
     const remove = labelled("button", "remove", { type: "button", ...removing, onclick: () => this.steps.take(removed(this.#drawing, null, k)) });
@@ -182,7 +190,7 @@ export class RouteForm {
     const row = {
       edit: button({}, edit),
       name: labelled("input", "thingName", { autocomplete: "off", spellcheck: false, onchange: rename }),
-      radius: this.#number("thingRadius", (radius) => radius && this.steps.take(withThing(this.#drawing, k, { radius }))),
+      radius: this.#number("thingRadius", (radius) => this.steps.take(withThing(this.#drawing, k, { radius }))),
       unit: unitOf("m"),
       remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(k, 1) })),
     };

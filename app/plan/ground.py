@@ -80,9 +80,9 @@ def draw_ground(sheet: Sheet, ground: GroundMap, scale: Scale, *, numbers: bool)
             sheet.area([_drawn(scale.on_paper(ring)) for ring in rings], frame, zorder=order, **look)
     _draw_venue(sheet, ground, scale, frame)
     line = scale.on_paper(ground.line)
-    sheet.line(line, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4, clip_path=frame)
+    sheet.line(line, frame, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4)
     if numbers:
-        _draw_arrows(sheet, line)
+        _draw_arrows(sheet, line, frame)
         _draw_marks(sheet, ground, scale, line)
     return frame
 
@@ -146,7 +146,7 @@ def _inside(ring: Floats, beside: float) -> list[tuple[float, float]]:
     return found
 
 
-def _draw_arrows(sheet: Sheet, line: Floats) -> None:
+def _draw_arrows(sheet: Sheet, line: Floats, frame: Rectangle) -> None:
     """Draw arrows along the path, in the direction of the dance."""
     steps = np.hypot(*np.diff(line, axis=0).T)
     along = np.concatenate([[0.0], np.cumsum(steps)])
@@ -156,7 +156,7 @@ def _draw_arrows(sheet: Sheet, line: Floats) -> None:
         normal = np.array([-tangent[1], tangent[0]])
         tip = line[k] + 1.6 * tangent
         sheet.shape(
-            np.array([tip, line[k] - 1.0 * tangent + 0.9 * normal, line[k] - 1.0 * tangent - 0.9 * normal]),
+            np.array([tip, line[k] - 1.0 * tangent + 0.9 * normal, line[k] - 1.0 * tangent - 0.9 * normal]), frame,
             facecolor=BLUE, linewidth=0.0, zorder=6,
         )  # fmt: skip
 

@@ -139,10 +139,12 @@ class Sheet:
         self.axes.add_patch(drawn)
         return drawn
 
-    def line(self, points: Any, **look: Any) -> None:
+    def line(self, points: Any, clip: Rectangle | None = None, **look: Any) -> None:
         x, y = np.asarray(points, dtype=np.float64).T
         given: dict[str, Any] = {"color": "black", "linewidth": 0.5, "solid_capstyle": "butt"} | look
-        self.axes.plot(x, y, **given)
+        (drawn,) = self.axes.plot(x, y, **given)
+        if clip is not None:
+            drawn.set_clip_path(clip)
 
     def area(self, rings: Iterable[Floats], clip: Rectangle | None = None, **look: Any) -> None:
         """Fill a polygon with its holes."""

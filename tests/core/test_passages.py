@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -189,3 +191,35 @@ def test_a_dance_with_passages_is_judged_to_the_very_end_of_its_path() -> None:
     assert bend is not None
     assert steady is not None
     assert bend.angle == steady.angle
+
+
+@pytest.mark.parametrize("ends", ["until_s", "until_time"])
+def test_however_many_passages_there_are_each_node_has_one_rounding(ends: str) -> None:
+    passages = [Passage(0.5202767152444515 + 0.001 * k, **{ends: 150.6993216995924 * (k + 1)}) for k in range(1000)]
+    clock = Dance(Dragon(30), Spiral(0.55, 300), 1.0, passages).clock
+    time = travel = Fraction(0)
+    for k, passage in enumerate(passages, start=1):
+        if passage.until_s is not None:
+            time, travel = (
+                time + (Fraction(passage.until_s) - travel) / Fraction(passage.speed),
+                Fraction(passage.until_s),
+            )
+        else:
+            end = Fraction(passage.until_time or 0.0)
+            time, travel = end, travel + (end - time) * Fraction(passage.speed)
+        if k % 100 == 0:
+            assert (clock.times[k], clock.travels[k]) == (float(time), float(travel))
+
+
+def test_a_bracket_stays_true_after_a_thousand_passages() -> None:
+    ends = [150.6993216995924 * (k + 1) for k in range(1000)]
+    steady = Dance(Dragon(30), Spiral(0.55, 300))
+    found = first_contact(Dance(steady.dragon, steady.path, 1.0, [Passage(0.5202767152444515, end) for end in ends]))
+    known = first_contact(steady).time_bracket
+    assert known is not None
+    assert found.time_bracket is not None
+    # The place of the head at a time after all passages, in exact fractions.
+    speed = Fraction(0.5202767152444515)
+    clear, touching = (Fraction(time) - Fraction(ends[-1]) / speed + Fraction(ends[-1]) for time in found.time_bracket)
+    assert clear <= Fraction(known[1])
+    assert touching >= Fraction(known[0])
