@@ -52,7 +52,10 @@ def read(data: bytes) -> Drawing:
     except InvalidValue:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
-    except (errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError) as error:
+    except (
+        *(errors.DXFError, OSError, ValueError, ArithmeticError, LookupError, AttributeError, TypeError),
+        *(AssertionError, RuntimeError),
+    ) as error:
         rule, why = "must be DXF that can be read: {why}", str(error)[:200]
         raise InvalidValue("file", rule, why=why) from error
 

@@ -33,6 +33,7 @@ FORBIDDEN = "file must not have a document type or entities: save it again as pl
 
 def unpacked(data: bytes) -> bytes:
     """The document in a KMZ file. raises: InvalidValue"""
+    import lzma
     import zipfile
     import zlib
 
@@ -43,7 +44,7 @@ def unpacked(data: bytes) -> bytes:
                 raise InvalidValue("file", "must be a KMZ file with a .kml document", got="an archive without one")
             with archive.open(name) as source:
                 document = source.read(UNPACKED_MAX + 1)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except (zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, OSError, RuntimeError, ValueError) as error:
         raise InvalidValue("file", "must be a KMZ file that can be unpacked: {why}", why=str(error)) from error
     if len(document) > UNPACKED_MAX:
         raise InvalidValue("file", "must unpack to at most {most} bytes", got="more", most=UNPACKED_MAX)

@@ -17,7 +17,7 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterat
 from contextlib import asynccontextmanager, contextmanager
 from threading import Lock
 from typing import Any
-from urllib.parse import unquote
+from urllib.parse import quote, unquote
 
 from fastapi import Request, Response
 from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram
@@ -188,7 +188,7 @@ class Mistakes(Layer):
             if isinstance(error, ClientDisconnect):
                 answer = await http_problem(Request(scope), Refused(400, "The body ended too soon."))
             else:
-                logger.exception("%s %s failed", scope["method"], scope["path"])
+                logger.exception("%s %s failed", scope["method"], quote(scope["path"]))
                 answer = server_problem()
             await answer(scope, receive, send)
 

@@ -108,7 +108,10 @@ class Files(StaticFiles):
 
     def content(self, path: str) -> tuple[bytes, str]:
         """A file and its media type. raises: HTTPException 404 for a path that is not a file"""
-        found, stat = self.lookup_path(path)
+        try:
+            found, stat = self.lookup_path(path)
+        except (OSError, ValueError) as error:  # a name that no file can have
+            raise HTTPException(status_code=404) from error
         if stat is None or not os.path.isfile(found):
             raise HTTPException(status_code=404)
         return _content(found, stat.st_mtime_ns), guess_type(found)[0] or "text/plain"

@@ -258,6 +258,18 @@ def zipped(size: int) -> bytes:
     return sink.getvalue()
 
 
+def broken(place: int, changed: bytes, method: int = zipfile.ZIP_STORED) -> bytes:
+    """A KMZ file with other bytes at a place of its record in the directory; method: stated in both of its records"""
+    sink = io.BytesIO()
+    with zipfile.ZipFile(sink, "w") as archive:
+        archive.writestr("doc.kml", b"<kml/>")
+    data = bytearray(sink.getvalue())
+    local, directory = data.index(b"PK\3\4"), data.index(b"PK\1\2")
+    data[local + 8 : local + 10] = data[directory + 10 : directory + 12] = method.to_bytes(2, "little")
+    data[directory + place : directory + place + len(changed)] = changed
+    return bytes(data)
+
+
 BOMB = '<!DOCTYPE k [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]><kml>&b;</kml>'
 
 
@@ -269,6 +281,11 @@ BOMB = '<!DOCTYPE k [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a
         (b"<kml>" + b"<Folder>" * 100_000, "must not nest elements deeper than 60"),
         (zipped(21_000_000), "must unpack to at most 20000000 bytes"),
         (b"PK\x03\x04broken", "must be a KMZ file that can be unpacked"),
+        # A directory 500 bytes further than it is, a name that is not the UTF-8 it claims to be, and wrong methods.
+        (broken(0, b"")[:-6] + b"\xff\xff\0\0\0\0", "must be a KMZ file that can be unpacked"),
+        (broken(8, b"\0\x08", 0).replace(b"doc.kml", b"d\xff\xfe.kml"), "must be a KMZ file that can be unpacked"),
+        (broken(0, b"", zipfile.ZIP_BZIP2), "must be a KMZ file that can be unpacked"),
+        (broken(0, b"", zipfile.ZIP_LZMA), "must be a KMZ file that can be unpacked"),
         (b"<svg/>", "got XML of another kind"),
         (b"AC1027" + b"\0" * 100, "got DWG"),
         (b"0\nSECTION\nnonsense", "file must be DXF"),

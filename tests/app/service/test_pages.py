@@ -48,7 +48,11 @@ def test_what_gzip_makes_no_smaller_is_sent_as_it_is(server: str, path: str, kin
 
 
 @pytest.mark.parametrize(
-    "path", ["/page/nowhere.js", "/page/", "/page/how", "/page/../main.py", "/docs/assets/__init__.py"]
+    "path",
+    [
+        *("/page/nowhere.js", "/page/", "/page/how", "/page/../main.py", "/docs/assets/__init__.py"),
+        *("/page/%00", "/docs/assets/%00", "/page-x/%00", "/page/%1b%5B2J%0d", f"/page/{300 * 'a'}"),
+    ],
 )
 def test_only_files_of_the_pages_are_sent(server: str, path: str) -> None:
     answer = httpx.get(server + path)
