@@ -212,7 +212,8 @@ def _add_health(app: FastAPI) -> None:
     @app.get("/metrics", include_in_schema=False)
     def metrics(request: Request) -> Response:
         registry = request.app.state.registry
-        if SHARED_COUNTS in os.environ:  # Counts of all processes on this port.
+        # Counts of all processes on this port; those of this one if somebody removed their folder.
+        if os.path.isdir(os.environ.get(SHARED_COUNTS, "")):
             registry = CollectorRegistry()
             MultiProcessCollector(registry)  # type: ignore[no-untyped-call]
             registry.register(JobMetrics(lambda: request.app.state.jobs))

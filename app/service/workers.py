@@ -17,14 +17,14 @@ import signal
 import socket
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module
+from pathlib import Path
 from tempfile import TemporaryDirectory, TemporaryFile
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 import uvicorn
-from prometheus_client.multiprocess import mark_process_dead
 from uvicorn.supervisors import Multiprocess
 
 from app.jobs.keeper import scratch
@@ -42,8 +42,10 @@ logger = logging.getLogger("uvicorn.error")
 # h11 serves, although httptools would save a fifteenth of the time: httptools answers an unknown method itself, with
 # 400 and without problem details.
 PARSER = "app.service.protocol:Protocol"
-# Room for the counts of one process [bytes]: three kinds of metrics, each in a file of 1 MiB.
-COUNTS_BYTES = 4 << 20
+# The files of the counts of one process, by their names in prometheus_client, the size of each [bytes], and the room
+# that there must be for a process [bytes].
+COUNTS, COUNTS_FILE = ("counter", "histogram", "gauge_livesum"), 1 << 20
+COUNTS_BYTES = 4 * COUNTS_FILE
 # Longest silence of a process before it is replaced [s]: while it starts, which takes ten seconds on a busy machine,
 # and once it has answered, which took at most 0.4 s under all attacks of `make soak` at once (2026-11-23).
 START_SECONDS, SILENT_SECONDS = 60, 10
@@ -118,8 +120,12 @@ class _Supervisor(Multiprocess):
         self.config.timeout_worker_healthcheck = START_SECONDS
         self._close_their_ends()
         after = {process.pid for process in self.processes}
-        for gone in self.counted - after if self.counts else ():
-            mark_process_dead(gone, self.counts)  # type: ignore[no-untyped-call]
+        if self.counts and (gone := self.counted - after):
+            # Imported late, because a new process decides at the import whether its counts are shared.
+            from prometheus_client.multiprocess import mark_process_dead
+
+            for process in gone:
+                mark_process_dead(process, self.counts)  # type: ignore[no-untyped-call]
         self.known, self.counted = before & after, after
 
 
@@ -137,20 +143,45 @@ def _counts_folder(workers: int) -> Iterator[str | None]:
                     if room.write(bytes(COUNTS_BYTES)) < COUNTS_BYTES:
                         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         except OSError as error:
-            why = error.strerror or str(error)
-            logger.warning(
-                "The folder for temporary files cannot be used (%s): /metrics shows one process alone. "
-                "Free some space there, or set TMPDIR to another folder.",
-                why,
-            )
+            _warn_of_counts(error)
             kept.close()
             yield None
             return
         yield folder
 
 
+def _warn_of_counts(error: OSError) -> None:
+    logger.warning(
+        "The folder for temporary files cannot be used (%s): /metrics shows one process alone. "
+        "Free some space there, or set TMPDIR to another folder.",
+        error.strerror or str(error),
+    )
+
+
+def _take_room() -> None:
+    """Fill the files of this process's counts with zeros, before they are mapped into memory.
+
+    A mapped file without room on the disk would end the process at a count. Without room, or if somebody removed the
+    folder, this process counts for itself.
+    """
+    folder = os.environ.get(SHARED_COUNTS)
+    if folder is None:
+        return
+    files = [Path(folder) / f"{kind}_{os.getpid()}.db" for kind in COUNTS]
+    try:
+        for file in files:
+            file.write_bytes(bytes(COUNTS_FILE))
+    except OSError as error:
+        _warn_of_counts(error)
+        for file in files:
+            with suppress(OSError):
+                file.unlink()
+        del os.environ[SHARED_COUNTS]
+
+
 def create_child_app() -> FastAPI:
     """create_app() in a process that ends when its parent ends, also when the parent is killed."""
+    _take_room()
     with importing():
         from app.service.main import create_app
 

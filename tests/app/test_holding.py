@@ -6,6 +6,7 @@ import json
 import os
 import re
 import resource
+import shutil
 import signal
 import socket
 import time
@@ -320,6 +321,26 @@ def leaves(service: Service, stop: signal.Signals) -> None:
         os.kill(service.process.pid, stop)
         service.process.wait(SOON)
         until(lambda: not any(alive(pid) for pid in family))
+
+
+def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "temporary").mkdir()
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
+    with serving(tmp_path / "log", workers=2, grace_seconds=GRACE_SECONDS) as service:
+        counts = next((tmp_path / "temporary").glob("bench-dragon-*/counter_*.db"))
+        files = list(counts.parent.iterdir())
+        # Every file has its room: a full disk cannot end the process that has it mapped into memory.
+        assert all(file.stat().st_blocks * 512 >= file.stat().st_size for file in files)
+        shutil.rmtree(counts.parent)
+        assert "bench_dragon_requests" in httpx.get(f"{service.url}/metrics").text
+        known = int(counts.stem.rpartition("_")[2])
+        os.kill(known, signal.SIGKILL)
+        until(lambda: "shows one process alone" in service.log.read_text())
+        for _ in range(10):
+            assert httpx.get(f"{service.url}/collision-time").status_code == 200
+        until(lambda: not alive(known))
 
 
 def test_a_full_disk_leaves_metrics_of_one_process_and_a_word_and_ctrl_c_ends_all(tmp_path: Path) -> None:
