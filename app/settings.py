@@ -121,6 +121,9 @@ class Settings(BaseModel):
         4, ge=1, description="Longer computations at once of one client in one process; further ones get 429"
     )
     workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; further ones get 503")
+    bodies_bytes_max: int = Field(
+        200_000_000, ge=1, description="Bodies held at once in one process [bytes]; further large ones get 503"
+    )
     large_bodies_max: int = Field(
         4, ge=1, description="Bodies over 64 kB read at once in one process; further ones get 503"
     )

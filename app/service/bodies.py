@@ -15,7 +15,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from starlette.types import Message
 
-from app.service.middleware import Handler, Lanes, watched
+from app.service.middleware import LARGE, Handler, Lanes, watched
 from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings
@@ -23,8 +23,6 @@ from app.wire.problem import ERRORS_MAX
 from app.wire.question import JSON, shown
 from app.wire.texts import Unreadable, json_of
 
-# Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
-LARGE = 64_000
 # Estimated time to answer a large body, for the Retry-After of a full lane [s].
 LARGE_COST = 1.0
 
@@ -53,6 +51,7 @@ class WatchedRoute(APIRoute):
         answer = self.unwatched()
 
         async def handled(request: Request) -> Response:
+            self.refuse_head(request)
             async with watched(request, self.seconds(request.app.state.settings)):
                 return await answer(request)
 
@@ -61,6 +60,9 @@ class WatchedRoute(APIRoute):
     def seconds(self, settings: Settings) -> float:
         """Longest time of the computation [s]."""
         return settings.deadline_seconds
+
+    def refuse_head(self, request: Request) -> None:
+        """Refuse a request before its body is read. raises: Refused"""
 
     def unwatched(self) -> Handler:
         return super().get_route_handler()
@@ -111,14 +113,17 @@ def content_type(request: Request) -> str:
     return request.headers.get("content-type", "").partition(";")[0].strip().lower()
 
 
+def has_body(request: Request) -> bool:
+    return request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
+
+
 def refuse_type(request: Request) -> None:
     """raises: Refused (415) for a body that is not JSON, or that is compressed"""
     kind = content_type(request)
-    has_body = request.headers.get("content-length", "0") != "0" or "transfer-encoding" in request.headers
-    if has_body and kind != JSON:
+    if has_body(request) and kind != JSON:
         told = {"got": kind or "no Content-Type", "reason": "send the header Content-Type: {type}.", "type": JSON}
         raise Refused(415, "The body must be {type}", {"name": "Content-Type"}, {"Accept-Post": JSON}, **told)
-    if has_body:
+    if has_body(request):
         refuse_coded(request)
 
 

@@ -45,6 +45,8 @@ ABSOLUTE = re.compile(rb"https?://[^/]+(/.*)?", re.IGNORECASE)
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
 # Longest estimated time of a cheap answer [s].
 CHEAP = 0.1
+# Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
+LARGE = 64_000
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
 
@@ -63,11 +65,15 @@ class Layer:
 
 
 class RequestLimits(Layer):
-    """Answers 414 to a long query, 400 to a length stated twice, and 413 as soon as a body is too long."""
+    """Answers 414 to a long query, 400 to a length stated twice, and 413 as soon as a body is too long.
+
+    While this process holds as many bytes of bodies as it may, a further large one gets 503.
+    """
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         super().__init__(app)
         self.bytes_max, self.query_max = settings.body_bytes_max, settings.query_bytes_max
+        self.held, self.held_max, self.retry_after = 0, settings.bodies_bytes_max, settings.retry_after
         # Paths of the calls that take a file, which have limits of their own.
         self.files_max = {"/grade": settings.grade_bytes_max, "/places": settings.places_bytes_max}
 
@@ -77,15 +83,26 @@ class RequestLimits(Layer):
         async def counted() -> Message:
             nonlocal read
             message = await receive()
-            read += len(message.get("body", b""))
+            more = len(message.get("body", b""))
+            read, self.held = read + more, self.held + more
             if read > most:
                 raise self._refused(most, "more")
+            if read > LARGE and self.held > self.held_max:
+                raise self._full()
             return message
 
         if refused := self._refused_head(Headers(scope=scope), scope["query_string"], most):
             response = await http_problem(Request(scope), refused)
             return await response(scope, receive, send)
-        return await self.app(scope, counted, send)
+        try:
+            return await self.app(scope, counted, send)
+        finally:
+            self.held -= read
+
+    def _full(self) -> Refused:
+        told = {"most": Quantity(self.held_max, "bytes"), "seconds": Quantity(self.retry_after, "s")}
+        words, after = "The limit of {most} of bodies at once is reached", {"Retry-After": str(self.retry_after)}
+        return Refused(503, words, None, CLOSE | after, reason="try again in {seconds}.", **told)
 
     def _refused_head(self, headers: Headers, query: bytes, most: int) -> Refused | None:
         if len(query) > self.query_max:

@@ -19,7 +19,7 @@ from app.grade.report import GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.places import Places, read_places
 from app.questions.maps import FORMS
-from app.service.bodies import WatchedRoute, content_type, refuse_coded
+from app.service.bodies import WatchedRoute, content_type, has_body, refuse_coded
 from app.service.graders import Graders
 from app.service.middleware import Lanes, client_of
 from app.service.problems import Refused
@@ -69,9 +69,13 @@ class PlacesQuery(Wire):
 
 
 class UploadRoute(WatchedRoute):
-    """A call whose body is a file."""
+    """A call whose body is a file, for which the service may want its token."""
 
     takes_file = True
+
+    def refuse_head(self, request: Request) -> None:
+        if has_body(request):
+            guard(request)
 
 
 class GradeRoute(UploadRoute):
@@ -94,7 +98,6 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
     async def uploaded(request: Request) -> bytes:
         data = await request.body()
         if data:
-            guard(request)
             refuse_coded(request)
         kind = content_type(request)
         if data and kind not in types:

@@ -323,6 +323,23 @@ def leaves(service: Service, stop: signal.Signals) -> None:
         until(lambda: not any(alive(pid) for pid in family))
 
 
+def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
+    head = "POST /{} HTTP/1.1\r\nHost: x\r\nContent-Type: {}\r\nContent-Length: {}\r\n\r\n"
+    with serving(tmp_path / "log", token="correct horse", bodies_bytes_max=150_000) as service:
+        # Without the token a file is refused by its head, of which nothing has to be kept.
+        large = head.format("grade", "application/octet-stream", 19_000_000)
+        assert send(service, large.encode()).startswith(b"HTTP/1.1 401 ")
+        begun = head.format("check", "application/json", 120_000).encode() + b" " * 100_000
+        with socket.create_connection(service.address, timeout=SOON) as waiting:
+            waiting.sendall(begun)
+            time.sleep(0.3)
+            refused = send(service, begun)
+            assert refused.startswith(b"HTTP/1.1 503 ")
+            assert b"The limit of 150000 bytes of bodies at once is reached: try again in 1 s." in refused
+            assert httpx.post(f"{service.url}/check", json={"dragon": {"benches": 9}}).status_code == 200
+        until(lambda: send(service, begun + b" " * 20_000).startswith(b"HTTP/1.1 400 "))
+
+
 def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
