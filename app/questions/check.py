@@ -18,7 +18,9 @@ from core import Dance, Outcome, Venue
 class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
     """Verdict on a dance: dragon, path, venue and limits."""
 
-    speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; default: no limit", None)
+    speed_limit: SpeedLimit | None = measure(
+        "m/s", "Highest speed allowed for any handle, to a millionth of it; default: no limit", None
+    )
     details: bool = Field(
         True,
         description="false: the verdict and the failures alone, in a tenth of the time; least clearance, highest speed "

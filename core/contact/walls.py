@@ -28,8 +28,9 @@ from core.venue import Area, Venue
 
 # Length of a spiral beyond the last instant, so that rounding cannot put that instant outside it [m].
 SPARE = 1e-3
-# Distance by which a computed place must be beyond a radius [m]: places of handles are good to 1e-12 m (trajectory()).
-SURELY = 1e-9
+# Distance by which a computed place must be beyond a radius [m], and as a part of that radius [1]: places of handles
+# are good to 1e-12 of their distance from the centre (trajectory()).
+SURELY, SURELY_OF_RADIUS = 1e-9, 1e-11
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -179,7 +180,8 @@ def is_clear_beyond(
     dragon = search.dragon
     frame, clock = dance.path.frame, dance.clock
     ends = np.linalg.norm(trajectory(dance.steady, dance.steady_times(np.array([start, seen]))).position, axis=-1)
-    if (ends[1, 1:] + SURELY > ends[0, :-1]).any():
+    surely = SURELY + SURELY_OF_RADIUS * float(ends.max())
+    if (ends[1, 1:] + surely > ends[0, :-1]).any():
         return False
     alike = dragon.uniform_from + 1
     search.resize(dragon.benches)
@@ -187,7 +189,7 @@ def is_clear_beyond(
     arcs, _ = moved_until(search, dance.end.theta or 0.0)
     rates = np.hypot(1.0, search.placed[: dragon.benches + 1, kernels.THETA])
     outwards = arcs / rates  # radii grow by this part of an arc
-    if (ends[1] + outwards + SURELY > ends[0])[alike:].any():
+    if (ends[1] + outwards + surely > ends[0])[alike:].any():
         return False
     reach = ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max()
     reach += 0.5 * dragon.widths[:alike].max()
@@ -195,7 +197,7 @@ def is_clear_beyond(
     along = edges[:, 2:] - edges[:, :2]
     share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
     nearest = np.linalg.norm(edges[:, :2] + share[:, None] * along, axis=1).min()
-    return bool(nearest > reach + margin + SURELY)
+    return bool(nearest > reach + margin + surely)
 
 
 def _area_clearance(

@@ -67,7 +67,7 @@ FLAT = 0.02
 # Excess of the two triangles over the swept ground where one crossing is outside the edge, in slips; and the largest
 # distance of the two crossings along the edge in that case [1].
 BESIDES, MIXED = 6.0, 0.5
-# Rounding of points and of the union [m]; places in a square are good to 1e-11 m.
+# Rounding of points and of the union [m]; places within 1 km are good to 1e-9 m.
 ROUNDING = 1e-8
 # Largest number of cells that share one bound on the motion [1].
 CELLS = 16

@@ -81,10 +81,11 @@ CHAIN_WORK = 5.0
 #
 # shift_bounds() is good to BAND_ROUNDING of its results. It adds up products of terms >= 0, with fewer than
 # 60 roundings for each bench. These terms are angles between handles, with errors of 2 SLIP / r, at most 1e-12 of
-# themselves (rounding.py) where anything is claimed, and sines and tangents of half these angles, whose errors are at
-# most 1e3 times larger because delta stays ACROSS below pi. The only difference is `front`, A above, of which only the
-# sign matters: it must exceed BAND_ROUNDING of its terms. sqrt(1 - c^2) has 4e-5 c^2 to spare under the root, because
-# 2 / 1.5^(3/2) is that much less than SPIRAL_CURVATURE_MOST.
+# themselves (rounding.py) up to a radius of some 2,000 chords, and sines and tangents of half these angles, whose
+# errors are at most 1e3 times larger because delta stays ACROSS below pi. Further out angles are small, where a tangent
+# enlarges nothing: 3e-10 at 6e5 chords, and the bounds for rings and straight lines answer before a band is marched.
+# The only difference is `front`, A above, of which only the sign matters: it must exceed BAND_ROUNDING of its terms.
+# sqrt(1 - c^2) has 4e-5 c^2 to spare under the root: 2 / 1.5^(3/2) is that much less than SPIRAL_CURVATURE_MOST.
 ACROSS = 1e-3  # [rad]
 
 

@@ -15,7 +15,8 @@ from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
 from core.sampling import bisected
 from core.shown import Readable
 
-# Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12.
+# Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12,
+# except in the last moments before a fold, where rates grow without bound and lose digits.
 RATE_TOLERANCE = 1e-9
 # Step of the first samples of rates, as a part of the longest chord [1] ...
 SAMPLE_STEP = 0.5
@@ -49,7 +50,8 @@ HALVINGS = 50
 @dataclass(frozen=True, slots=True, repr=False)
 class HighestSpeed(Readable):
     """speed: the highest one found [m/s]; time [s]; handles: those that reach it together
-    speed_bracket: (found, proven upper bound: None if the proof was given up) [m/s]
+    speed_bracket: (found, proven upper bound: None if the proof was given up) [m/s]; in the last moments before a fold
+        the one found may be too high by 1e-6 of it
     passage: index of its passage; None outside all passages"""
 
     speed: float
@@ -130,7 +132,8 @@ def _peak_of(search: Search, period: Period) -> HighestSpeed:
     peak = peak_over(search, period.first, period.last)
     rate, upper, travel = float(peak.rate), float(peak.upper), float(peak.travel)
     rates = np.abs(search.rates(travel))
-    tied = tuple(int(k) for k in np.flatnonzero(rates >= rate * (1.0 - TIED)))
+    # Near a fold two chains differ by more than TIED, and the largest rate of this one counts.
+    tied = tuple(int(k) for k in np.flatnonzero(rates >= min(rate, float(rates.max())) * (1.0 - TIED)))
     proven = upper * speed if upper < kernels.FREE else None
     return HighestSpeed(rate * speed, (rate * speed, proven), period.time(travel), tied, period.passage)
 
@@ -188,9 +191,9 @@ def first_excess(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> FirstExcess | None:
-    """First time at which a handle is faster than the limit; None if that is proven never to happen.
+    """First time at which a handle is faster than the limit; None if it is proven that none ever is by a millionth.
 
-    speed_limit: [m/s], exceeded by more than SPEED_ROUNDING of it
+    speed_limit: [m/s], exceeded by more than 1e-12 of it; an excess below SPEED_PROVEN, 1e-6 of it, may be passed over
     start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound
     The proof that no handle was faster before is that of core/kernels/excess.py.
     raises: InvalidValue; OutsideRun; TooMuchWork

@@ -225,3 +225,9 @@ def test_the_bracket_of_an_excess_begins_where_a_proof_was_given_up_and_ends_wit
 def test_a_run_to_a_fold_without_a_stop_asks_for_one() -> None:
     with pytest.raises(InvalidValue, match=r"^stop must be given: the run ends at a fold, .* before 432\.91792422"):
         highest_speed(Dance(Dragon(), Spiral()))
+
+
+def test_near_a_fold_there_is_always_a_handle_that_reaches_the_highest_speed() -> None:
+    """There two chains of the same instant differ by more than what counts as equal."""
+    dance = Dance(Dragon(1, 900.0, 900.0, 20.0, 0.0), Spiral(300.0, 40.0))
+    assert highest_speed(dance, stop=1506595.0796309002).handles == (1,)
