@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import difflib
 import logging
+import os
 import re
 import sqlite3
 from collections.abc import AsyncIterator
@@ -17,6 +18,7 @@ from fastapi import APIRouter, Body, Depends, Header, Path, Request, Response
 from fastapi.responses import FileResponse, JSONResponse, StreamingResponse
 from pydantic import BaseModel, ValidationError
 from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers
 from starlette.types import Receive, Scope, Send
 
 from app.jobs.job import ID_PATTERN, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState
@@ -57,6 +59,8 @@ COME_AGAIN = {"Retry-After": "60"}
 MAKE_ROOM = "remove jobs that you do not need, or make room"
 # Number of an event in a client's header; longer numbers are not ours, and SQLite cannot store them.
 EVENT_ID = re.compile(r"[0-9]{1,18}")
+# One range of bytes, from a first one on.
+RANGE = re.compile(r"bytes=([0-9]{1,18})-([0-9]{0,18})")
 NOT_KEPT = {"Cache-Control": "no-store"}
 # Results up to this size are read before the answer begins, so that an expiry does not interrupt the answer [bytes].
 READ_AT_ONCE = 1_000_000
@@ -263,7 +267,7 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
     if found.state is not JobState.DISMISSED and not found.expired:
         with suppress(FileNotFoundError):  # The file may be removed at any time.
             if file.stat().st_size > READ_AT_ONCE:
-                return FileResponse(file, headers=NOT_KEPT, media_type=found.media_type)
+                return LargeResult(file, headers=NOT_KEPT, media_type=found.media_type)
             return Response(file.read_bytes(), headers=NOT_KEPT, media_type=found.media_type)
     why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
     raise Refused(410, f"{why}: there is no result, ask the question again.")
@@ -289,6 +293,17 @@ async def events(
     return News(keeper, found.id, after)
 
 
+class LargeResult(FileResponse):
+    """A file, or one range of its bytes; any other Range is ignored, as HTTP allows: a refusal would have no words."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        wanted = RANGE.fullmatch(Headers(scope=scope).get("range", ""))
+        size = os.stat(self.path).st_size
+        if not (wanted and int(wanted[1]) < size and int(wanted[1]) <= int(wanted[2] or size)):
+            scope = {**scope, "headers": [one for one in scope["headers"] if one[0] != b"range"]}
+        await super().__call__(scope, receive, send)
+
+
 class News(StreamingResponse):
     """Events of a job after a given one, as they happen, until the job is finished or removed, or the service ends."""
 
@@ -297,6 +312,7 @@ class News(StreamingResponse):
         super().__init__(self.told(), headers={**NOT_KEPT, "X-Accel-Buffering": "no"}, media_type=EVENTS_TYPE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        self.is_head = scope.get("is_head", False)
         try:
             await super().__call__(scope, receive, send)
         finally:
@@ -305,7 +321,7 @@ class News(StreamingResponse):
     async def told(self) -> AsyncIterator[bytes]:
         store, beat = self.keeper.store, monotonic()
         yield b"retry: 1000\n\n"
-        while not self.keeper.leaving.is_set():
+        while not self.is_head and not self.keeper.leaving.is_set():
             known = await run_in_threadpool(store.get, self.job)
             # Read after the status, so that no event of a finished job is missing.
             for number, data in await run_in_threadpool(store.events, self.job, self.latest):

@@ -158,7 +158,7 @@ class HeadAsGet(Layer):
             await send(message)
 
         headers = [(name, value) for name, value in scope["headers"] if name != b"prefer"]
-        return await self.app({**scope, "method": "GET", "headers": headers}, receive, without_body)
+        return await self.app({**scope, "method": "GET", "headers": headers, "is_head": True}, receive, without_body)
 
 
 class SafetyHeaders(Layer):

@@ -51,7 +51,14 @@ def end(process: subprocess.Popen[bytes], patience: float | None = None) -> None
 
 
 def main() -> None:
-    """Answer pieces until the input ends."""
+    """Answer pieces until the input ends, or nobody takes an answer any more because the parent was killed."""
+    try:
+        _answer()
+    except BrokenPipeError:
+        os._exit(0)
+
+
+def _answer() -> None:
     source, sink = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # The prints of libraries must not mix with answers.
     with importing():
@@ -75,10 +82,7 @@ def main() -> None:
             answer = attempt(pickle.loads(data))
         except Exception as error:  # This process cannot import something that the piece needs.
             answer = (None, f"{type(error).__name__}: {error}")
-        try:
-            send(sink, answer)
-        except BrokenPipeError:
-            os._exit(0)
+        send(sink, answer)
 
 
 if __name__ == "__main__":

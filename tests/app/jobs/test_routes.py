@@ -16,7 +16,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.jobs.service import LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
+from tests.app.jobs.service import ENDLESS, LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
 
 ANSWERED = [
     SHORT,
@@ -121,6 +121,27 @@ def test_a_job_that_fails_answers_the_problem_of_its_call(service: Service) -> N
     assert kept.status_code == asked.status_code == 422
     assert kept.headers["content-type"] == "application/problem+json"
     assert kept.content == asked.content
+
+
+def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: Service) -> None:
+    address = service.post({"question": "trajectory", "request": {"times": {"stop": 90}}})
+    service.finished(address)
+    whole = service.client.get(f"{address}/result")
+    assert len(whole.content) > 1_000_001
+    for wanted, status, content in (
+        ("bytes=5-9", 206, whole.content[5:10]),
+        ("bytes=1000000-", 206, whole.content[1_000_000:]),
+        *((odd, 200, whole.content) for odd in ("bytes=5-1", "lines=1-2", "bytes=99999999999-", "bytes=1-2,5-6", "x")),
+    ):
+        answer = service.client.get(f"{address}/result", headers={"Range": wanted})
+        assert (answer.status_code, answer.content == content) == (status, True), wanted
+
+
+def test_head_of_events_ends_at_once(service: Service) -> None:
+    address = service.post(ENDLESS)
+    answer = service.client.head(f"{address}/events", timeout=5.0)
+    assert (answer.status_code, answer.content) == (200, b"")
+    service.client.delete(address)
 
 
 @pytest.fixture(scope="module")
