@@ -187,7 +187,7 @@ export function showTolerance(box, answer, benches, diameter) {
 export function showHighestSpeed(box, fastest, { benches }) {
   if (!fastest) return show(box, say("highest"), say("unbounded"), [say("towardsFold")], [paragraph(say("foldKnown"))]);
   const { speed, speed_bracket, time, handles } = fastest;
-  const name = handles.map((handle) => handleName(handle, benches)).join(say("listed"));
+  const name = handles.map((handle) => (handle === benches ? handleName : benchName)(handle, benches)).join(say("listed"));
   const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
   const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
   show(box, say("highest"), `${speed.toFixed(6)} m/s`, [whose], known);
@@ -208,7 +208,7 @@ export function showRefusal(box, title, told, names) {
 }
 
 /** What is to be mended before there is an answer. names: of fields */
-export const mendWords = (names) => say("mend", { names: names.map((name) => say("quoted", { name: say(name) })).join(say("and")) });
+export const mendWords = (names) => say("mend", { names: [...new Set(names)].map((name) => say("quoted", { name: say(name) })).join(say("and")) });
 
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
 export function insetWords({ benches: [a, b], corner, edge }, gap, asked) {

@@ -189,7 +189,7 @@ export class RouteForm {
     };
     const row = {
       edit: button({}, edit),
-      name: labelled("input", "thingName", { autocomplete: "off", spellcheck: false, onchange: rename }),
+      name: labelled("input", "thingName", { maxLength: 200, autocomplete: "off", spellcheck: false, onchange: rename }),
       radius: this.#number("thingRadius", (radius) => this.steps.take(withThing(this.#drawing, k, { radius }))),
       unit: unitOf("m"),
       remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(k, 1) })),

@@ -375,6 +375,14 @@ def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_
     latitude.fill("29.11")
     latitude.blur()
     error.wait_for(state="detached")
+    # A number may be written in any way; a field that needs one takes back its own when it is emptied.
+    speed.fill(",5")
+    speed.blur()
+    page.wait_for_url("**limit=0.5*")
+    begin = page.locator("#route [data-label=pathBegin]")
+    begin.fill("")
+    begin.blur()
+    expect(begin).to_have_value("45")
     # An empty field stands for no limit.
     speed.fill("")
     speed.blur()

@@ -137,6 +137,15 @@ def is_for_everyone(page: Any) -> None:
     assert serious(page, "#sweeps") == []
     page.emulate_media(color_scheme="dark")
     assert serious(page, "#sweeps", in_colours=True) == []
+    # A job's name and state stand beside its buttons, never below them, and are not cut off.
+    row = page.locator("#jobs li").first
+    (name, state), buttons = (
+        (row.locator(part).bounding_box() for part in (".title", ".state")),
+        row.locator(".buttons"),
+    )
+    right = buttons.bounding_box()["x"]
+    assert max(name["x"] + name["width"], state["x"] + state["width"]) <= right
+    assert row.locator(".title").evaluate("(one) => one.scrollWidth <= one.clientWidth || !one.clientWidth")
     outside = """(width) => [...document.querySelectorAll("#sweeps *")]
       .filter((one) => one.checkVisibility() && one.getBoundingClientRect().right > width + 1)
       .map((one) => one.outerHTML)"""

@@ -74,7 +74,7 @@ export const ANSWERS = {
   bracketStrayOpen: ["nothing touches up to {low} cm; no pose that overlaps is known", "{low} cm 以内不会相碰；未找到重叠的姿态"],
   stepsTaken: ["{steps} proven steps", "{steps} 个已证明的步"],
   highest: ["Highest speed", "最高速度"],
-  whose: ["Reached at {time} s by the handle “{name}”.", "{time} s 时由{name}达到。"],
+  whose: ["Reached at {time} s by {name}.", "{time} s 时由{name}达到。"],
   headFastest: ["No handle is ever faster than the head.", "没有把手比龙头更快。"],
   unbounded: ["Grows without bound", "无限增大"],
   towardsFold: ["towards the fold, where a bench cannot follow any more", "接近折叠处，板凳无法继续跟随"],
