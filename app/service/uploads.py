@@ -21,7 +21,7 @@ from app.maps.places import Places, read_places
 from app.questions.maps import FORMS
 from app.service.bodies import WatchedRoute, content_type, has_body, refuse_coded
 from app.service.graders import Graders
-from app.service.middleware import Lanes, client_of
+from app.service.middleware import CLOSE, Lanes, client_of
 from app.service.problems import Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
@@ -75,7 +75,11 @@ class UploadRoute(WatchedRoute):
 
     def refuse_head(self, request: Request) -> None:
         if has_body(request):
-            guard(request)
+            try:
+                guard(request)
+            except Refused as refused:  # Nobody reads the body, so nothing can follow it.
+                refused.headers = {**(refused.headers or {}), **CLOSE}
+                raise
 
 
 class GradeRoute(UploadRoute):
