@@ -297,7 +297,7 @@ def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]
         def asked(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 checked_type(name, args[0] if args else kwargs[name], kind)
-            if (budget := cast(Budget | None, kwargs.get("budget"))) is not None:
+            if (budget := cast("Budget | None", kwargs.get("budget"))) is not None:
                 checked_type("budget", budget, Budget)
             try:
                 return question(*args, **kwargs)
