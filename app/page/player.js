@@ -4,7 +4,7 @@ import { $, onClick } from "./elements.js";
 import { announce } from "./overlays.js";
 import { pending } from "./pending.js";
 import { RATES } from "./state.js";
-import { say } from "./text.js";
+import { refusalWords, say } from "./text.js";
 
 /** Time between requests for the service's own numbers in motion [ms]. */
 const EXACT_EVERY = 250;
@@ -68,6 +68,7 @@ export class Player {
     if (this.#playing) return this.#stop();
     const { begin, end } = this.#span;
     if (begin >= end) return;
+    this.questions.dance.track?.retry();
     if (this.state.get("time") === null) this.seek(begin);
     this.#playing = true;
     pending(MOTION, true);
@@ -112,8 +113,9 @@ export class Player {
     this.#frame = requestAnimationFrame((next) => this.#tick(next, now));
     const { dance } = this.questions;
     if (!dance) return this.#stop();
-    if (dance.track?.stopped) {
-      announce(() => say("notPlayed"));
+    const refusal = dance.track?.refusal;
+    if (refusal) {
+      announce(() => `${say("notPlayed")} ${refusalWords(refusal).textContent}`);
       return this.#stop();
     }
     if (!dance.track?.at(this.time)) return;

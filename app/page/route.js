@@ -14,7 +14,7 @@ function read(field) {
 const said = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
 const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
 /** Least and largest numbers of the fields, as the service takes them. */
-const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4] };
+export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4] };
 const unitOf = (textContent) => make("span", { className: "unit", textContent });
 const removing = { className: "reset", textContent: "✕" };
 /** Fields that may be empty. */
@@ -71,7 +71,7 @@ export class RouteForm {
     const onchange = ({ target }) => {
       const found = read(target);
       const isRight = !target.value.trim() || (found !== null && low <= found && found <= high);
-      this.#mark(target, isRight ? "" : say("noNumberIn", { what: say(key), low, high, text: target.value }));
+      this.#mark(target, isRight ? null : () => say("noNumberIn", { what: say(key), low, high, text: target.value }));
       if (!isRight) return;
       if (found === null && !OPTIONAL.includes(key)) target.value = target.kept;
       else act(found);
@@ -79,17 +79,16 @@ export class RouteForm {
     return labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange });
   }
 
-  /** Show why a number is refused, until it is right, another one is refused or the drawing changes; without words it is right. */
+  /** Show why a number is refused, until it is right, another one is refused or the drawing changes. words(): why; null: it is right */
   #mark(field, words) {
     const before = this.refused?.field;
     if (!words && field !== before) return;
     before?.removeAttribute("aria-invalid");
-    this.refused = words ? { field, drawing: this.#drawing } : null;
-    this.wrong.textContent = words;
+    this.refused = words && { field, words, drawing: this.#drawing };
     if (!words) return this.wrong.remove();
     field.setAttribute("aria-invalid", "true");
     field.closest("table, ul, .line").after(this.wrong);
-    if (before !== field) this.show();
+    this.show();
   }
 
   #take(changes, kind = null) {
@@ -130,7 +129,8 @@ export class RouteForm {
   /** Show the drawing; rows are made again only if their number changes. */
   show() {
     const { points, straight, radius, limit, begin, things, path, origin } = this.#drawing;
-    if (this.refused && this.refused.drawing !== this.#drawing) this.#mark(this.refused.field, "");
+    if (this.refused && this.refused.drawing !== this.#drawing) this.#mark(this.refused.field, null);
+    if (this.refused) this.wrong.textContent = this.refused.words();
     put(this.corner, radius);
     put(this.limit, limit ?? "");
     put(this.begin, begin);

@@ -6,6 +6,8 @@
  * picture at rest are the service's own for that instant.
  */
 
+import { Problem } from "./api.js";
+
 const SAMPLE_TRAVEL = 0.5;
 const [CHUNK_CELLS, CHUNK_SAMPLES_MIN] = [30_000, 16];
 const DECIMALS = 5;
@@ -34,6 +36,12 @@ export class Track {
     this.step = (span[1] - span[0]) / this.samples;
     this.size = Math.max(CHUNK_SAMPLES_MIN, Math.floor(CHUNK_CELLS / handles));
     this.stopped = false;
+    this.refusal = null;
+  }
+
+  /** Ask again for what the service refused. */
+  retry() {
+    this.refusal = null;
   }
 
   /** {time, x, y, speed} at an instant, each a row over the handles; null while its chunk is on its way. */
@@ -52,7 +60,7 @@ export class Track {
 
   #chunk(k) {
     const first = Math.max(0, k * this.size - 2);
-    if (k * this.size >= this.samples || this.stopped) return null;
+    if (k * this.size >= this.samples || this.stopped || this.refusal) return null;
     if (!this.#chunks.has(k) && !this.#loading.has(k)) this.#load(k, first);
     return this.#chunks.get(k);
   }
@@ -66,9 +74,10 @@ export class Track {
       this.#chunks.set(k, { ...table, first });
       if (this.#chunks.size > KEPT) this.#chunks.delete(this.#chunks.keys().next().value);
       if (!this.stopped) this.ready();
-    } catch {
-      // Refused, or the dance has changed; at rest the dance is drawn without samples.
-      this.stopped = true;
+    } catch (error) {
+      // The service refuses, or the dance has changed; at rest the dance is drawn without samples.
+      if (error instanceof Problem) this.refusal = error.told;
+      else this.stopped = true;
     } finally {
       this.#loading.delete(k);
     }

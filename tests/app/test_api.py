@@ -7,6 +7,7 @@ import io
 import math
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 from urllib.parse import urljoin
 
@@ -15,6 +16,7 @@ import openpyxl
 import pytest
 
 from app.files.tables import ARROW_TYPE, CSV_TYPE, XLSX_TYPE
+from app.service.version import build
 
 SMALL: dict[str, Any] = {"dragon": {"benches": 3}, "times": [0.0, 1.5]}
 GETS = ("/collision-time", "/minimum-pitch", "/clearance", "/paper", "/figures/trajectory.svg", "/figures/contact.png")
@@ -297,3 +299,11 @@ def test_paper_gives_a_reason_for_each_number(client: httpx.Client) -> None:
     rows = client.get("/paper").json()["rows"]
     assert [row["paper"] for row in rows] == [442.590256, 406.43, 2.883, 0.474924]
     assert all(row["reason"] and row["difference"] == row["ours"] - row["paper"] for row in rows)
+
+
+def test_tags_depend_on_the_installed_libraries(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = build.__wrapped__()
+    assert build.__wrapped__() == before
+    (tmp_path / "matplotlib-99.0.dist-info").mkdir()
+    monkeypatch.syspath_prepend(tmp_path)
+    assert build.__wrapped__() != before

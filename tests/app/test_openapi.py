@@ -105,22 +105,12 @@ def holds_floats(field: Any) -> bool:
 
 # JSON Schema 2020-12 and OpenAPI 3.1.
 KEYWORDS = {
-    *("$ref", "additionalProperties", "allOf", "anyOf", "const", "contentEncoding", "contentMediaType", "default"),
-    *("description", "discriminator", "enum", "example", "examples", "exclusiveMaximum", "exclusiveMinimum", "format"),
-    *(
-        "items",
-        "maxItems",
-        "maxLength",
-        "maxProperties",
-        "maximum",
-        "minItems",
-        "minLength",
-        "minProperties",
-        "minimum",
-    ),
-    *("multipleOf", "not", "oneOf", "pattern", "prefixItems", "properties", "propertyNames", "required", "title"),
-    *("type", "uniqueItems"),
-}
+    "$ref", "additionalProperties", "allOf", "anyOf", "const", "contentEncoding", "contentMediaType", "default",
+    "description", "discriminator", "enum", "example", "examples", "exclusiveMaximum", "exclusiveMinimum", "format",
+    "items", "maxItems", "maxLength", "maxProperties", "maximum", "minItems", "minLength", "minProperties", "minimum",
+    "multipleOf", "not", "oneOf", "pattern", "prefixItems", "properties", "propertyNames", "required", "title", "type",
+    "uniqueItems",
+}  # fmt: skip
 
 
 def keywords(schema: Any) -> set[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -299,3 +300,6 @@ def test_everything_can_be_kept_from_the_page(open_page: Any, server: str) -> No
     assert len(set(commands)) == len(commands)
     assert commands[-1].startswith("bench-dragon prove collision-time --benches 9 ")
     assert all(command.startswith(f"curl '{server}/") for command in commands[:-1])
+    (film,) = (command for command in commands if '"films"' in command)  # which takes too long for one answer
+    told = json.loads(shlex.split(film)[-1])
+    assert (shlex.split(film)[1], told["accept"], told["question"]) == (f"{server}/jobs", "video/mp4", "films")

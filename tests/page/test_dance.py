@@ -380,3 +380,18 @@ def test_a_link_to_the_turn_opens_at_the_pitch_of_the_contest(visit: Any) -> Non
     page.get_by_role("button", name="Reset all").click()
     assert page.locator("#pitch").input_value() == "1.7"
     page.wait_for_url(re.compile("path=turn$"))
+    # The figure of a dance without a contact is of the part that is shown.
+    settled(page)
+    page.locator("#curl-of").select_option("keepContact")
+    asked = json.loads(shlex.split(page.locator("#curl").inner_text())[5])
+    assert (asked["start"], asked["stop"]) == (-100, 100)
+
+
+def test_a_link_to_the_end_of_the_dance_opens_there_and_not_in_motion(open_page: Any) -> None:
+    page = open_page("?pitch=0.6&benches=20&time=end")
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page.get_by_role("button", name="Reset all").click()
+    settled(page)
+    page.locator("#share").click()
+    page.locator("#status", has_text="Copied").wait_for()
+    assert page.evaluate("navigator.clipboard.readText()").endswith("/?time=end")

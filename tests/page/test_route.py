@@ -372,6 +372,10 @@ def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_
     assert (speed.get_attribute("aria-invalid"), speed.input_value()) == (None, "1.1")  # one at a time
     assert "limit=1.1" in page.url
     verdict(page, "无法表演")
+    page.locator("[data-lang=en]").click()
+    expect(error).to_have_text(
+        "“Latitude of x = y = 0” must be a number from -90 to 90; you typed “129”. The dance stays as it was."
+    )
     latitude.fill("29.11")
     latitude.blur()
     error.wait_for(state="detached")
@@ -387,6 +391,23 @@ def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_
     speed.fill("")
     speed.blur()
     page.wait_for_function("!location.search.includes('limit=')")
+
+
+def test_a_route_takes_the_numbers_that_the_service_takes(visit: Any, server: str) -> None:
+    schemas = polite.get(f"{server}/openapi.json").json()["components"]["schemas"]
+    known = visit(S_CURVE).evaluate("import('/page/route.js').then(({ LIMITS }) => LIMITS)")
+
+    def limits(schema: str, name: str) -> list[float]:
+        field = schemas[schema]["properties"][name]
+        own = field.get("anyOf", [field])[0]
+        return [own["minimum"], own["maximum"]]
+
+    for key, schema, name in (
+        ("speedLimit", "CheckRequest", "speed_limit"),
+        ("pathBegin", "WaypointsPath", "start"),
+        ("cornerRadius", "WaypointsPath", "radius"),
+    ):
+        assert known[key] == limits(schema, name), key
 
 
 def test_files_dropped_on_the_picture_are_opened_and_maps_are_kept(visit: Any, tmp_path: Path) -> None:

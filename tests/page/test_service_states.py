@@ -258,6 +258,18 @@ def test_a_busy_service_is_asked_again(visit: Any) -> None:
     assert len(refused) == 2
 
 
+def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(open_page: Any, tmp_path: Path) -> None:
+    with serving(tmp_path / "small.log", cells_max=1_500) as small:
+        page = open_page("?benches=100&time=10", base=small.url, failing=True)
+        settled(page)
+        page.locator("#play").click()
+        expect(page.locator("#status")).to_contain_text(
+            "The dance cannot be played: step through it, or move the time."
+        )
+        expect(page.locator("#status")).to_contain_text("instants times handles, and there may be 1500")
+        expect(page.locator("#play")).to_have_text("▶ Play")
+
+
 def test_the_policy_lets_the_page_load_from_its_service_alone(visit: Any, server: str) -> None:
     policy = polite.get(server).headers["content-security-policy"]
     assert policy == "default-src 'self'; frame-ancestors 'none'"

@@ -162,7 +162,7 @@ export const DANCE = {
   longitude: ["Longitude of x = y = 0", "原点的经度"],
   pathBegin: ["Head at time 0, along the path", "0 s 时龙头沿路径的位置"],
   none: ["none", "无"],
-  notPlayed: ["A dragon this long cannot be played: step through the dance, or move the time.", "这么长的队伍无法播放：请逐步查看，或拖动时间。"],
+  notPlayed: ["The dance cannot be played: step through it, or move the time.", "无法播放：请逐步查看，或拖动时间。"],
   noNumberIn: ["“{what}” must be a number from {low} to {high}; you typed “{text}”. The dance stays as it was.", "“{what}”应为 {low} 到 {high} 之间的数，现为“{text}”。舞龙保持不变。"],
   pointsTitle: ["Points of the path: {count}", "路径的点：{count} 个"],
   pathFile: ["The path is from a file; tap to draw another", "路径来自文件，点击画面可重新绘制"],

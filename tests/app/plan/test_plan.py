@@ -128,6 +128,19 @@ def test_nothing_leaves_the_paper_and_no_sheet_is_empty(pages: Any) -> None:
         assert (rects[:, 2:] < [wide - MARGIN + 0.5, high - MARGIN + 0.5]).all()
 
 
+def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame(client: httpx.Client) -> None:
+    body = {"dragon": {"benches": 6}, "path": {"kind": "turn", "pitch": 1.7}, "start": -20, "stop": 20}
+    page = pypdfium2.PdfDocument(client.post("/plan", json=body).raise_for_status().content)[0]
+    dots = 2.0  # in a millimetre
+    picture = page.render(scale=dots * POINT).to_numpy()[..., :3]
+    edge = int(dots * (MARGIN - 1.0))
+    inner = picture[edge:-edge, edge:-edge]
+    assert inner.min() < 100
+    blank = picture.copy()
+    blank[edge:-edge, edge:-edge] = 255
+    assert blank.min() == 255
+
+
 def test_a_plan_in_chinese_on_a3_is_the_same_from_a_terminal(client: httpx.Client, tmp_path: Path) -> None:
     named = BODY | {"dragon": {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}, "start_clock": "19:30"}
     body = named | {"language": "zh", "paper": "A3", "title": "板凳龙 2027"}
