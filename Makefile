@@ -1,16 +1,21 @@
-# The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels.
+# The first `make` in a fresh clone creates .venv, installs the locked versions and compiles core/kernels: `make serve`
+# what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup serve test deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
+.PHONY: help setup test-setup serve test deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet --quiet
+INSTALL := bash .ci/install
 HOST ?= 127.0.0.1
 PORT ?= 8000
 # The tests start hundreds of processes: without bytecode each of them compiles all of app and core.
 unexport PYTHONDONTWRITEBYTECODE
-PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11; do \
+# Variables that lead Python to another program's modules, or pip to another place than .venv.
+unexport PYTHONHOME PYTHONPATH PIP_PREFIX PIP_ROOT PIP_TARGET
+export PIP_USER := 0
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
 
 help:
@@ -37,32 +42,32 @@ help:
 
 # Packages are installed while the kernels are compiled: both wait for the disk now and then.
 setup:
-	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/installed $(VENV)/compiled
+	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/service $(VENV)/compiled
 
-# The locked pip first, which needs half the processor time of that of Python 3.11, and what the kernels need. Without
-# bytecode: Python writes it at the first import, and most installed modules are never imported.
+test-setup:
+	@$(MAKE) --silent --no-print-directory --jobs=2 $(VENV)/tests $(VENV)/engines $(VENV)/compiled
+
+# uv first, which installs the others, and what compiles the kernels. Without bytecode: Python writes it at the first
+# import, and most installed modules are never imported.
 $(VENV)/tools: requirements.lock
 	@PYTHON='$(PYTHON)' bash .ci/make-venv $(VENV)
-	@echo 'Installing the locked packages into $(VENV) (one to four minutes, once)'
-	@$(PIP) install --no-compile "$$(grep '^pip==' requirements.lock)"
-	@grep -iE '^(cython|setuptools)==' requirements.lock | xargs $(PIP) install --no-deps --no-compile
+	@echo 'Installing the locked packages into $(VENV) (half a minute to four minutes, once)'
+	@$(INSTALL) --only uv $(VENV) requirements.lock || echo 'uv cannot be had here: pip installs, in some minutes' >&2
+	@$(INSTALL) --only 'cython|setuptools' $(VENV) requirements.lock
 	@touch $@
 
-# uv takes a tenth of the time of pip; pip installs where uv does not run or fails, or where pip is configured for another
-# index or a proxy, which uv does not read.
-PLAIN_INDEX = ! $(BIN)/python -m pip config list | grep -oE '\.(index-url|no-index|proxy)='
-UV = UV_HTTP_TIMEOUT=10 UV_HTTP_RETRIES=1 $(BIN)/uv pip install --quiet --system-certs
+# Never the tools, which compile the kernels meanwhile.
+$(VENV)/service: $(VENV)/tools
+	@$(INSTALL) --but 'cython|setuptools|uv' $(VENV) requirements.lock
+	@touch $@
 
-# What an interrupted run left is replaced, but never the tools, which compile the kernels meanwhile.
-$(VENV)/installed: $(VENV)/tools
-	@grep -viE '^(#|(cython|pip|setuptools|uv)==)' requirements.lock >$(VENV)/packages
-	@{ $(PLAIN_INDEX) && \
-		$(PIP) install --no-compile --only-binary :all: "$$(grep '^uv==' requirements.lock)" && \
-		$(UV) --python $(BIN)/python --reinstall --no-deps -r $(VENV)/packages; \
-	} >$(VENV)/uv.log 2>&1 || { \
-		echo 'uv cannot install here ($(VENV)/uv.log): pip does, in some minutes'; \
-		xargs -n 16 -P 3 $(PIP) install --no-deps --no-compile --force-reinstall <$(VENV)/packages; \
-	}
+$(VENV)/tests: $(VENV)/service requirements-test.lock
+	@$(INSTALL) $(VENV) requirements-test.lock
+	@touch $@
+
+# Not every machine and Python has them; the tests of the others run without them.
+$(VENV)/engines: $(VENV)/tests requirements-ccd.lock
+	@$(INSTALL) --each $(VENV) requirements-ccd.lock
 	@touch $@
 
 # The normal install, editable: it compiles core/kernels in place, or reports why it runs uncompiled.
@@ -77,61 +82,62 @@ $(VENV)/compiled: $(wildcard core/kernels/*.py core/kernels/*.pxd) setup.py pypr
 serve: setup
 	@BENCH_DRAGON_DATA="$${BENCH_DRAGON_DATA:-data}" $(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
-test: setup
+test: test-setup
 	@$(BIN)/python tests/page/browser.py
 	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ARGS)
 
 deep: setup
 	@DEEP=1 $(MAKE) --no-print-directory test
 
-rounding: setup
+rounding: test-setup
 	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)
 
-libreoffice: setup
+libreoffice: test-setup
 	@$(BIN)/python -m tests.app.grade.libreoffice $(ARGS)
 
-lint: setup
+lint: test-setup
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
 
-sweep-pitch: setup
+sweep-pitch: test-setup
 	@$(BIN)/python -m tests.core.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)
 
-sweep-kills: setup
+sweep-kills: test-setup
 	@$(BIN)/python -m tests.app.sweeps.kills $(or $(DESIGNS),200000) $(or $(KILLS),50) $(or $(FIRST),0)
 
-job-kills: setup
+job-kills: test-setup
 	@$(BIN)/python -m tests.app.jobs.kills $(or $(KILLS),50) $(or $(SEED),0)
 
-soak: setup
+soak: test-setup
 	@$(BIN)/python -m tests.app.soak $(or $(SECONDS),300) $(or $(FOLDER),build)
 
-fuzz: setup
+fuzz: test-setup
 	@$(BIN)/python -m tests.app.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0)
 
-bench: setup
+bench: test-setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md
 
-ccd: setup
+ccd: test-setup
 	@$(BIN)/python -m benchmarks.ccd --queries $(or $(QUERIES),100000) --seed $(or $(SEED),2026)
 
-examples: setup
+examples: test-setup
 	@$(BIN)/python -m tests.app.renew_examples
 
-figures: setup
+figures: test-setup
 	@$(BIN)/bench-dragon figures docs
 
-# The wheel is built from the sdist; both pass the checks of a package index.
-dist: setup
+# The wheel is built from the sdist; both pass the checks of a package index. A wheel is for one platform if, and only
+# if, it holds compiled loops; on Linux it then needs no library beside those of manylinux.
+dist: test-setup
 	@rm -rf dist
 	@$(BIN)/python -c 'from setuptools.build_meta import build_sdist; build_sdist("dist")' >build/sdist.log
 	@$(PIP) wheel --no-build-isolation --no-deps --wheel-dir dist dist/*.tar.gz
-	@$(BIN)/python -m venv --without-pip --clear build/checks
-	@{ $(PLAIN_INDEX) && $(UV) --python build/checks/bin/python check-wheel-contents twine; } >build/uv.log 2>&1 || \
-		$(PIP) --python build/checks/bin/python install --no-compile check-wheel-contents twine
+	@$(BIN)/python -m venv --clear build/checks
+	@$(INSTALL) build/checks requirements-dist.lock
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
+	@build/checks/bin/python -m tests.wheels dist/*.whl
 
 # Processor time counts: on a busy machine the clock runs on.
 install-time: setup
@@ -143,15 +149,20 @@ install-time: setup
 	time build/install/venv/bin/python -m pip --quiet install --no-index --find-links build/install bench-dragon
 	@! build/install/venv/bin/python -c 'import fastapi' 2>/dev/null
 
-# Versions are resolved in a separate, new environment; the file has names and versions only.
-lock:
-	@$(PYTHON) -m venv build/lock
-	@build/lock/bin/python -m pip --quiet install --upgrade pip
-	@build/lock/bin/python -m pip --quiet install -e '.[dev]'
-	@{ sed -n '/^#/p' requirements.lock; build/lock/bin/python -m pip list --format=freeze \
-		| grep -v '^bench-dragon=='; } > build/requirements.lock
-	@mv build/requirements.lock requirements.lock
-	@rm -rf build/lock
+# The newest versions that fit the ranges of pyproject.toml on every Python and system; the files have names and versions
+# only. Those of the tests keep what the service has.
+RESOLVE = $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --upgrade \
+	--no-header --no-annotate --no-emit-index-url --quiet
+lock: setup
+	@mkdir -p build
+	@$(RESOLVE) --extra service --group tools --output-file build/requirements.lock
+	@$(RESOLVE) --extra dev --constraint build/requirements.lock --output-file build/all.lock
+	@$(RESOLVE) --extra ccd --constraint build/all.lock --output-file build/ccd.lock
+	@$(RESOLVE) --only-group dist --output-file build/requirements-dist.lock
+	@grep -vxFf build/requirements.lock build/all.lock >build/requirements-test.lock
+	@grep -vxFf build/requirements.lock build/ccd.lock | grep -vxFf build/all.lock >build/requirements-ccd.lock
+	@for file in requirements.lock requirements-test.lock requirements-ccd.lock requirements-dist.lock; do \
+		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done
 
 clean:
 	@rm -rf $(VENV) build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from Cython.Build import cythonize
 from setuptools import Extension, setup
+from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_ext import build_ext
 
 # Flags of every compiler with gcc's options.
@@ -77,10 +78,22 @@ class AllOrNothing(build_ext):
             extension.extra_compile_args = [*flags, "-O1"] if no_loops else flags
         super().build_extensions()
         built = [Path(self.get_ext_fullpath(extension.name)) for extension in self.extensions]
-        if not all(path.exists() for path in built):
+        self.is_compiled = all(path.exists() for path in built)
+        if not self.is_compiled:
             for path in built:
                 path.unlink(missing_ok=True)
             print("The loops could not be compiled: they give the same digits uncompiled, many times slower.")
+
+
+class HonestWheel(bdist_wheel):
+    """A wheel with compiled loops is for one platform and Python, one without them for all: its name says which."""
+
+    def run(self) -> None:
+        self.run_command("build")
+        if not self.get_finalized_command("build_ext").is_compiled:
+            self.distribution.ext_modules = []
+            self.root_is_pure = True
+        super().run()
 
 
 def kernels() -> list[Extension]:
@@ -102,4 +115,4 @@ def kernels() -> list[Extension]:
 
 
 if __name__ == "__main__":
-    setup(ext_modules=kernels(), cmdclass={"build_ext": AllOrNothing})
+    setup(ext_modules=kernels(), cmdclass={"build_ext": AllOrNothing, "bdist_wheel": HonestWheel})

@@ -12,26 +12,42 @@ import subprocess
 import sys
 import time
 from collections.abc import Generator, Iterator
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from core import kernels
-from tests.depth import DEEP
-from tests.page import browser
+# What a shell may set and programs heed: tests of such a variable set it themselves. Servers of tests are on this machine.
+SHELL_VARIABLES = (
+    *("COLUMNS", "FORCE_COLOR", "LANG", "LANGUAGE", "LC_ALL", "LC_CTYPE", "LINES", "NO_COLOR", "TERM"),
+    *("PYTHONDONTWRITEBYTECODE", "PYTHONIOENCODING", "PYTHONUNBUFFERED", "PYTHONUTF8", "PYTHONWARNINGS"),
+    *("all_proxy", "ftp_proxy", "http_proxy", "https_proxy", "no_proxy"),
+    *("ALL_PROXY", "FTP_PROXY", "HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY"),
+)
+OUTER = tuple((name, value) for name in SHELL_VARIABLES if (value := os.environ.pop(name, None)) is not None)
+os.environ |= {"LC_ALL": "C.UTF-8", "TERM": "xterm"}
+
+from core import kernels  # noqa: E402
+from tests import lock  # noqa: E402
+from tests.depth import DEEP  # noqa: E402
+from tests.page import browser  # noqa: E402
 
 ROOT = Path(__file__).parent.parent
 START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start takes about one
 STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets running computations finish
-# Continuous integration sets this: every test must run there.
-STRICT = bool(os.environ.get("CI"))
+# Where this is set, a test that cannot run here is an error.
+STRICT = "EVERY_TEST" in os.environ
 # Number of tests left out for each reason, and its name in what a process of several reports.
 LEFT_OUT_OUTPUT = "left_out"
 LEFT_OUT = pytest.StashKey[dict[str, int]]()
 NO_DISK = "they mount a small disk, which only root may do: run make test as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
+NO_FONT = "they draw Chinese words, and there is no font for them: apt install fonts-wqy-microhei"
+NO_INDEX = "they ask the package index, which does not answer"
+NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -39,20 +55,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if not DEEP:
         config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("deep")])
         items[:] = [item for item in items if not item.get_closest_marker("deep")]
-    has_browser = not any(map(_needs_browser, items)) or browser.found()
     kept: list[pytest.Item] = []
     groups: dict[str, list[pytest.Item]] = {}
     for item in items:
-        if not kernels.COMPILED and not item.get_closest_marker("uncompiled"):
-            groups.setdefault(UNCOMPILED, []).append(item)
-        elif not has_browser and _needs_browser(item):
-            groups.setdefault(browser.MISSING, []).append(item)
-        elif os.geteuid() != 0 and "small_disk" in getattr(item, "fixturenames", ()):
-            groups.setdefault(NO_DISK, []).append(item)
-        elif item.get_closest_marker("curl") and not shutil.which("curl"):
-            groups.setdefault(NO_CURL, []).append(item)
-        else:
-            kept.append(item)
+        reason = _why_left_out(item)
+        groups.setdefault(reason, []).append(item) if reason else kept.append(item)
     left_out = {reason: len(group) for reason, group in groups.items()}
     _note_left_out(config, left_out)
     if hasattr(config, "workeroutput"):  # a process of several, whose output only the first one can print
@@ -60,6 +67,38 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for group in groups.values():
         config.hook.pytest_deselected(items=group)
     items[:] = [] if left_out and STRICT else kept
+
+
+def _why_left_out(item: pytest.Item) -> str:
+    """What this machine lacks for the test and how to get it; empty: it runs."""
+    fixtures = getattr(item, "fixturenames", ())
+    if not kernels.COMPILED and not item.get_closest_marker("uncompiled"):
+        return UNCOMPILED
+    if "browser" in fixtures and not browser.found():
+        return browser.MISSING
+    if item.get_closest_marker("chinese_font") and not _has_chinese_font():
+        return NO_FONT
+    if "small_disk" in fixtures and os.geteuid() != 0:
+        return NO_DISK
+    if item.get_closest_marker("curl") and not shutil.which("curl"):
+        return NO_CURL
+    if item.get_closest_marker("index") and not lock.index_answers(OUTER):
+        return NO_INDEX
+    if (mark := item.get_closest_marker("engine")) and (missing := [name for name in mark.args if not find_spec(name)]):
+        return NO_ENGINE.format(", ".join(missing))
+    return ""
+
+
+@cache
+def _has_chinese_font() -> bool:
+    from app.files.fonts import MissingPackage, families  # Most tests do without.
+    from app.files.tables import Language
+
+    try:
+        families(Language.CHINESE)
+    except MissingPackage:
+        return False
+    return True
 
 
 def _note_left_out(config: pytest.Config, left_out: dict[str, int]) -> None:
@@ -93,15 +132,11 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.set_threshold(20_000)
 
 
-def _needs_browser(item: pytest.Item) -> bool:
-    return "browser" in getattr(item, "fixturenames", ())
-
-
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     for reason, count in config.stash.get(LEFT_OUT, {}).items():
         terminalreporter.write_line(f"{count} tests are left out: {reason}", yellow=True)
     if STRICT and config.stash.get(LEFT_OUT, {}):
-        terminalreporter.write_line("No test ran: where CI is set, every test must be able to.", red=True)
+        terminalreporter.write_line("No test ran: where EVERY_TEST is set, each must be able to.", red=True)
 
 
 @pytest.fixture(scope="session")

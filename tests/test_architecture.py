@@ -270,6 +270,7 @@ ORDER = (
     "app.jobs.routes",
     "app.service.main",
     "app.service.workers",
+    "app.command.streams",
     "app.command.usage",
     "app.command.show",
     "app.command.options",

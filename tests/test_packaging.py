@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
+import re
 import runpy
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterable
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -20,11 +22,14 @@ import core
 from app.service.workers import process_count
 from app.settings import WORKERS_MAX, usable_cores
 from core import InvalidValue
+from tests.lock import PYTHONS
 
 ROOT = Path(__file__).parent.parent
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = SETTINGS["project"]
-LOCK = [line for line in (ROOT / "requirements.lock").read_text().splitlines() if not line.startswith("#")]
+LOCKS = {path.name: path.read_text(encoding="utf-8").splitlines() for path in ROOT.glob("requirements*.lock")}
+# A locked version: the name, the version, and where it is needed; never an address.
+LOCKED = re.compile(r"([A-Za-z0-9._-]+)==([0-9][A-Za-z0-9.+!]*)( ; [a-z_]+ [\w .<>=!'()]+)?")
 BUILD = runpy.run_path(str(ROOT / "setup.py"))
 # Systems on which requirements may differ.
 SYSTEMS = {"linux": "Linux", "darwin": "Darwin", "win32": "Windows"}
@@ -80,15 +85,43 @@ def test_the_service_takes_uvloop_where_there_is_one(system: str, has_uvloop: bo
     assert ("uvloop" in names) is has_uvloop
 
 
-def test_the_lock_holds_a_version_that_fits_of_every_requirement() -> None:
-    locked = dict(line.split("==") for line in LOCK)
-    assert all(name.strip() == name and version[0].isdigit() for name, version in locked.items())
-    versions = {canonicalize_name(name): version for name, version in locked.items()}
-    every = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
-    wanted = [one for group in every for one in map(Requirement, group) if one.name != PROJECT["name"]]
-    assert len(wanted) > 20
-    unfit = [one for one in wanted if not one.specifier.contains(versions.get(canonicalize_name(one.name), ""))]
-    assert unfit == []
+def locked(*files: str) -> dict[str, str]:
+    """Versions in lock files by normalised name."""
+    rows = [LOCKED.fullmatch(line) for file in files for line in LOCKS[file] if not line.startswith("#")]
+    return {canonicalize_name(row[1]): row[2] for row in rows if row}
+
+
+def unfit(wanted: Iterable[Requirement], versions: dict[str, str]) -> list[Requirement]:
+    """Requirements, this distribution's own extras left aside, of which no locked version fits."""
+    others = [one for one in wanted if one.name != PROJECT["name"]]
+    assert others
+    return [one for one in others if not one.specifier.contains(versions.get(canonicalize_name(one.name), ""))]
+
+
+@pytest.mark.parametrize("file", LOCKS)
+def test_a_lock_names_packages_and_versions_only(file: str) -> None:
+    assert [line for line in LOCKS[file] if not line.startswith("# ") and not LOCKED.fullmatch(line)] == []
+
+
+def test_the_locks_hold_a_version_that_fits_of_every_requirement() -> None:
+    extras, groups = PROJECT["optional-dependencies"], SETTINGS["dependency-groups"]
+    service = [*PROJECT["dependencies"], *groups["tools"]]
+    for extra in ("service", "sweep", "arrow", "dxf", "film", "figures", "xlsx"):
+        service += extras[extra]
+    assert unfit(map(Requirement, service), locked("requirements.lock")) == []
+    every = locked("requirements.lock", "requirements-test.lock", "requirements-ccd.lock")
+    assert unfit([one for group in extras.values() for one in map(Requirement, group)], every) == []
+    assert unfit(map(Requirement, groups["dist"]), locked("requirements-dist.lock")) == []
+
+
+def test_the_service_is_installed_without_what_only_tests_need() -> None:
+    assert locked("requirements.lock").keys() & {"pytest", "playwright", "hypothesis", "mypy", "dask", "box2d"} == set()
+
+
+def test_every_python_that_is_named_gets_a_wheel() -> None:
+    named = [one.rpartition(" ")[2] for one in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", one)]
+    assert named == list(PYTHONS)
+    assert SETTINGS["tool"]["cibuildwheel"]["build"] == [f"cp{one.replace('.', '')}-*" for one in named]
 
 
 @pytest.mark.parametrize("compiler", BUILD["FLAGS"])

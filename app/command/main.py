@@ -19,6 +19,7 @@ from rich.markup import escape
 from typer.core import TyperGroup
 
 import core
+from app.command.streams import output_fault
 from app.command.usage import Misuse, told
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
@@ -66,7 +67,7 @@ def _one_line() -> Iterator[None]:
     except BrokenPipeError:
         raise
     except OSError as error:
-        message = f"{error.filename or 'standard output'}: {error.strerror or error}"
+        message = output_fault(error)
     print(f"Error: {message}", file=sys.stderr)
     raise typer.Exit(2)
 

