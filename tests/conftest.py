@@ -19,7 +19,7 @@ from typing import Any
 
 import pytest
 
-# What a shell may set and programs heed: tests of such a variable set it themselves. Servers of tests are on this machine.
+# What a shell may set and programs heed: a test of such a variable sets it itself. All servers are on this machine.
 SHELL_VARIABLES = (
     *("COLUMNS", "FORCE_COLOR", "LANG", "LANGUAGE", "LC_ALL", "LC_CTYPE", "LINES", "NO_COLOR", "TERM"),
     *("PYTHONDONTWRITEBYTECODE", "PYTHONIOENCODING", "PYTHONUNBUFFERED", "PYTHONUTF8", "PYTHONWARNINGS"),
@@ -72,8 +72,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def _why_left_out(item: pytest.Item) -> str:
     """What this machine lacks for the test and how to get it; empty: it runs."""
     fixtures = getattr(item, "fixturenames", ())
-    if not kernels.COMPILED and not item.get_closest_marker("uncompiled"):
-        return UNCOMPILED
     if "browser" in fixtures and not browser.found():
         return browser.MISSING
     if item.get_closest_marker("chinese_font") and not _has_chinese_font():
@@ -86,7 +84,7 @@ def _why_left_out(item: pytest.Item) -> str:
         return NO_INDEX
     if (mark := item.get_closest_marker("engine")) and (missing := [name for name in mark.args if not find_spec(name)]):
         return NO_ENGINE.format(", ".join(missing))
-    return ""
+    return "" if kernels.COMPILED or item.get_closest_marker("uncompiled") else UNCOMPILED
 
 
 @cache

@@ -115,7 +115,10 @@ def test_python_gives_what_is_printed_below_it(place: str, source: str) -> None:
 
 @pytest.mark.parametrize(
     ("place", "session"),
-    [pytest.param(*each, id=each[0], marks=[pytest.mark.curl] if "$ curl" in each[1] else []) for each in SESSIONS],
+    [
+        pytest.param(*each, id=each[0], marks=[pytest.mark.curl] if re.search(r"(\$|\|) curl ", each[1]) else [])
+        for each in SESSIONS
+    ],
 )
 def test_a_command_gives_what_is_printed_below_it(place: str, session: str, server: str, tmp_path: Path) -> None:
     (tmp_path / "examples").symlink_to(ROOT / "examples")

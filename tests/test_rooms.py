@@ -57,6 +57,7 @@ TOGETHER = {
     "test_holding.py": "service/bodies service/middleware service/protocol service/workers",
     "test_openapi.py": "service/examples wire/question",
     "test_prove.py": "command/prove",
+    "test_streams.py": "command/streams",
     "test_whole_dance.py": "wire/benches wire/clocks",
 }
 SHARED = {Path(f"{module}.py"): Path(file) for file, modules in TOGETHER.items() for module in modules.split()}

@@ -10,7 +10,7 @@ import typer
 from app.command import show
 from app.command.options import Json, asks
 from app.extras import require
-from app.files.disk import checked_output
+from app.files.disk import checked_output, ending_of
 from app.files.outlines import WRITERS
 from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, swept
 from app.wire.question import Terms
@@ -26,7 +26,7 @@ def envelope(
 ) -> None:
     """The ground that benches sweep: polygons proven to hold every pose and to reach at most 1 mm further."""
     write = WRITERS[checked_output("output", output, tuple(WRITERS))] if output else None
-    if output and output.suffix.lower() == ".dxf":
+    if output and ending_of(output) == ".dxf":
         require("dxf", "output", "DXF")
     with show.waiting("envelope"):
         found = swept(asked, Terms())

@@ -14,7 +14,7 @@ from app.command.options import asks, of_file, unused
 from app.command.paths import PathOptions, dance_of
 from app.command.usage import path_argument
 from app.extras import require
-from app.files.disk import DANCE_ENDINGS, checked_output
+from app.files.disk import DANCE_ENDINGS, checked_output, ending_of
 from app.files.film_spec import ENDINGS, GIF_TYPE
 from app.questions import figures as drawn
 from app.questions import films
@@ -42,7 +42,7 @@ ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PI
 
 def _is_dance(place: Path) -> bool:
     """True if the path names the file of a dance rather than a folder."""
-    return not place.is_dir() and (place.exists() or place.suffix.lower() in DANCE_ENDINGS or str(place) == "-")
+    return not place.is_dir() and (place.exists() or ending_of(place) in DANCE_ENDINGS or str(place) == "-")
 
 
 @asks(FigureOptions)

@@ -11,7 +11,7 @@ import typer
 from app.command import show
 from app.command.options import Json, asks, unused
 from app.command.usage import path_argument
-from app.files.disk import read_json
+from app.files.disk import ending_of, read_json
 from app.questions import overlaps as together
 from app.questions.figures import InstantQuery
 from app.questions.overlaps import OverlapsAnswer, OverlapsRequest
@@ -35,7 +35,7 @@ def overlaps(
     if file:
         why = "describes a dance, and FILE gives the benches: give one of the two"
         unused(context, InstantQuery.model_fields, why)
-        told = {} if file.suffix.lower() == ".toml" else read_json(file)
+        told = {} if ending_of(file) == ".toml" else read_json(file)
         if "benches" not in told:
             words = "{file} must be JSON with benches, each a rectangle with x, y, heading, length and width"
             why = "ask check or clearance about a dance"

@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic import BaseModel
 from rich import box
+from rich.cells import cell_len
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
@@ -97,7 +98,26 @@ def new_console() -> Console:
 def print_parts(*parts: Part) -> None:
     console = new_console()
     for part in parts:
-        console.print(part)
+        console.print(_fitted(part, console) if isinstance(part, Table) else part)
+
+
+def _fitted(table: Table, console: Console) -> Table | str:
+    """A table in which no number is broken, or its rows one below the other where the terminal is too narrow."""
+    names = [str(column.header) if table.show_header else "" for column in table.columns]
+    cells = [[str(cell) for cell in column.cells] for column in table.columns]
+    widths = [
+        max(map(cell_len, " ".join([name, *entries]).split()), default=0)
+        for name, entries in zip(names, cells, strict=True)
+    ]
+    if table.show_header and TABLE_SPACE + sum(widths) + COLUMN_SPACE * len(widths) > console.width:
+        rows = [
+            [f"{name}: {cell}" for name, cell in zip(names, row, strict=True) if cell]
+            for row in zip(*cells, strict=True)
+        ]
+        return "\n\n".join([str(table.title or ""), *map("\n".join, rows)]).strip()
+    for column, width in zip(table.columns, widths, strict=True):
+        column.min_width = width
+    return table
 
 
 def print_found(found: Answer | answers.Columns, json: bool, parts: Iterable[Part]) -> None:

@@ -22,13 +22,18 @@ from core.errors import Given, Parameter
 DANCE_ENDINGS = (".toml", ".json")
 
 
+def ending_of(file: Path) -> str:
+    """The ending of a file's name with its point, in lower case; empty for "dance", and for "dance." on every Python."""
+    return file.suffix.lower().removesuffix(".")
+
+
 def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     """The ending of the file named by an option, checked before any work is done.
 
     option: its name; endings: the allowed ones in lower case; none: any ending is allowed
     raises: InvalidValue for another ending; OSError if the file cannot be written
     """
-    ending = file.suffix.lower()
+    ending = ending_of(file)
     if endings and ending not in endings:
         *most, last = endings
         words = f"{', '.join(most)} or {last}" if most else last
@@ -100,7 +105,7 @@ def read_dance(file: Path) -> dict[str, Any]:
 
     raises: InvalidValue, OSError
     """
-    ending = file.suffix.lower()
+    ending = ending_of(file)
     if ending not in DANCE_ENDINGS and file.is_file():
         words, endings = "{file} must end in {endings}", " or ".join(DANCE_ENDINGS)
         raise InvalidValue.in_words("file", words, got=ending or "no ending", file=str(file), endings=endings)
@@ -141,7 +146,7 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
     from app.maps.places import read_map  # The import takes 0.1 s, and most dances name no map.
 
     try:
-        if name == "venue" and drawing.suffix.lower() in (".json", ".geojson"):
+        if name == "venue" and ending_of(drawing) in (".json", ".geojson"):
             told = read_json(drawing)
             if is_of_polygons(told):  # Unchanged, because its unit may stand beside it.
                 return told
@@ -163,4 +168,4 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
 
 def object_words(file: Path) -> str:
     """Word for an object in the format of a file."""
-    return "a table" if file.suffix.lower() == ".toml" else OBJECT
+    return "a table" if ending_of(file) == ".toml" else OBJECT

@@ -60,7 +60,8 @@ class Channel {
     try {
       return await answer;
     } catch (error) {
-      throw abort.signal.aborted ? new Superseded() : error;
+      // A late refusal would be about numbers that are gone.
+      throw abort.signal.aborted || question !== this.#newest ? new Superseded() : error;
     } finally {
       this.#running = null;
       this.#grace = Math.min(Math.max(GRACE, 2 * (performance.now() - since)), GRACE_MOST);

@@ -33,6 +33,8 @@ const VERDICT = { cross_check: "none", details: false };
 const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
 /** Questions whose refusals concern an entered number; other refusals only affect what can be shown. The last one wins. */
 const ABOUT_NUMBERS = ["head", "shortest", "minimum", "contact"];
+/** Those of them that are asked about each kind of path. */
+const ASKED_ON = { spiral: ["minimum", "contact"], turn: ABOUT_NUMBERS, route: ["contact"] };
 
 /** The last shown instant: first contact, or the time until which nothing touches. */
 const lastInstant = ({ time, time_bracket, end }) => time ?? (end ? end.time - BEFORE_END : time_bracket[0]);
@@ -72,6 +74,7 @@ export class Questions {
     const kind = this.state.get("path");
     // An answer about the former path would take the place of this one.
     this.service.drop([kind === "route" ? "path" : "course"]);
+    this.#forget(ABOUT_NUMBERS.filter((channel) => !ASKED_ON[kind].includes(channel)));
     if (kind === "route") return this.#refreshDrawn();
     this.#asked.delete("course");
     const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
@@ -81,6 +84,13 @@ export class Questions {
     if (!this.#isNew("minimum", circle)) return;
     this.#whole = !this.answers.minimum;
     this.#keep("minimum", "minimum-pitch", this.#whole ? circle : this.#over([...CIRCLE, ...CONTACT], QUICK));
+  }
+
+  /** Drop these questions with their refusals, which would be about another path. */
+  #forget(channels) {
+    this.service.drop(channels);
+    for (const channel of channels) this.#asked.delete(channel);
+    if (channels.filter((channel) => this.refusals.delete(channel)).length) this.tell("refused");
   }
 
   /** Numbers in questions about a dance of this kind; with a table of benches those of the table. */

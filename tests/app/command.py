@@ -221,7 +221,8 @@ def _answer(peer: socket.socket, app: Any, entry: Any) -> None:
         os.close(file)
     # As a new process opens them; what waited to be written in this one is gone.
     sys.stdin, sys.stdout, sys.stderr = (
-        open(number, mode, encoding="utf-8") for number, mode in enumerate(("r", "w", "w"))
+        open(number, mode, encoding="utf-8")  # noqa: SIM115
+        for number, mode in enumerate(("r", "w", "w"))
     )
     os.chdir(here)
     os.environ.clear()

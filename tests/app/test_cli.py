@@ -361,12 +361,12 @@ def test_up_to_seven_instants_are_shown_and_none_is_dropped_among_them() -> None
     )
 
 
-def test_as_many_instants_are_shown_as_fit_the_width() -> None:
+def on_terminal(columns: int, *arguments: str) -> str:
+    """What the command prints on a terminal of a width, without colours."""
     leader, follower = pty.openpty()
-    fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 60, 0, 0))
-    environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("COLUMNS", "LINES")}
-    command = [COMMAND, "trajectory", "--stop", "300", "--step", "60"]
-    with subprocess.Popen(command, stdout=follower, stderr=subprocess.DEVNULL, env=environment) as process:
+    fcntl.ioctl(follower, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
+    command = [COMMAND, *arguments]
+    with subprocess.Popen(command, stdout=follower, stderr=subprocess.DEVNULL, env=ENVIRONMENT) as process:
         os.close(follower)
         seen = b""
         with contextlib.suppress(OSError):  # what reads a terminal without a writer gets an error, not an end of file
@@ -374,7 +374,20 @@ def test_as_many_instants_are_shown_as_fit_the_width() -> None:
                 seen += chunk
         os.close(leader)
         assert process.wait(PATIENCE) == 0
-    said = re.sub(r"\x1b\[[0-9;]*m", "", seen.decode())
+    return re.sub(r"\x1b\[[0-9;]*m", "", seen.decode())
+
+
+@pytest.mark.parametrize("command", ["collision-time", "paper"])
+def test_no_number_is_broken_on_a_narrow_terminal(command: str) -> None:
+    narrow, wide = (on_terminal(columns, command) for columns in (40, 200))
+    assert max(map(len, narrow.splitlines())) <= 40
+    whole = re.findall(r"\d+\.\d+", wide)
+    assert len(whole) > 3
+    assert set(whole) == set(re.findall(r"\d+\.\d+", narrow))
+
+
+def test_as_many_instants_are_shown_as_fit_the_width() -> None:
+    said = on_terminal(60, "trajectory", "--stop", "300", "--step", "60")
     assert headings(said) == [["0", "120", "300"]] * 3
     assert max(len(line) for line in said.splitlines() if not line.endswith("choose.")) <= 60
     assert "3 of 6 instants" in said.replace("\r\n", " ")

@@ -114,10 +114,12 @@ def test_what_comes_late_is_not_shown_without_a_drawing_nor_after_a_switch_of_la
     page.route(f"**/{late}", lambda one: held.append(one))
     with page.expect_request(f"**/{late}"):
         page.locator("#benches").fill("4")
+    while not held:
+        page.wait_for_timeout(10)
+    page.unroute(f"**/{late}")
     page.locator("#delete").click()
-    while held:
-        held.pop(0).continue_()
-    page.unroute_all()
+    for one in held:
+        one.continue_()
     settled(page)
     empty = picture(page)
     for language, words in (("zh", "可以"), ("en", "Can be danced")):

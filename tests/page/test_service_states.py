@@ -99,6 +99,38 @@ def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(visit: Any)
     page.locator("#first-contact .value", has_text="412.473838").wait_for()
 
 
+def test_a_refusal_that_comes_late_is_not_shown_beside_numbers_that_are_right_again(visit: Any) -> None:
+    page = visit(SHORT, failing=True)
+    held: list[Any] = []
+    passing: list[bool] = []
+    page.route("**/minimum-pitch*", lambda one: one.continue_() if passing else held.append(one))
+
+    def await_request(count: int) -> None:
+        while len(held) < count:
+            page.wait_for_timeout(10)
+
+    page.locator("#turning_diameter").fill("wide")
+    await_request(1)
+    page.get_by_role("button", name="Reset all").click()
+    held[0].continue_()
+    await_request(2)  # the question about the numbers that are right again follows the refusal of the former
+    assert page.locator("#turning_diameter-error").is_hidden()
+    passing.append(True)
+    held[1].continue_()
+    settled(page)
+    assert page.locator("#turning_diameter-error").is_hidden()
+
+
+def test_a_refusal_about_a_turn_goes_with_the_turn_and_comes_back_with_it(visit: Any) -> None:
+    page = visit(f"{SHORT}&path=turn&speed_limit=0", failing=True)
+    error = page.locator("#controls .error:not([hidden])")
+    error.wait_for()
+    page.locator("[data-path=spiral]").click()
+    error.wait_for(state="hidden")
+    page.locator("[data-path=turn]").click()
+    error.wait_for()
+
+
 def test_a_refusal_names_the_controls_in_the_language_of_the_page(visit: Any) -> None:
     page = visit("?lang=zh&overhang=3&benches=20", failing=True)
     words = "“孔心距板头”应小于“龙头板长”的一半（3.41 m / 2 = 1.705 m），现为 3 m。"

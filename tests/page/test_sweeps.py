@@ -64,9 +64,7 @@ def drawn(page: Any) -> set[tuple[int, ...]]:
 def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: Service) -> None:
     page = open_page("?benches=40&margin=0.05", base=base(service))
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
-    item = page.locator("#jobs li")
-    expect(item).to_contain_text("First contact over Pitch and Width")
-    page.locator("#jobs li[data-state=successful]").wait_for()
+    page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
     page.locator("#map canvas").hover(position=middle(page))
     query = {"pitch": 0.55, "width": 0.25, "benches": 40, "margin": 0.05, "cross_check": "none"}
     answer = polite.get(f"{base(service)}/collision-time", params=query).json()

@@ -76,15 +76,18 @@ def made(language: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module", params=["zh", pytest.param("en", marks=pytest.mark.deep)])
+IN_CHINESE = pytest.param("zh", marks=pytest.mark.chinese_font)
+
+
+@pytest.fixture(scope="module", params=[IN_CHINESE, pytest.param("en", marks=pytest.mark.deep)])
 def kit(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     """Language and folder of a kit."""
     return request.param, made(request.param, tmp_path_factory)
 
 
-@pytest.fixture(scope="module")
-def chinese(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return made("zh", tmp_path_factory)
+@pytest.fixture(scope="module", params=[IN_CHINESE])
+def chinese(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return made(request.param, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -141,6 +141,7 @@ def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame(client: httpx.Clie
     assert blank.min() == 255
 
 
+@pytest.mark.chinese_font
 def test_a_plan_in_chinese_on_a3_is_the_same_from_a_terminal(client: httpx.Client, tmp_path: Path) -> None:
     named = BODY | {"dragon": {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}, "start_clock": "19:30"}
     body = named | {"language": "zh", "paper": "A3", "title": "板凳龙 2027"}

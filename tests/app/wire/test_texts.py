@@ -27,7 +27,7 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
 @pytest.mark.parametrize(
     ("read", "data", "words"),
     [
-        (json_of, b'{"a": 1,}', "is not JSON: Expecting property name enclosed in double quotes at character 8"),
+        (json_of, b'{"a": 1 2}', "is not JSON: Expecting ',' delimiter at character 8"),
         (json_of, b'{"a', "is not JSON: Unterminated string starting at character 1"),
         (json_of, b'{"a": \xff}', "is not text in UTF-8: byte 0xff at position 6"),
         (json_of, b"[" * 100_000, "nests too many objects and lists in one another"),

@@ -1,0 +1,91 @@
+"""Standard input, output and error of the command: full, closed, in one file, on a terminal of few characters."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
+
+pytestmark = pytest.mark.uncompiled
+
+# Short answers of every kind: JSON, a table, help of the command and of one question, the version.
+ASKED = (
+    "collision-time --benches 3 --json",
+    "trajectory --benches 3 --times 0",
+    "--help",
+    "turn --help",
+    "--version",
+    "",
+)
+
+
+def shell(command: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
+    """A new process of the command with redirections as in a shell."""
+    words = ["bash", "-c", f'"$0" {command}', COMMAND]
+    return subprocess.run(words, env=ENVIRONMENT | environment, capture_output=True, timeout=PATIENCE)
+
+
+@pytest.mark.parametrize("command", ASKED)
+def test_a_full_disk_is_one_line(command: str) -> None:
+    done = shell(f"{command} >/dev/full")
+    assert done.stderr == b"Error: standard output: No space left on device\n"
+    assert done.returncode == 2
+
+
+@pytest.mark.parametrize("command", ASKED)
+def test_a_closed_standard_output_is_one_line(command: str) -> None:
+    done = shell(f"{command} >&-")
+    assert done.stderr == b"Error: standard output: it is closed\n"
+    assert done.returncode == 2
+
+
+def test_closed_messages_vanish_and_closed_input_is_empty() -> None:
+    assert shell("collision-time --pitch 0 2>&-").returncode == 2
+    done = shell("overlaps - <&-")
+    assert done.returncode == 2
+    assert done.stderr == b"Error: standard input is not JSON: Expecting value at character 0\n"
+
+
+def test_a_file_that_is_opened_later_does_not_become_the_closed_standard_output(tmp_path: Path) -> None:
+    table = tmp_path / "table.csv"
+    shell(f"trajectory --benches 3 --times 0 --output {table} >&-")
+    assert table.read_bytes().startswith(b"time,")
+
+
+def test_what_is_written_first_stands_first_in_a_common_file(tmp_path: Path) -> None:
+    # The note about the file comes before the answer, the refusal of the second file after the answer to the first.
+    (tmp_path / "empty.toml").write_text("")
+    one = tmp_path / "one"
+    shell(f"check {tmp_path / 'empty.toml'} >{one} 2>&1")
+    lines = one.read_text(encoding="utf-8").splitlines()
+    assert lines[0] == f"{tmp_path / 'empty.toml'} is empty: the answer is for the contest's dance."
+    assert len(lines) > 1
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "gbk"])
+@pytest.mark.parametrize(
+    "command",
+    [
+        "turn --json",
+        "places {folder}/龙.geojson",
+        "grade {folder}/龙.csv",
+        "grade --language zh --pitch 0.45",
+        "check {folder}/龙.toml",
+    ],
+)
+def test_what_a_terminal_cannot_show_is_escaped(command: str, encoding: str, tmp_path: Path) -> None:
+    ring = "[[0, 0], [9, 0], [9, 9], [0, 0]]"
+    (tmp_path / "龙.geojson").write_text(f'{{"type": "Polygon", "coordinates": [{ring}]}}', encoding="utf-8")
+    (tmp_path / "龙.csv").write_text("板凳,é\n1,2\n", encoding="utf-8")
+    (tmp_path / "龙.toml").write_text('[dragon]\nbenches = 2\nnames = ["龙 é", "b"]\n', encoding="utf-8")
+    done = shell(command.format(folder=tmp_path), PYTHONIOENCODING=encoding)
+    assert b"Traceback" not in done.stderr
+    assert done.returncode == 0, done.stderr
+    assert done.stdout
+
+
+def test_a_terminal_of_gbk_gets_its_own_characters() -> None:
+    assert "论文".encode("gbk") in shell("paper --language zh", PYTHONIOENCODING="gbk").stdout
