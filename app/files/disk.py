@@ -23,7 +23,7 @@ DANCE_ENDINGS = (".toml", ".json")
 
 
 def ending_of(file: Path) -> str:
-    """The ending of a file's name with its point, in lower case; empty for "dance", and for "dance." on every Python."""
+    """The ending of a name with its point, in lower case; empty for "dance" and, on every Python, for "dance."."""
     return file.suffix.lower().removesuffix(".")
 
 

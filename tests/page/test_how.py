@@ -138,7 +138,7 @@ def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(figures: Any) ->
     expect(page.locator("#chord .note")).to_contain_text("the figure is older than your numbers")
     expect(page.locator("#step .note")).to_be_empty()
     page.unroute("**/*")
-    # The page tries again by itself too, perhaps before the button is reached: a click of the mouse would wait for ever.
+    # The page tries again by itself too; where that came first, a click of the mouse would wait for the button.
     page.locator("#lost button").evaluate("button => button.click()")
     expect(page.locator("#chord .note")).to_be_empty()
     expect(page.locator("#lost")).to_be_hidden()
