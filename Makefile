@@ -151,17 +151,19 @@ install-time: setup
 
 # The newest versions that fit the ranges of pyproject.toml on every Python and system; the files have names and versions
 # only. Those of the tests keep what the service has.
-RESOLVE = $(BIN)/uv pip compile pyproject.toml --universal --python-version 3.11 --upgrade \
+# Lines of packages that [tool.uv] overrides leave nowhere needed are dropped.
+RESOLVE = $(BIN)/uv pip compile --universal --python-version 3.11 --upgrade \
 	--no-header --no-annotate --no-emit-index-url --quiet
 lock: setup
 	@mkdir -p build
-	@$(RESOLVE) --extra service --group tools --output-file build/requirements.lock
-	@$(RESOLVE) --extra dev --constraint build/requirements.lock --output-file build/all.lock
-	@$(RESOLVE) --extra ccd --constraint build/all.lock --output-file build/ccd.lock
-	@$(RESOLVE) --only-group dist --output-file build/requirements-dist.lock
+	@$(RESOLVE) pyproject.toml --extra service --group tools --output-file build/requirements.lock
+	@$(RESOLVE) pyproject.toml --extra dev --constraint build/requirements.lock --output-file build/all.lock
+	@$(RESOLVE) pyproject.toml --extra ccd --constraint build/all.lock --output-file build/ccd.lock
+	@$(RESOLVE) --group dist --output-file build/requirements-dist.lock
+	@sed -i "/ == 'none'$$/d" build/*.lock
 	@grep -vxFf build/requirements.lock build/all.lock >build/requirements-test.lock
 	@grep -vxFf build/requirements.lock build/ccd.lock | grep -vxFf build/all.lock >build/requirements-ccd.lock
-	@for file in requirements.lock requirements-test.lock requirements-ccd.lock requirements-dist.lock; do \
+	@for file in requirements*.lock; do \
 		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done
 
 clean:
