@@ -1,6 +1,6 @@
 # The service alone. The image has no compiler; the service does not run as root, and writes only to /tmp and /data.
 #   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -v dragon:/data -p 8000:8000 bench-dragon
-ARG PYTHON_IMAGE=python:3.11-slim-bookworm
+ARG PYTHON_IMAGE=python:3.13-slim-trixie
 # Extras of the distribution to install: service,dask adds sweeps on a Dask cluster.
 ARG EXTRAS=service
 
@@ -10,12 +10,16 @@ RUN apt-get update \
     && apt-get install -y --no-install-recommends gcc libc6-dev \
     && rm -rf /var/lib/apt/lists/*
 RUN python -m venv /opt/bench-dragon
-COPY requirements.lock pyproject.toml setup.py README.md LICENSE /src/
+COPY requirements.lock requirements-test.lock pyproject.toml setup.py README.md LICENSE /src/
 COPY core /src/core
 COPY app /src/app
-RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check -c /src/requirements.lock "/src[${EXTRAS}]" \
+# Without pip, IPython (which only plots of uplot-python in notebooks need), tests and headers.
+RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check \
+        -c /src/requirements.lock -c /src/requirements-test.lock "/src[${EXTRAS}]" \
     && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED" \
-    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip setuptools
+    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip ipython jedi parso \
+    && find /opt/bench-dragon -depth -type d \( -name tests -o -name __pycache__ -o -path '*/pyarrow/include' \) \
+        -exec rm -r {} +
 
 FROM ${PYTHON_IMAGE}
 # A font with Chinese characters, for figures and films in Chinese.

@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
+.PHONY: help setup test-setup serve test machines deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -21,6 +21,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
 	@echo 'make test     the tests (ARGS= for pytest)'
+	@echo 'make machines  make serve and make test on other Debians, ten minutes each (as root; SUITES=, PACKAGES=, OWNER=)'
 	@echo 'make deep     the tests with all cases and samples, of which make test runs some of each kind'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make libreoffice  grades the three workbooks as saved by LibreOffice (needs libreoffice-calc; ARGS=--renew: the small ones)'
@@ -86,6 +87,10 @@ test: test-setup
 	@$(BIN)/python tests/page/browser.py
 	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ARGS)
 
+# Not with the settings of this make, which are for this machine.
+machines:
+	@env -u MAKEFLAGS -u MAKELEVEL bash .ci/machines $(SUITES)
+
 deep: setup
 	@DEEP=1 $(MAKE) --no-print-directory test
 
@@ -149,15 +154,15 @@ install-time: setup
 	time build/install/venv/bin/python -m pip --quiet install --no-index --find-links build/install bench-dragon
 	@! build/install/venv/bin/python -c 'import fastapi' 2>/dev/null
 
-# The newest versions that fit the ranges of pyproject.toml on every Python and system; the files have names and versions
-# only. Those of the tests keep what the service has.
+# The newest versions that fit the ranges of pyproject.toml, the tests' among them, on every Python and system; the files
+# have names and versions only.
 # Lines of packages that [tool.uv] overrides leave nowhere needed are dropped.
 RESOLVE = $(BIN)/uv pip compile --universal --python-version 3.11 --upgrade \
 	--no-header --no-annotate --no-emit-index-url --quiet
 lock: setup
 	@mkdir -p build
-	@$(RESOLVE) pyproject.toml --extra service --group tools --output-file build/requirements.lock
-	@$(RESOLVE) pyproject.toml --extra dev --constraint build/requirements.lock --output-file build/all.lock
+	@$(RESOLVE) pyproject.toml --extra dev --group tools --output-file build/all.lock
+	@$(RESOLVE) pyproject.toml --extra service --group tools --constraint build/all.lock --output-file build/requirements.lock
 	@$(RESOLVE) pyproject.toml --extra ccd --constraint build/all.lock --output-file build/ccd.lock
 	@$(RESOLVE) --group dist --output-file build/requirements-dist.lock
 	@sed -i "/ == 'none'$$/d" build/*.lock

@@ -76,7 +76,7 @@ def _why_left_out(item: pytest.Item) -> str:
         return browser.MISSING
     if item.get_closest_marker("chinese_font") and not _has_chinese_font():
         return NO_FONT
-    if "small_disk" in fixtures and os.geteuid() != 0:
+    if item.get_closest_marker("root") and os.geteuid() != 0:
         return NO_DISK
     if item.get_closest_marker("curl") and not shutil.which("curl"):
         return NO_CURL

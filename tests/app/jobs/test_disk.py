@@ -38,6 +38,7 @@ def fill(folder: Path, name: str = "filler") -> Path:
             return file
 
 
+@pytest.mark.root
 def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> None:
     with Service(small_disk / "data") as service:
         first = service.post(SHORT)
@@ -63,6 +64,7 @@ def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> 
         assert service.client.get(f"{again}/result").content == service.client.get(f"{first}/result").content
 
 
+@pytest.mark.root
 def test_jobs_can_be_removed_one_after_the_other_while_the_disk_stays_full(small_disk: Path) -> None:
     with Service(small_disk / "data") as service:
         made = [service.post(BIG) for _ in range(3)]  # They fail, so that no result is removed with them.
