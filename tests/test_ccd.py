@@ -49,7 +49,7 @@ def part(count: int) -> Shard:
 
 def engines(chosen: Callable[[Engine], bool]) -> list[Any]:
     """Names of engines as parameters; those that not every machine and Python has carry a mark."""
-    marks = {package: [pytest.mark.engine(package)] for package in ("Box2D", "ipctk")}
+    marks = {"box2d": [pytest.mark.engine("Box2D")], "ipctk": [pytest.mark.engine("ipctk")]}
     return [pytest.param(one.name, marks=marks.get(one.package, [])) for one in ENGINES if chosen(one)]
 
 

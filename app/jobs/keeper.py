@@ -12,8 +12,9 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import BoundedSemaphore, Event, Thread, current_thread, main_thread
@@ -29,6 +30,9 @@ logger = logging.getLogger("uvicorn.error")
 KEEP_SECONDS = 1.0
 # Longest time for a runner to end [s].
 END_SECONDS = 5.0
+# Others wait while the store is cleared of removed jobs: this is done at most once in this time [s], and takes at most
+# this share of it.
+CLEAR_SECONDS, CLEAR_SHARE = 1.0, 0.05
 
 
 class Keeper:
@@ -44,6 +48,7 @@ class Keeper:
         self._lock = FolderLock(store.folder, "keeper")
         self._wake = Event()
         self._runner: subprocess.Popen[bytes] | None = None
+        self._clear_at = 0.0
         self._thread = Thread(target=self._keep, name="jobs", daemon=True)
 
     def start(self) -> None:
@@ -69,15 +74,32 @@ class Keeper:
         self._lock.give_back()
 
     def _keep(self) -> None:
+        reported = ""
         while not self.leaving.is_set():
             try:
-                ended = self._runner is None or self._runner.poll() is not None
-                if ended and self._lock.take() and self.store.has_work(self.settings.job_days_max):
-                    self._runner = start("app.jobs.runner", str(self.store.folder))
-            except (OSError, sqlite3.Error):
-                logger.exception("No runner could be started for the jobs")
+                self.store.check()
+                if self._lock.take():
+                    ended = self._runner is None or self._runner.poll() is not None
+                    if ended and self.store.has_work(self.settings.job_days_max):
+                        self._runner = start("app.jobs.runner", str(self.store.folder))
+                    self._clear()
+                reported = ""
+            except (OSError, sqlite3.Error) as error:
+                if str(error) != reported:  # Logged once: the folder may be gone for hours.
+                    reported = str(error)
+                    logger.error("The store of the jobs failed, and is tried again each second: %s", reported)
             self._wake.wait(KEEP_SECONDS)
             self._wake.clear()
+
+    def _clear(self) -> None:
+        """Remove the last bytes of removed jobs, if it is time, through a connection of its own: calls read on."""
+        begun = time.monotonic()
+        if begun < self._clear_at or not self.store.must_clear():
+            return
+        with closing(Store(self.store.folder)) as own:
+            own.clear()
+        now = time.monotonic()
+        self._clear_at = now + max(CLEAR_SECONDS, (now - begun) / CLEAR_SHARE)
 
 
 def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
@@ -98,7 +120,7 @@ def kept(settings: Settings) -> Iterator[Keeper | str]:
             store = Store(settings.data or Path(stack.enter_context(scratch())))
         except (OSError, sqlite3.Error) as error:
             logger.error("The data folder %s cannot be used, so there are no jobs: %s", settings.data, error)
-            yield f"its data folder cannot be used ({error})"
+            yield "its data folder cannot be used"
             return
         stack.callback(store.close)
         keeper = Keeper(store, settings)

@@ -88,6 +88,19 @@ def keeper_of(request: Request) -> Keeper:
     return keeper
 
 
+def fault_of(jobs: Keeper | str) -> str:
+    """Why no job can be kept, without the names of folders; empty: nothing is wrong. jobs: as in the app's state"""
+    if isinstance(jobs, str):
+        return "the data folder cannot be used"
+    try:
+        jobs.store.check()
+    except OSError as error:
+        return error.strerror or type(error).__name__
+    except sqlite3.Error as error:
+        return str(error)
+    return ""
+
+
 def take(request: Request, task: Task) -> Response:
     """A new job. raises: Refused if there is no room"""
     keeper = keeper_of(request)
@@ -103,6 +116,10 @@ def take(request: Request, task: Task) -> Response:
     except Full as error:
         words, most = "The limit of {most} is reached", limit(limits.jobs_max, "kept job")
         raise Refused(503, words, None, COME_AGAIN, reason="remove some, or try again later.", most=most) from error
+    except OSError as error:
+        logger.error("The store of the jobs failed: %s", error.strerror)
+        words = "This service takes no jobs now: the store of the jobs failed."
+        raise Refused(503, words, None, COME_AGAIN) from error
     keeper.hurry()
     root = request.scope.get("root_path", "")
     headers = {**NOT_KEPT, "Location": f"{root}/jobs/{job.id}", "Preference-Applied": RESPOND_ASYNC}

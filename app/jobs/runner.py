@@ -254,6 +254,9 @@ def main() -> None:
     folder = Path(sys.argv[1])
     follow_input()
     lock = FolderLock(folder, "runner")
-    if not lock.take(LOCK_SECONDS):
-        raise SystemExit(f"Another runner still holds {folder}")
-    Runner(Store(folder), settings).run()
+    try:
+        if not lock.take(LOCK_SECONDS):
+            raise SystemExit(f"Another runner still holds {folder}")
+        Runner(Store(folder), settings).run()
+    except (OSError, sqlite3.Error) as error:
+        raise SystemExit(f"The store of the jobs failed: {error}") from error

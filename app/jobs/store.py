@@ -11,13 +11,14 @@ from accepted to running and later states; anyone may dismiss it.
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import shutil
 import sqlite3
 import time
 from collections.abc import Container, Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import closing, contextmanager
 from dataclasses import fields
 from pathlib import Path
 from threading import Lock
@@ -37,7 +38,7 @@ EVENTS_KEPT = 100
 # Number of dead processes after which a job is not tried again.
 DEATHS_MAX = 3
 DAY = 86_400.0  # [s]
-# Largest store that a removal rewrites whole, which takes it half a second [bytes].
+# Largest store that is rewritten whole after removals, which takes half a second [bytes].
 REWRITTEN_MAX = 1 << 26
 # Version of the tables below; a folder with another version is not changed.
 LAYOUT = 2
@@ -54,6 +55,8 @@ CREATE TABLE IF NOT EXISTS events (
     job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
     PRIMARY KEY (job, number)
 ) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS removals (id INTEGER PRIMARY KEY CHECK (id = 0), made INTEGER, cleared INTEGER);
+INSERT OR IGNORE INTO removals VALUES (0, 0, 0);
 """
 
 # Columns that are missing in tables of layout 1.
@@ -76,6 +79,7 @@ class Store:
         file.touch(mode=0o600)  # Other users must not read the names of jobs, which give access to the results.
         self._reserve = Reserve(self.folder / "reserve")
         self._lock = Lock()
+        self._file, self._inode = file, os.stat(file).st_ino
         self._connection = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
         try:
             self._open()
@@ -99,7 +103,7 @@ class Store:
         run("PRAGMA journal_mode = WAL")
         run("PRAGMA synchronous = FULL")
         run("PRAGMA foreign_keys = ON")
-        run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk; _rewrite removes their copies.
+        run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk; clear() removes their copies.
         run("PRAGMA temp_store = MEMORY")
         with self._change():
             layout = run("PRAGMA user_version").fetchone()[0]
@@ -115,6 +119,18 @@ class Store:
     def close(self) -> None:
         with self._lock:
             self._connection.close()
+
+    def check(self, job: str | None = None) -> None:
+        """See whether others can read the store, and a job in it: the connection goes on with a file that is removed.
+
+        raises: OSError if the file was removed or replaced; sqlite3.Error if it is damaged
+        """
+        if not self._file.is_file() or os.stat(self._file).st_ino != self._inode:
+            raise OSError(errno.ENOENT, "the file of the jobs was removed or replaced: start the service anew")
+        with closing(sqlite3.connect(f"{self._file.as_uri()}?mode=ro", PATIENCE, uri=True)) as other:
+            known = other.execute("SELECT count(*) FROM jobs WHERE id = ?", (job,)).fetchone()[0]
+        if job is not None and not known:
+            raise OSError(errno.EIO, "a job that was written is not there")
 
     @contextmanager
     def _change(self) -> Iterator[sqlite3.Connection]:
@@ -152,7 +168,7 @@ class Store:
     # Calls for every process.
 
     def create(self, question: str, call: bytes, client: str, limits: Settings) -> Job:
-        """A new job, safe on the disk. raises: Full if there is no room for it"""
+        """A new job, safe on the disk. raises: Full if there is no room for it; OSError if the folder is gone"""
         now, job = time.time(), secrets.token_hex(ID_BYTES)
         with self._change() as run:
             kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
@@ -170,6 +186,7 @@ class Store:
                 (job, question, call, client, now, now),
             )
             self._tell(run, job)
+        self.check(job)
         return self.known(job)
 
     def get(self, job: str) -> Job | None:
@@ -221,25 +238,37 @@ class Store:
             return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
 
     def remove(self, *jobs: str) -> None:
-        """Remove jobs with their events and their results."""
+        """Remove jobs with their events and their results; clear() then removes their last bytes."""
         for job in jobs:
             self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
-        with self._reserve.given():
-            with self._change() as run:
-                run.executemany("DELETE FROM jobs WHERE id = ?", [(job,) for job in jobs])
-            self._rewrite()
+        with self._reserve.given(), self._change() as run:
+            run.executemany("DELETE FROM jobs WHERE id = ?", [(job,) for job in jobs])
+            run.execute("UPDATE removals SET made = made + 1")
 
-    def _rewrite(self) -> None:
-        """Leave no byte of what was removed: of its copies where SQLite moved rows between pages, and in the log."""
+    def must_clear(self) -> bool:
+        """True if something was removed since the store was cleared."""
+        return bool(self._read("SELECT 1 FROM removals WHERE made > cleared"))
+
+    def clear(self) -> None:
+        """Leave no byte of what was removed: of its copies where SQLite moved rows between pages, and in the log.
+
+        Other threads of this store and other processes wait meanwhile.
+        """
+        [(made,)] = self._read("SELECT made FROM removals")
         pages = "pragma_page_count, pragma_freelist_count, pragma_page_size"
         [(size,)] = self._read(f"SELECT (page_count - freelist_count) * page_size FROM {pages}")
-        if size <= REWRITTEN_MAX:
-            with suppress(sqlite3.OperationalError):  # The disk is full: the next removal rewrites the store.
-                self._read("VACUUM")
-        # While another process copies the write-ahead log, SQLite refuses without waiting.
-        end = time.monotonic() + PATIENCE
-        while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
-            time.sleep(0.01)
+        with self._reserve.given():
+            if size <= REWRITTEN_MAX:
+                try:
+                    self._read("VACUUM")
+                except sqlite3.OperationalError:  # The disk is full, or another process holds the store for long.
+                    return
+            with self._change() as run:
+                run.execute("UPDATE removals SET cleared = ?", (made,))
+            # While another process copies the write-ahead log, SQLite refuses without waiting.
+            end = time.monotonic() + PATIENCE
+            while self._read("PRAGMA wal_checkpoint(TRUNCATE)")[0][0] and time.monotonic() < end:
+                time.sleep(0.01)
 
     def has_work(self, days: float) -> bool:
         """True if a runner has work. days: time for which finished jobs are kept"""
@@ -339,11 +368,11 @@ class Store:
     def expire(self, days: float) -> None:
         """Remove calls and results of jobs this many days after their end, and the jobs after twice as many."""
         latest = time.time() - days * DAY
-        old = self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest)
-        for (job,) in old:
+        for (job,) in self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest):
             self.result(job).unlink(missing_ok=True)
             with self._change() as run:
                 self._move(run, job, "NOT expired", expired=1, call=b"", size=0, message="Its result has expired.")
+                run.execute("UPDATE removals SET made = made + 1")
         gone = [job for (job,) in self._read("SELECT id FROM jobs WHERE finished < ?", latest - days * DAY)]
-        if old or gone:
+        if gone:
             self.remove(*gone)

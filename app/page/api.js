@@ -130,8 +130,9 @@ export class Service {
       const wanted = ONCE.includes(url) ? signal : AbortSignal.any([signal, this.#hanging.signal]);
       const response = await this.#fetch(url, { ...options, signal: wanted }, signal);
       if (response?.status === EMPTY) return null;
-      if (response?.ok) return options.headers.Accept.includes("json") ? response.json() : response.blob();
-      if (!response) await this.#untilBack();
+      const body = response?.ok && (await this.#read(response, options.headers.Accept.includes("json")));
+      if (body) return body.content;
+      if (!response || response.ok) await this.#untilBack();
       else if (BUSY.includes(response.status) && pauseOf(response) <= MOMENT) await wait(1000 * pauseOf(response));
       else throw new Problem(response.status, await response.json().catch(() => null));
       signal.throwIfAborted();
@@ -145,6 +146,16 @@ export class Service {
       return GATEWAY_ERRORS.includes(response.status) ? null : response;
     } catch {
       asked?.throwIfAborted();
+      return null;
+    }
+  }
+
+  /** {content} of a response; null if the connection ended within it. */
+  async #read(response, isJson) {
+    try {
+      return { content: await (isJson ? response.json() : response.blob()) };
+    } catch (error) {
+      if (error instanceof SyntaxError) throw error;
       return null;
     }
   }

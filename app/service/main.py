@@ -142,6 +142,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             Middleware(layers.Metrics, registry=registry),
             Middleware(layers.Mistakes),
             Middleware(layers.RequestLimits, settings=settings),
+            Middleware(layers.JobCalls, settings=settings),
         ],
     )
     app.state.settings = settings
@@ -202,10 +203,12 @@ def _add_health(app: FastAPI) -> None:
         return State(status="ok")
 
     @app.get("/readyz", operation_id="readyz", summary="Readiness", **described)
-    async def readyz(request: Request, response: Response) -> State:
-        """This installation gives the known answers of the self-test."""
+    def readyz(request: Request, response: Response) -> State:
+        """This installation gives the known answers of the self-test, and the store of its jobs can be used."""
         if request.app.state.fault:
             raise problems.Refused(503, "The self-test failed: {why}.", why=str(request.app.state.fault))
+        if fault_of_jobs := jobs.fault_of(request.app.state.jobs):
+            raise problems.Refused(503, "The store of the jobs failed: {why}.", why=fault_of_jobs)
         response.headers["Cache-Control"] = "no-store"
         return State(status="ready")
 

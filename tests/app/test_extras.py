@@ -174,7 +174,10 @@ def test_every_extra_for_users_is_known_to_the_command() -> None:
     assert set(MODULES) == set(PROJECT["optional-dependencies"]) - {"dev"}
 
 
-@pytest.mark.parametrize("extra", MODULES)
+ENGINES = pytest.param("ccd", marks=pytest.mark.engine("Box2D", "ipctk"))
+
+
+@pytest.mark.parametrize("extra", [ENGINES, *sorted(MODULES.keys() - {"ccd"})])
 def test_an_extra_brings_the_modules_that_it_is_asked_for(extra: str) -> None:
     brought = {canonicalize_name(name) for module in MODULES[extra] for name in providers()[module]}
     assert brought == distributions(extra) - DISPENSABLE

@@ -69,9 +69,9 @@ class Service:
 
     def start(self) -> None:
         self.scratch = tempfile.TemporaryDirectory()
-        log = Path(self.scratch.name) / "service.log"
-        self.process = serve(self.port, self.workers, self.environment | {"TMPDIR": self.scratch.name}, log)
-        wait_until_live(self.process, self.port, log)
+        self.log = Path(self.scratch.name) / "service.log"
+        self.process = serve(self.port, self.workers, self.environment | {"TMPDIR": self.scratch.name}, self.log)
+        wait_until_live(self.process, self.port, self.log)
 
     def stop(self) -> None:
         """Asks the service to end; no process of it may stay."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+import shutil
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -172,6 +174,42 @@ def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path: Path) 
         assert refused.status_code == 503
         assert "data folder cannot be used" in refused.json()["detail"]
         assert service.client.get("/collision-time").status_code == 200
+
+        assert str(tmp_path) not in refused.text
+        assert service.client.get("/readyz").status_code == 503
+
+
+def removed(folder: Path) -> None:
+    shutil.rmtree(folder)
+
+
+def damaged(folder: Path) -> None:
+    with (folder / "jobs.sqlite").open("r+b") as file:
+        file.write(b"no database" * 1000)
+    for rest in ("jobs.sqlite-wal", "jobs.sqlite-shm"):
+        (folder / rest).unlink(missing_ok=True)
+
+
+@pytest.mark.parametrize("harm", [removed, damaged])
+def test_a_store_that_fails_while_the_service_runs_promises_nothing(
+    tmp_path: Path, harm: Callable[[Path], None]
+) -> None:
+    folder = tmp_path / "data"
+    with Service(folder) as service:
+        assert service.finished(service.post(SHORT))["status"] == "successful"
+        assert service.client.get("/readyz").status_code == 200
+        harm(folder)
+        refused = service.client.post("/jobs", json=SHORT)
+        assert refused.status_code == 503, refused.text
+        assert str(tmp_path) not in refused.text
+        ready = service.client.get("/readyz")
+        assert ready.status_code == 503
+        assert "The store of the jobs failed" in ready.json()["detail"]
+        assert service.client.get("/collision-time").status_code == 200
+        time.sleep(3.0)  # The keeper looks at the store each second, and says once what is wrong.
+        log = service.log.read_text(encoding="utf-8")
+        assert "Traceback" not in log
+        assert log.count("and is tried again each second") <= 2
 
 
 def test_other_users_of_the_machine_cannot_read_the_data_folder(strict: Service) -> None:

@@ -197,7 +197,7 @@ def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(se
     assert service.client.get(f"{address}/result").status_code == 409
     dismissed = service.client.delete(address)
     assert (dismissed.status_code, dismissed.json()["status"]) == (200, "dismissed")
-    wait_for(lambda: not service.of("child"), 5.0)
+    wait_for(lambda: not service.of("child"))
     assert service.client.get(f"{address}/result").status_code == 410
     assert service.client.delete(address).status_code == 204
     for left in (address, f"{address}/result", f"{address}/events"):
@@ -229,7 +229,7 @@ def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: Service, i
             fcntl.lockf(shared, fcntl.LOCK_EX, 1, CHECKPOINT_LOCK)
             Timer(0.3, fcntl.lockf, (shared, fcntl.LOCK_UN, 1, CHECKPOINT_LOCK)).start()
         assert service.client.delete(address).status_code == 204
-    wait_for(lambda: not kept(), 5.0)
+        wait_for(lambda: not kept())
 
 
 def test_nobody_is_shown_the_jobs_of_others(service: Service) -> None:
@@ -248,9 +248,9 @@ def test_other_calls_answer_while_jobs_run(service: Service) -> None:
     addresses = [service.post(LONG), service.post(LONG)]
     for address in addresses:
         service.until(address, "running")
-    started = time.monotonic()
     assert service.client.get("/healthz").status_code == 200
-    assert time.monotonic() - started < 1.0
+    # The answer did not wait for their end.
+    assert {service.client.get(address).json()["status"] for address in addresses} == {"running"}
     for address in addresses:
         service.client.delete(address)
 
@@ -293,3 +293,21 @@ def test_a_store_that_is_slow_keeps_nobody_else_waiting(service: Service) -> Non
             assert not later.done()
             other.execute("ROLLBACK")
         assert later.result().status_code == 202
+
+
+def test_many_removals_keep_no_page_waiting(service: Service) -> None:
+    """Another process writes to the store, so that every removal waits: more of them than the service has threads."""
+    addresses = [service.post(SHORT) for _ in range(10)]
+    for address in addresses:
+        service.finished(address)
+    many = [f"http://127.0.0.1:{service.port}{address}" for address in addresses for _ in range(6)]
+    with ThreadPoolExecutor(len(many)) as threads:
+        with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
+            other.execute("BEGIN IMMEDIATE")
+            removals = [threads.submit(httpx.delete, url, timeout=PATIENCE) for url in many]
+            time.sleep(HELD)
+            for page in ("/", "/how", "/readyz"):
+                assert service.client.get(page).status_code == 200
+            assert not any(removal.done() for removal in removals)
+            other.execute("ROLLBACK")
+        assert {removal.result().status_code for removal in removals} == {204, 404}

@@ -216,9 +216,13 @@ def test_a_removal_leaves_no_copy_where_rows_were_moved_unless_the_store_is_too_
 
     monkeypatch.setattr(stores, "REWRITTEN_MAX", 0)
     store.remove(*made[:-2:2])
+    store.clear()
     assert kept() > 1  # the last one, and copies of others
     monkeypatch.undo()
     store.remove(made[-2])
+    assert store.must_clear()
+    store.clear()
+    assert not store.must_clear()
     assert kept() == 0
     assert len(store.all()) == 50
 
@@ -233,5 +237,6 @@ def test_expired_calls_and_jobs_leave_no_byte(store: Store, monkeypatch: pytest.
     for days, left, words in ((0.75, 1, b"a call like no other"), (0.25, 0, job.encode())):
         assert any(words in file.read_bytes() for file in data)
         store.expire(days)
+        store.clear()
         assert not any(words in file.read_bytes() for file in data)
         assert len(store.all()) == left
