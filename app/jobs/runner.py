@@ -127,6 +127,7 @@ class Runner:
 
     def step(self) -> None:
         """Process messages, end dismissed jobs, start waiting ones."""
+        self.store.check()
         self._listen()
         while self._unheeded:
             self._heed(*self._unheeded[0])

@@ -15,6 +15,7 @@ from __future__ import annotations
 import logging
 import os
 import shutil
+import sqlite3
 import sys
 from collections.abc import Iterator
 from contextlib import closing
@@ -129,7 +130,11 @@ def main() -> None:
     reports = Reports()
     for job in jobs():
         reports.begin()
-        with closing(Store(folder)) as store:
+        try:
+            store = Store(folder)
+        except (OSError, sqlite3.Error) as error:
+            raise SystemExit(f"The store of the jobs failed: {error}") from error
+        with closing(store):
             said = do(store, job, settings, reports)
         again = is_small()
         reports.say(**said, again=again)
