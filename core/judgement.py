@@ -142,9 +142,12 @@ def _judged(
     begin, until = dance.span(dance.begin if start is None else start, stop)
     contact = first_contact(dance, margin=margin, stray=strayed, start=begin, stop=stop, budget=budget)
     least, touch = None, contact.time
+    if contact.overlapping is not None and contact.time_bracket is not None:
+        touch = contact.time_bracket[1]  # which contact is the first is not decided
     if details or (margin > 0.0 and touch is not None):
         least = least_clearance(dance, stray=strayed, start=begin, stop=until, budget=budget)
-        touch = least.time if least is not None and least.distance <= 0.0 else None
+        if margin > 0.0 or contact.overlapping is None:
+            touch = least.time if least is not None and least.distance <= 0.0 else None
     if touch is not None:
         until = min(until, max(touch, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until, budget=budget) if details else None

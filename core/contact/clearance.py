@@ -108,9 +108,11 @@ class LeastClearance(Readable):
     """The least clearance over an interval of the dance.
 
     distance: the least one found [m], reached at `time` [s] by `benches`. If benches touch, it is 0 at the first touch,
-        without a statement on later times; if they overlap at the start, it is their negative separation there
+        without a statement on later times; if they overlap at the start, it is their negative separation there. If it
+        is not decided when they touch first, it is 0 at a time at which they do
     at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that needs too many steps,
-        PROOF_WIDTHS[1]; None if the search gave up first, or benches overlap at the start
+        PROOF_WIDTHS[1]; None if the search gave up first, if benches overlap at the start, or if their first touch is
+        not decided
     """
 
     distance: float
@@ -253,12 +255,17 @@ def least_over(
     return best, proven
 
 
-def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
-    """The first touch if benches certainly touch; if the search gives up, the touch that is already known."""
+def _first_touch(
+    search: Search, begin: float, until: float, head_speed: float, touching: Dip
+) -> tuple[Dip, float | None]:
+    """The first touch, before which nothing touches; if that is not decided, a certain or else a computed touch."""
     search.use(search.path, 0.0)
     state, found, half_bracket = search.approach(begin, until, head_speed)
     if state not in TOUCHES or found.touching is None:
-        return touching._replace(gap=0.0), 0.0
+        met = search.overlap_beyond(found.proven, until, head_speed) if state is Ended.STUCK else None
+        if met is not None and met.touching is not None:
+            touching = Dip(0.0, met.touching, met.benches)
+        return touching._replace(gap=0.0), None
     travel = found.touching - (half_bracket if state is Ended.TOUCHED else 0.0)
     return Dip(0.0, travel, found.benches), 0.0
 

@@ -29,12 +29,8 @@ from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
 
-# First distance ahead at which a search that gave up looks for a certain overlap [m of head travel].
-BEYOND = 1e-3
-
 OUTCOMES = {
     Ended.REACHED: Outcome.CLEAR,
-    Ended.STUCK: Outcome.UNDECIDED,
     Ended.TOUCHED: Outcome.CONTACT,
     Ended.TOUCHED_AT_START: Outcome.CONTACT_AT_START,
 }
@@ -62,7 +58,7 @@ ENDS = {
     EndReason.END: "; there the path ends.",
     EndReason.STOP: "; the search was to stop there.",
 }
-UNDECIDED_THEN = "; whether any do after that is not decided."
+UNDECIDED_THEN = "; whether any do after that is not decided"
 
 
 @asked_of("dance", Dance, "the first contact was not decided")
@@ -134,17 +130,43 @@ def contact_within(
         narrower = narrowed(search, found, narrow, head_speed)
         if narrower is not None:
             found, half_bracket = narrower, narrow
-    if state is Ended.STUCK:
-        until = _known_overlap(search, found.proven, stops[-1][0], clock, until)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
+    if state is Ended.STUCK:
+        met = search.overlap_beyond(found.proven, stops[-1][0], head_speed)
+        return _undecided(dance, search, found, met, (begin, until))
     return _result(dance, search, state, found, end, (begin, until), half_bracket)
 
 
-def _known_overlap(search: Search, proven: float, last: float, clock: Clock, until: float) -> float:
-    """Time after the end of a failed search at which benches are certainly within the margin [s]; else `until`."""
-    state, found, _ = search.approach(min(proven + BEYOND, last), last, clock.slowest)
-    return until if state is Ended.STUCK or found.touching is None else clock.time(found.touching)
+def _undecided(
+    dance: Dance, search: Search, found: Marched, met: Marched | None, span: tuple[float, float]
+) -> FirstContact:
+    """The answer of a search that gave up. met: Search.overlap_beyond(); span: of the search [s]"""
+    clock, (begin, until), asked = dance.clock, span, (dance, search.margin, search.stray)
+    proven, overlapping, ends = max(clock.time(found.proven), begin), None, ""
+    if met is not None and met.touching is not None:
+        until, overlapping = clock.time(met.touching), met.benches
+        ends = before_overlap(overlapping, search.margin, search.stray, until)
+    known = proven > begin
+    words = claim(*asked, (begin, proven), f"{UNDECIDED_THEN}{ends}.")
+    method = words if known else claim_undecided(*asked, begin, ends)
+    graze = _graze(found, clock, begin)
+    evidence = Evidence(method, found.steps, proven if known else None, found.gap_curvature, graze)
+    return FirstContact(
+        Outcome.UNDECIDED,
+        time_bracket=(proven, until),
+        overlapping=overlapping,
+        certificate=evidence,
+        margin=search.margin,
+        stray=search.stray,
+        dance=dance,
+    )
+
+
+def _graze(found: Marched, clock: Clock, begin: float) -> Graze | None:
+    """The narrowest graze of a march that begins at a time [s]."""
+    graze = found.graze
+    return None if graze is None else Graze(max(clock.time(graze.travel), begin), graze.gap, graze.benches)
 
 
 def _result(
@@ -156,27 +178,23 @@ def _result(
     span: tuple[float, float],
     half_bracket: float,
 ) -> FirstContact:
-    graze, clock = None, dance.clock
-    if found.graze is not None:
-        graze = Graze(max(clock.time(found.graze.travel), span[0]), found.graze.gap, found.graze.benches)
+    clock = dance.clock
     proven = end.time if state is Ended.REACHED else max(clock.time(found.proven), span[0])
     outcome = OUTCOMES[state]
     method = _method(dance, search, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, graze)
+    certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, _graze(found, clock, span[0]))
     told = partial(
         FirstContact, outcome, certificate=certificate, margin=search.margin, stray=search.stray, dance=dance
     )
     if outcome is Outcome.CLEAR:
         return told(end=end)
-    if outcome is Outcome.UNDECIDED:
-        return told(time_bracket=(proven, span[1]))
     at_start = outcome is Outcome.CONTACT_AT_START
     assert found.touching is not None
     travel = found.touching if at_start else found.touching - half_bracket
     corner, edge, point, gap = _touching_features(search, travel, found.benches)
     return told(
-        time=span[0] if at_start else clock.time(travel),
+        time=span[0] if at_start else max(clock.time(travel), span[0]),
         time_bracket=None if at_start else (proven, clock.time(found.touching)),
         head=search.path.head(travel),
         benches=found.benches,
@@ -194,8 +212,6 @@ def _method(
     asked = (dance, margin, search.stray)
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
-    if outcome is Outcome.UNDECIDED:
-        return claim(*asked, span, UNDECIDED_THEN) if span[1] > span[0] else claim_undecided(*asked, span[0])
     pair = found.benches
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
@@ -245,17 +261,25 @@ def claim_at_start(dance: Dance, margin: float, stray: float, start: float, pair
     return f"{_dance(dance)}: {_strayed(stray)}{touching} {MEASURED}"
 
 
-def claim_undecided(dance: Dance, margin: float, stray: float, start: float) -> str:
-    """claim() for a search that gave up at the start [s]."""
+def claim_undecided(dance: Dance, margin: float, stray: float, start: float, before: str) -> str:
+    """claim() for a search that gave up at the start [s]. before: of a certain contact, see before_overlap()"""
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
-    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}."
+    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}{before}."
     return f"{_dance(dance)}: {_strayed(stray)}{never} {TRIED}"
+
+
+def before_overlap(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
+    """The end of the sentence of a search that gave up, if a contact is certain at a later time [s]."""
+    return f" before {said(time)} s, when benches {pair[0]} and {pair[1]} {_nearer(margin, stray)}"
 
 
 def contact_then(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
     """The end of a claim's sentence for a contact that is certain at a time [s]."""
-    near = f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
-    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {near}."
+    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {_nearer(margin, stray)}."
+
+
+def _nearer(margin: float, stray: float) -> str:
+    return f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
 
 
 def _strayed(stray: float) -> str:

@@ -32,6 +32,8 @@ MARGIN_MAX = 1e4  # [m]
 # about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
+# Distances ahead at which a search that gave up looks for a certain contact [m of head travel].
+BEYOND = (1e-3, 1e-1)
 # Largest number of samples of a dance [1], and largest share of the work for them [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
@@ -242,6 +244,16 @@ class Search:
                     found = found._replace(proven=max(proven, found.proven))
         return state, found, half_bracket
 
+    def overlap_beyond(self, proven: float, until: float, head_speed: float) -> Marched | None:
+        """A march that ends at a certain contact, after one that gave up at a travel [m]; None if none is certain."""
+        for beyond in BEYOND:
+            state, found, _ = self.approach(min(proven + beyond, until), until, head_speed)
+            if state in TOUCHES and found.touching is not None:
+                return found
+            if state is Ended.REACHED:
+                return None
+        return None
+
     def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
         """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].
 
@@ -265,7 +277,7 @@ class Search:
         return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
 
     def turned(self, x: float, y: float) -> tuple[float, float]:
-        """A point of the frame of `placed` in the own frame of the path [m]: a spiral's chain has its head at angle 0."""
+        """A point of the frame of `placed` in the own frame of the path [m]: on a spiral the head is at angle 0."""
         if self.path.spiral is None:
             return x, y
         theta = float(self.placed[0, kernels.THETA])

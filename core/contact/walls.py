@@ -12,7 +12,7 @@ from core.contact.clearance import Pair, least_over
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search, before_fold
-from core.dance import Clock, Dance
+from core.dance import Dance
 from core.dragon import Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
 from core.kernels import Budget, Ended
@@ -47,11 +47,12 @@ class AreaClearance(Readable):
     """The benches and the edges of one area, by the name of the area.
 
     outcome: of the search for a bench within the margin; time: of the first one [s], None if clear or undecided
-    time_bracket: (proven clear up to, within the margin at) [s]; if undecided up to the end; None if clear or at the
-        start
+    time_bracket: (proven clear up to, within the margin at) [s], see venue_clearance(); if undecided of any width, or
+        up to the end of the search if no contact is certain; None if clear or at the start
     bench, point (x, y) [m]: the first bench within the margin, and its nearest point
     gap: between that bench and the edge at that time [m]: the margin to rounding, except for contact_at_start
     nearest: None if it was not requested
+    overlapping: if undecided, the bench that is certainly within the margin at the end of the bracket; None if none is
     """
 
     name: str
@@ -62,6 +63,7 @@ class AreaClearance(Readable):
     point: Point | None
     nearest: Nearest | None
     gap: float | None = None
+    overlapping: int | None = None
 
     def _line(self) -> str:
         nearest = f", nearest {self.nearest._line()}" if self.nearest else ""
@@ -152,26 +154,28 @@ def _area_clearance(
     if fold is not None and state not in TOUCHES and found.touching is None:
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
+    overlapping = None
     if state is Ended.STUCK:
+        met = search.overlap_beyond(found.proven, last, clock.slowest)
+        if met is not None and met.touching is not None:
+            until, overlapping = clock.time(met.touching), met.benches[0]
         outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
     elif state is not Ended.REACHED:
         at_start = state is Ended.TOUCHED_AT_START
         assert found.touching is not None
         travel = found.touching - (0.0 if at_start else half_bracket)
         outcome = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT
-        time = begin if at_start else clock.time(travel)
+        time = begin if at_start else max(clock.time(travel), begin)
         bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))
         pair = found.benches
         bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, dance.path.frame)
-    if not with_nearest:
-        return AreaClearance(name, outcome, time, bracket, bench, point, None, gap)
-    return AreaClearance(name, outcome, time, bracket, bench, point, _nearest(search, dance, begin, first, last, fold), gap)
+    nearest = _nearest(search, dance, (begin, first, last), fold) if with_nearest else None
+    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap, overlapping)
 
 
-def _nearest(
-    search: Search, dance: Dance, begin: float, first: float, last: float, fold: float | None
-) -> Nearest:
-    clock = dance.clock
+def _nearest(search: Search, dance: Dance, span: tuple[float, float, float], fold: float | None) -> Nearest:
+    """Smallest distance of a search between two travels [m]. span: time [s] and travel of the first, the last one"""
+    clock, (begin, first, last) = dance.clock, span
     (distance, travel, pair), at_least = least_over(search, first, last, clock.slowest, fold)
     witnesses = _witnesses(search, travel, pair, dance.path.frame)
     return Nearest(distance, at_least, max(clock.time(travel), begin), pair[0], *witnesses[:2])
