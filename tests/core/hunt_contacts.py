@@ -147,7 +147,7 @@ def random_case(seed, case):
     stop = None if rng.uniform() < 0.6 else float(start + (dance.end.time - start) * rng.uniform(0.3, 1.0))
     slow = SlowDance.of(dragon, path) if is_spiral else SlowRoute.of(dragon, path)
     ends = slow.end() if stop is None else travelled(dance, stop)
-    look = SlowLook(slow, travelled(dance, start), RUN * ends if stop is None and is_spiral else ends)
+    look = SlowLook(slow, travelled(dance, start), RUN * min(ends, dance.end.time) if stop is None and is_spiral else ends)
     if look.until < ends - 1.0:  # only so much is looked at
         stop = float(dance.clock.time(look.until))
     margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * dragon.widths.max())
