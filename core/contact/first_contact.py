@@ -18,8 +18,8 @@ from core import kernels
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze
 from core.contact.fold import approach_fold
-from core.contact.march import BRACKETS_GRAZING, TOUCHES
-from core.contact.near_graze import narrowed
+from core.contact.march import TOUCHES
+from core.contact.near_graze import narrower
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Dragon, Stray, checked_stray
@@ -121,15 +121,7 @@ def contact_within(
     state, found, half_bracket = search.approach(first, stops[0][0], head_speed)
     if to_fold and state not in TOUCHES:
         state, found, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, found, half_bracket))
-    narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if (
-        not (strayed or dance.passages)
-        and state is Ended.TOUCHED
-        and half_bracket > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0)
-    ):
-        narrower = narrowed(search, found, narrow, head_speed)
-        if narrower is not None:
-            found, half_bracket = narrower, narrow
+    found, half_bracket = narrower(search, (state, found, half_bracket), head_speed, passages=bool(dance.passages))
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     if state is Ended.STUCK:

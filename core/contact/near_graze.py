@@ -20,7 +20,8 @@ from threading import Lock
 from typing import NamedTuple
 
 from core import kernels
-from core.contact.search import Search
+from core.contact.march import BRACKETS_GRAZING
+from core.contact.search import Approached, Search
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.constants import (
     ARC,
@@ -121,13 +122,15 @@ class BenchAxis(NamedTuple):
 
 
 class ExactPair:
-    """Two benches of a search: their places and their separation.
+    """Two benches of a search, or a bench and an edge at rest: their places and their separation.
 
     can_follow: True if the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
     """
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
+        self.edge = pair[1] - search.room - 1  # below 0: the second one is a bench
+        self.last = pair[0] if self.edge >= 0 else pair[1]
         path = search.path
         self.pieces = [[Decimal(number) for number in row] for row in path.as_route(path.end).table.tolist()]
         if path.spiral is not None:  # growth and start_theta are doubles, but their arc length is not
@@ -135,15 +138,15 @@ class ExactPair:
                 context.prec = DIGITS
                 self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(path.spiral.start_theta))
         kinds = {int(row[PIECE_KIND]) for row in self.pieces}
-        self.can_follow = pair[1] <= LAST_BENCH and not kinds & {CUBIC, CREST}
+        self.can_follow = self.last <= LAST_BENCH and not kinds & {CUBIC, CREST}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]. raises: Unsolved"""
         search = self.search
-        search.place_leaders(float(travel), self.pair[1] + 1)
+        search.place_leaders(float(travel), self.last + 1)
         rows, path = search.placed, search.path
         s, points = travel, [self._point(path.piece_at(rows[0]), travel)]
-        for k in range(self.pair[1] + 1):
+        for k in range(self.last + 1):
             chord, piece = Decimal(float(search.sizes[k, CHORD])), path.piece_at(rows[k + 1])
             s = Decimal(float(path.along(rows[k + 1, LAG])))
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
@@ -156,8 +159,15 @@ class ExactPair:
             else:
                 raise Unsolved(f"link {k}")
             points.append(point)
-        first, second = (self._bench(k, points[k], points[k + 1]) for k in self.pair)
-        return first, second
+        first = self._bench(self.pair[0], *points[self.pair[0] : self.pair[0] + 2])
+        return first, self._edge() if self.edge >= 0 else self._bench(self.last, *points[self.last : self.last + 2])
+
+    def _edge(self) -> Bench:
+        """The edge at rest, as a bench without width."""
+        x, y, x_end, y_end = (Decimal(number) for number in self.search.edges[self.edge].tolist())
+        length = _distance((x, y), (x_end, y_end))
+        along = ((x_end - x) / length, (y_end - y) / length)
+        return Bench(((x + x_end) / 2, (y + y_end) / 2), along, length / 2, Decimal(0))
 
     def gap(self, travel: Decimal) -> Decimal:
         """Separation of the two less the margin [m]. raises: Unsolved"""
@@ -193,6 +203,27 @@ class ExactPair:
                     return False
             start = start + h if start + h < stop else stop
         return True
+
+    def stays_within(self, start: float, stop: float) -> bool:
+        """True if a corner of one is proven to stay within the margin of the other between two near travels [m].
+
+        Its coordinates in the other's frame are gaps along axes, so they stay below the larger of their values at both
+        ends by more than K h^2 / 8 (core/kernels/pairs.py).
+        raises: Unsolved
+        """
+        search, slack = self.search, self.search.travel_rounding(start, stop)
+        h = stop - start + 2.0 * slack
+        curvatures = kernels.pair_curvatures(search.scene, search.probe, search.place - start + slack, h, *self.pair)
+        if max(curvatures) >= kernels.FREE:
+            return False
+        bend = Decimal((1.0 + CURVATURE_ROUNDING) * max(curvatures) * h * h / 8.0)
+        ends = [self.benches(Decimal(travel)) for travel in (start, stop)]
+        most = Decimal(search.margin) - GAP_ROUNDING
+        return any(
+            _beyond([(pair[owner], pair[1 - owner]) for pair in ends], corner, bend) <= most
+            for owner in (0, 1)
+            for corner in _CORNERS
+        )
 
     def _bench(self, k: int, front: Vector, rear: Vector) -> Bench:
         chord, half_length, half_width = (
@@ -240,21 +271,40 @@ def exact_gap(first: Bench, second: Bench, axis: BenchAxis) -> Decimal:
 
 _ONE, _NONE = Decimal(1), Decimal(0)
 _NORMALS = ((_ONE, _NONE), (_NONE, _ONE), (-_ONE, _NONE), (_NONE, -_ONE))
+_CORNERS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 _FACES = [BenchAxis(owner, *parts) for owner in (0, 1) for parts in _NORMALS]
+
+
+def _beyond(ends: list[tuple[Bench, Bench]], corner: tuple[int, int], bend: Decimal) -> Decimal:
+    """Upper bound of the distance of a corner of the second rectangle from the first between two instants [m].
+
+    bend: most by which a coordinate exceeds the larger of its values at both ends [m]
+    """
+    places = [_local(own, _corner(other, corner)) for own, other in ends]
+    own = ends[0][0]
+    dx = max(abs(x) for x, _ in places) + bend - own.half_length
+    dy = max(abs(y) for _, y in places) + bend - own.half_width
+    if dx <= 0 and dy <= 0:
+        return max(dx, dy)
+    return (dx.max(_NONE) ** 2 + dy.max(_NONE) ** 2).sqrt()
+
+
+def _corner(bench: Bench, corner: tuple[int, int]) -> Vector:
+    """A corner of a rectangle: front or rear (1, -1), left or right."""
+    ux, uy = bench.along
+    length, width = corner[0] * bench.half_length, corner[1] * bench.half_width
+    return bench.centre[0] + length * ux - width * uy, bench.centre[1] + length * uy + width * ux
 
 
 def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, BenchAxis]:
     """Least distance from a corner of the other bench to this one [m], and its direction."""
     found = []
-    for a in (-1, 1):
-        for b in (-1, 1):
-            ux, uy = other.along
-            length, width = a * other.half_length, b * other.half_width
-            x, y = _local(own, (other.centre[0] + length * ux - width * uy, other.centre[1] + length * uy + width * ux))
-            dx = (abs(x) - own.half_length).max(_NONE).copy_sign(x)
-            dy = (abs(y) - own.half_width).max(_NONE).copy_sign(y)
-            gap = (dx * dx + dy * dy).sqrt()
-            found.append((gap, BenchAxis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
+    for corner in _CORNERS:
+        x, y = _local(own, _corner(other, corner))
+        dx = (abs(x) - own.half_length).max(_NONE).copy_sign(x)
+        dy = (abs(y) - own.half_width).max(_NONE).copy_sign(y)
+        gap = (dx * dx + dy * dy).sqrt()
+        found.append((gap, BenchAxis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
     return min(found)
 
 
@@ -309,13 +359,14 @@ def _cos_sin(angle: Decimal) -> Vector:
 # kernels' K, in as many intervals as necessary. All other pairs are marched over the same interval in doubles.
 #
 # The claims are about times, which are travels divided by the head speed in doubles: the pair is within the margin at
-# the true travel of the later time, and apart until a little beyond that of the earlier one.
-def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.0) -> Marched | None:
+# the true travel of the later time, and apart until a little beyond that of the earlier one. With passages the true
+# travels are not known exactly, only within travel_rounding() of the computed ones.
+def narrowed(search: Search, found: Marched, half: float, head_speed: float | None = 1.0) -> Marched | None:
     """The wide bracket of a contact, narrowed to half width `half` [m]; None if that is not proven.
 
     found: result of Search.march() with `proven`, `touching` and the pair; so is the returned value, and its contact is
         at `touching` - `half`
-    head_speed: speed that turns travels into times [m/s]
+    head_speed: speed that turns travels into times [m/s]; None with passages, where several do
     """
     pair = ExactPair(search, found.benches)
     if found.touching is None or not pair.can_follow:
@@ -331,11 +382,32 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
             return None
         contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
+        if head_speed is None:
+            slack = search.travel_rounding(clear, touching)
+            sure = pair.stays_within(touching - slack, touching + slack)
+            apart = sure and pair.stays_apart(found.proven, clear + slack)
+            return found._replace(proven=clear, touching=touching) if apart else None
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * CLEAR_ROUNDING
         if pair.gap(later) <= -GAP_ROUNDING and pair.stays_apart(found.proven, beyond):
             return found._replace(proven=clear, touching=touching)
     return None
+
+
+def narrower(
+    search: Search, met: Approached, head_speed: float, *, passages: bool
+) -> tuple[Marched, float]:
+    """The contact of Search.approach() and half its bracket [m], narrowed if that is wide and can be proven.
+
+    head_speed: the lowest one [m/s]; passages: whether there are others
+    """
+    state, found, half_bracket = met
+    narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
+    least = 2.0 * search.travel_rounding(found.touching or 0.0)
+    if search.stray or state is not Ended.TOUCHED or not half_bracket > narrow >= least:
+        return found, half_bracket
+    known = narrowed(search, found, narrow, None if passages else head_speed)
+    return (found, half_bracket) if known is None else (known, narrow)
 
 
 def others_clear(search: Search, pair: tuple[int, int], start: float, stop: float) -> bool:

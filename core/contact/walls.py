@@ -11,6 +11,7 @@ from core.contact.answer import Outcome
 from core.contact.clearance import Pair, least_over
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
+from core.contact.near_graze import narrower
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Dance
 from core.dragon import Stray, checked_stray
@@ -151,6 +152,8 @@ def _area_clearance(
     fold = dance.end.theta if dance.nears_fold(until) else None
     last = last if fold is None else before_fold(last)
     state, found, half_bracket = search.approach(first, last, clock.slowest)
+    passages = bool(dance.passages)
+    found, half_bracket = narrower(search, (state, found, half_bracket), clock.slowest, passages=passages)
     if fold is not None and state not in TOUCHES and found.touching is None:
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
