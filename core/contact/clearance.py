@@ -17,7 +17,7 @@ from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, asked_of
 from core.kernels import NO_BRACKET, Budget, Ended
-from core.kernels.results import Dip
+from core.kernels.results import Dip, Marched
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Readable, WithArrays, counted, worded
@@ -35,6 +35,8 @@ PROFILE_STEP = 0.2
 GRAZE_WIDTH = 1e-11
 # Width to which the least distance is proven [m]; the second one is used if the first needs too many steps.
 PROOF_WIDTHS = (1e-5, 1e-3)
+# Distances ahead at which a search that gave up looks for a certain contact [m of head travel].
+BEYOND = (1e-3, 1e-1)
 # Number of lowest samples to refine before the proof begins.
 DIPS_REFINED = 5
 # Most smaller distances that a proof may find; each one is smaller by PROOF_WIDTHS[0] or more.
@@ -255,6 +257,23 @@ def least_over(
     return best, proven
 
 
+# A search gives up where rounding hides whether two touch. A little further on they may be apart again, or surely
+# overlap: a march from there meets a certain contact. Where they stay at the margin for long, samples look for one.
+def overlap_beyond(search: Search, proven: float, until: float, head_speed: float) -> Marched | None:
+    """A certain contact after a travel at which a search gave up [m], perhaps not the first; None if none is known."""
+    for beyond in BEYOND:
+        state, found, _ = search.approach(min(proven + beyond, until), until, head_speed)
+        if state in TOUCHES and found.touching is not None:
+            return found
+        if state is Ended.REACHED:
+            return None
+    for travel in _grid(search, proven, until):
+        gap, pair = _affordable(search, travel)
+        if gap <= search.margin and search.surely_within(travel, pair):
+            return Marched(proven, travel, pair)
+    return None
+
+
 def _first_touch(
     search: Search, begin: float, until: float, head_speed: float, touching: Dip
 ) -> tuple[Dip, float | None]:
@@ -262,7 +281,7 @@ def _first_touch(
     search.use(search.path, 0.0)
     state, found, half_bracket = search.approach(begin, until, head_speed)
     if state not in TOUCHES or found.touching is None:
-        met = search.overlap_beyond(found.proven, until, head_speed) if state is Ended.STUCK else None
+        met = overlap_beyond(search, found.proven, until, head_speed) if state is Ended.STUCK else None
         if met is not None and met.touching is not None:
             touching = Dip(0.0, met.touching, met.benches)
         return touching._replace(gap=0.0), None

@@ -16,10 +16,10 @@ from functools import partial
 
 from core import kernels
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
-from core.contact.clearance import Graze
+from core.contact.clearance import Graze, overlap_beyond
 from core.contact.fold import approach_fold
 from core.contact.march import TOUCHES
-from core.contact.near_graze import narrower
+from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Dragon, Stray, checked_stray
@@ -121,11 +121,14 @@ def contact_within(
     state, found, half_bracket = search.approach(first, stops[0][0], head_speed)
     if to_fold and state not in TOUCHES:
         state, found, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, found, half_bracket))
-    found, half_bracket = narrower(search, (state, found, half_bracket), head_speed, passages=bool(dance.passages))
+    narrow = search.narrow_half((state, found, half_bracket), head_speed)
+    if narrow is not None:
+        known = narrowed(search, found, narrow, None if dance.passages else head_speed)
+        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     if state is Ended.STUCK:
-        met = search.overlap_beyond(found.proven, stops[-1][0], head_speed)
+        met = overlap_beyond(search, found.proven, stops[-1][0], head_speed)
         return _undecided(dance, search, found, met, (begin, until))
     return _result(dance, search, state, found, end, (begin, until), half_bracket)
 
@@ -133,7 +136,7 @@ def contact_within(
 def _undecided(
     dance: Dance, search: Search, found: Marched, met: Marched | None, span: tuple[float, float]
 ) -> FirstContact:
-    """The answer of a search that gave up. met: Search.overlap_beyond(); span: of the search [s]"""
+    """The answer of a search that gave up. met: overlap_beyond(); span: of the search [s]"""
     clock, (begin, until), asked = dance.clock, span, (dance, search.margin, search.stray)
     proven, overlapping, ends = max(clock.time(found.proven), begin), None, ""
     if met is not None and met.touching is not None:

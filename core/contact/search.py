@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.coils import clear_places
-from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TOUCHES, TRAVEL_ROUNDING
+from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TRAVEL_ROUNDING
 from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels import Budget, Ended
@@ -32,8 +32,6 @@ MARGIN_MAX = 1e4  # [m]
 # about 5,000.
 WORK_BUDGET = 2e7
 NEAR_WORK_BUDGET = 5e6
-# Distances ahead at which a search that gave up looks for a certain contact [m of head travel].
-BEYOND = (1e-3, 1e-1)
 # Largest number of samples of a dance [1], and largest share of the work for them [1].
 SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
@@ -244,15 +242,13 @@ class Search:
                     found = found._replace(proven=max(proven, found.proven))
         return state, found, half_bracket
 
-    def overlap_beyond(self, proven: float, until: float, head_speed: float) -> Marched | None:
-        """A march that ends at a certain contact, after one that gave up at a travel [m]; None if none is certain."""
-        for beyond in BEYOND:
-            state, found, _ = self.approach(min(proven + beyond, until), until, head_speed)
-            if state in TOUCHES and found.touching is not None:
-                return found
-            if state is Ended.REACHED:
-                return None
-        return None
+    def narrow_half(self, met: Approached, head_speed: float) -> float | None:
+        """Half width to which core/contact/near_graze.py may narrow a wide bracket [m]; None if it is narrow enough, or
+        rounding of travels does not allow it."""
+        state, found, half_bracket = met
+        narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
+        wide = state is Ended.TOUCHED and half_bracket > narrow >= 2.0 * self.travel_rounding(found.touching or 0.0)
+        return narrow if wide and not self.stray else None
 
     def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
         """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].
@@ -275,14 +271,6 @@ class Search:
         slack = self.travel_rounding(travel)
         place = self.place - travel + slack
         return float(kernels.pair_most(self.scene, self.probe, place, 2.0 * slack, *pair)) <= self.margin
-
-    def turned(self, x: float, y: float) -> tuple[float, float]:
-        """A point of the frame of `placed` in the own frame of the path [m]: on a spiral the head is at angle 0."""
-        if self.path.spiral is None:
-            return x, y
-        theta = float(self.placed[0, kernels.THETA])
-        cos, sin = math.cos(theta), math.sin(theta)
-        return x * cos - y * sin, x * sin + y * cos
 
     def place_leaders(self, travel: float, leaders: int) -> None:
         """Fill `placed` with a number of leading benches after a travel [m], without pairs."""

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from core import kernels
 from core.contact.answer import Outcome
-from core.contact.clearance import Pair, least_over
+from core.contact.clearance import Pair, least_over, overlap_beyond
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
-from core.contact.near_graze import narrower
+from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Dance
 from core.dragon import Stray, checked_stray
@@ -152,14 +153,16 @@ def _area_clearance(
     fold = dance.end.theta if dance.nears_fold(until) else None
     last = last if fold is None else before_fold(last)
     state, found, half_bracket = search.approach(first, last, clock.slowest)
-    passages = bool(dance.passages)
-    found, half_bracket = narrower(search, (state, found, half_bracket), clock.slowest, passages=passages)
+    narrow = search.narrow_half((state, found, half_bracket), clock.slowest)
+    if narrow is not None:
+        known = narrowed(search, found, narrow, None if dance.passages else clock.slowest)
+        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
     if fold is not None and state not in TOUCHES and found.touching is None:
         state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     overlapping = None
     if state is Ended.STUCK:
-        met = search.overlap_beyond(found.proven, last, clock.slowest)
+        met = overlap_beyond(search, found.proven, last, clock.slowest)
         if met is not None and met.touching is not None:
             until, overlapping = clock.time(met.touching), met.benches[0]
         outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
@@ -189,8 +192,10 @@ def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple
     search.clearance(travel)
     kernels.meet(search.scene, *pair, search.placed)
     met = search.scene.met
-    turned = search.turned
-    bench, wall = (frame.point(*turned(float(x), float(y))) for x, y in ((met.ax, met.ay), (met.bx, met.by)))
+    theta = search.path.head(travel).theta or 0.0  # on a spiral the chain has its head at polar angle 0
+    cos, sin = math.cos(theta), math.sin(theta)
+    ends = [(float(x), float(y)) for x, y in ((met.ax, met.ay), (met.bx, met.by))]
+    bench, wall = (frame.point(x * cos - y * sin, x * sin + y * cos) for x, y in ends)
     return bench, wall, float(met.separation)
 
 

@@ -1,8 +1,8 @@
 """First contacts, least clearances and verdicts of random dances against a slow search that shares no code with them.
 
-`python -m tests.core.hunt_contacts SEED SECONDS`. Dances are on spirals, on turns and on routes of lines, arcs and coils,
-also from before time 0, with passages and pauses; dragons are uniform or given bench by bench. Half of the margins are
-chosen so that benches only graze, and so meet slowly.
+`python -m tests.core.hunt_contacts SEED SECONDS`. Dances are on spirals, on turns and on routes of lines, arcs and
+coils, also from before time 0, with passages and pauses; dragons are uniform or given bench by bench. Half of the
+margins are chosen so that benches only graze, and so meet slowly.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import numpy as np
 
 from core import (
     Arc,
-    Coil,
     BenchDragonError,
+    Coil,
     Dance,
     Dragon,
     Judgement,
@@ -65,7 +65,9 @@ def random_path(rng, dragon):
         return Spiral(pitch, float(rng.uniform(1.5, 9.0)))
     if kind == "turn":
         radius = float(rng.uniform(1.1, 3.0) * chord)
-        return Turn(pitch, radius, float(rng.uniform(0.6, 2.5)), start_turns=float(radius / pitch + rng.uniform(1.0, 5.0)))
+        return Turn(
+            pitch, radius, float(rng.uniform(0.6, 2.5)), start_turns=float(radius / pitch + rng.uniform(1.0, 5.0))
+        )
     if kind == "coil":
         inner = 1.2 * chord / pitch
         return Route([Coil(pitch, float(inner + rng.uniform(2.0, 5.0)), float(inner))])
@@ -147,7 +149,9 @@ def random_case(seed, case):
     stop = None if rng.uniform() < 0.6 else float(start + (dance.end.time - start) * rng.uniform(0.3, 1.0))
     slow = SlowDance.of(dragon, path) if is_spiral else SlowRoute.of(dragon, path)
     ends = slow.end() if stop is None else travelled(dance, stop)
-    look = SlowLook(slow, travelled(dance, start), RUN * min(ends, dance.end.time) if stop is None and is_spiral else ends)
+    look = SlowLook(
+        slow, travelled(dance, start), RUN * min(ends, dance.end.time) if stop is None and is_spiral else ends
+    )
     if look.until < ends - 1.0:  # only so much is looked at
         stop = float(dance.clock.time(look.until))
     margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * dragon.widths.max())
@@ -220,7 +224,12 @@ def least_fault(dance, least, look, contact):
     gap = look.at(travelled(dance, least.time))
     if abs(max(gap, min(least.distance, 0.0)) - least.distance) > SURE and not (least.distance == 0.0 and gap < SURE):
         return f"{least!r}, but the gap there is {gap}"
-    if contact is not None and contact.outcome is Outcome.UNDECIDED and least.distance == 0.0 and least.at_least is not None:
+    if (
+        contact is not None
+        and contact.outcome is Outcome.UNDECIDED
+        and least.distance == 0.0
+        and least.at_least is not None
+    ):
         return f"{found_words(contact)}, but {least!r}"
     return ""
 

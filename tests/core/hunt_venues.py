@@ -1,7 +1,7 @@
 """Venues of random dances on spirals, up to the fold, against dense poses compared by shapely.
 
-`python -m tests.core.hunt_venues SEED SECONDS`. Half of the obstacles have a corner next to a place that a bench passes in
-the last metres before the fold; spirals stand anywhere, turned and mirrored.
+`python -m tests.core.hunt_venues SEED SECONDS`. Most obstacles have a corner next to a place that a bench passes, many
+of them in the last metres before the fold; spirals stand anywhere, turned and mirrored.
 """
 
 from __future__ import annotations
@@ -54,7 +54,9 @@ class SlowVenue:
         along /= np.linalg.norm(along, axis=-1, keepdims=True)
         ahead = along * (0.5 * self.slow.lengths)[None, :, None]
         left = np.stack([-along[..., 1], along[..., 0]], axis=-1) * (0.5 * self.slow.widths)[None, :, None]
-        ring = np.stack([middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left], -2)
+        ring = np.stack(
+            [middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left], -2
+        )
         return shapely.distance(shapely.polygons(ring), self.boundary).min(axis=1)
 
     def _refine(self):

@@ -78,10 +78,10 @@ def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> Non
     at_start = first_contact(Dance(Dragon(), Spiral(0.35)))
     assert "at 0 s benches {} and {} touch.".format(*at_start.benches) in at_start.certificate.method
     undecided = first_contact(Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0])))
-    clear, _ = undecided.time_bracket
-    assert f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided." in (
-        undecided.certificate.method
-    )
+    clear, touching = undecided.time_bracket
+    never = f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided"
+    met = "before {} s, when benches {} and {} overlap.".format(touching, *undecided.overlapping)
+    assert f"{never} {met}" in undecided.certificate.method
 
 
 def test_nothing_is_said_to_be_clear_where_benches_touch_at_the_start_or_nothing_is_decided() -> None:
