@@ -14,6 +14,7 @@ from core import (
     Dance,
     Dragon,
     Outcome,
+    Passage,
     Route,
     Spiral,
     Turn,
@@ -101,6 +102,19 @@ def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, belo
             for time in (clear, within)
         ]
     assert at[0] > 0 >= at[1]
+
+
+@pytest.mark.parametrize("below", [1e-9, 1e-7])
+@pytest.mark.parametrize("margin", [0.0, 0.05])
+def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin: float, below: float) -> None:
+    spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
+    steady = first_contact(Dance(Dragon(60), spiral), margin=margin)
+    passages = [Passage(1.5, until_s=30.0), Passage(0.0, until_time=50.0), Passage(1.0, until_s=100.0)]
+    found = first_contact(Dance(Dragon(60), spiral, 1.0, passages), margin=margin)
+    assert (found.outcome, found.benches) == (Outcome.CONTACT, steady.benches)
+    clear, within = found.time_bracket
+    assert clear < found.time < within <= clear + BRACKET
+    assert found.time == pytest.approx(steady.time + 20.0, rel=0, abs=BRACKET)  # 30 m in 50 s instead of 30 s
 
 
 def grazing() -> tuple[Search, Marched]:
