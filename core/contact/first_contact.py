@@ -78,11 +78,12 @@ def first_contact(
         time at which two benches may come within the margin, because the grounds that they may cover do
     start, stop: interval of the search [s]; None for dance.default_start and for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
-        at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s);
-        within about 5e-5 m of a graze along waypoints, behind bench 60, or if a second pair meets at once; and where
-        benches that stray nearly graze (1e-7 s). Both ends hold in spite of rounding (core/kernels/rounding.py,
-        pairs.py). The answer is undecided if rounding hides it: for benches whose clearance at the start equals the
-        margin to about 1e-12 m
+        at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s, on
+        pieces of about 1e-6 m); by a pause of the head within it; within about 5e-5 m of a graze along waypoints,
+        behind bench 60, or if a second pair meets at once; and where benches that stray nearly graze (1e-7 s). Both
+        ends hold in spite of rounding (core/kernels/rounding.py, pairs.py). The answer is undecided if rounding hides
+        it: for benches whose clearance at the start, in a graze or for a while equals the margin to about 1e-12 m.
+        `overlapping` then names a pair that is certainly within the margin later, at the end of the bracket, if one is
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 

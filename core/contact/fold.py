@@ -126,6 +126,7 @@ def least_to_fold(search: Search, travel: float, fold: float) -> float | None:
 # at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
 # handle by o at most and sideways by w / 2, moves by no more than
 #     max(D_a, D_b) + (o + w / 2) angle.
+# Edges at rest do not move: a gap to one of them loses only the motion of the bench.
 # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
 #
 # Rounding. Stretches meet at the same computed theta, so that nothing is left out; the first one begins before its

@@ -120,7 +120,9 @@ def venue_clearance(
     """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
 
     An edge counts as a rectangle at rest without width: benches and edges are marched like pairs of benches, with the
-    same proof. If a bench touches no edge, its centre stays inside or outside an area, as at the start.
+    same proof, on a spiral up to its fold. If a bench touches no edge, its centre stays inside or outside an area, as
+    at the start. A bracket is as wide as one of first_contact(), and wider where a bench slowly meets a corner, of two
+    edges at once.
     margin: [m]; stray: largest distance of every hole from its place [m]: then the ground that benches may cover counts
     start, stop: [s], None for dance.default_start and for the end of the run
     nearest: True also finds the least distance, which takes most of the time
