@@ -268,7 +268,10 @@ def overlap_beyond(search: Search, proven: float, until: float, head_speed: floa
         if state is Ended.REACHED:
             return None
     for travel in _grid(search, proven, until):
-        gap, pair = _affordable(search, travel)
+        if min(search.work, search.budget.left) <= search.room:
+            return None
+        search.spend(float(search.room))
+        gap, pair = search.clearance(travel)
         if gap <= search.margin and search.surely_within(travel, pair):
             return Marched(proven, travel, pair)
     return None

@@ -76,18 +76,21 @@ CORNERS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 _FACES = [BenchAxis(owner, *parts) for owner in (0, 1) for parts in _NORMALS]
 
 
+# Distance from a rectangle is a convex function of the place, and so is the larger of the two excesses inside of it. So
+# on the chord of a corner's way neither exceeds the larger of its values at both ends.
 def beyond(ends: list[tuple[Bench, Bench]], corner: tuple[int, int], bend: Decimal) -> Decimal:
     """Upper bound of the distance of a corner of the second rectangle from the first between two instants [m].
 
-    bend: most by which a coordinate exceeds the larger of its values at both ends [m]
+    bend: most by which a coordinate leaves the chord between its values at both ends [m]
     """
-    places = [_local(own, corner_of(other, corner)) for own, other in ends]
-    own = ends[0][0]
-    dx = max(abs(x) for x, _ in places) + bend - own.half_length
-    dy = max(abs(y) for _, y in places) + bend - own.half_width
-    if dx <= 0 and dy <= 0:
-        return max(dx, dy)
-    return (dx.max(_NONE) ** 2 + dy.max(_NONE) ** 2).sqrt()
+    inside, outside = [], []
+    for own, other in ends:
+        x, y = _local(own, corner_of(other, corner))
+        dx, dy = abs(x) - own.half_length, abs(y) - own.half_width
+        inside.append(max(dx, dy))
+        outside.append((dx.max(_NONE) ** 2 + dy.max(_NONE) ** 2).sqrt())
+    within = max(inside) + bend
+    return within if within <= 0 else max(outside) + 2 * bend
 
 
 def crosses(ends: list[tuple[Bench, Bench]], bend: Decimal) -> bool:

@@ -82,8 +82,8 @@ def first_contact(
         pieces of about 1e-6 m); by a pause of the head within it; within about 5e-5 m of a graze along waypoints,
         behind bench 60, or if a second pair meets at once; and where benches that stray nearly graze (1e-7 s). Both
         ends hold in spite of rounding (core/kernels/rounding.py, pairs.py). The answer is undecided if rounding hides
-        it: for benches whose clearance at the start, in a graze or for a while equals the margin to about 1e-12 m.
-        `overlapping` then names a pair that is certainly within the margin later, at the end of the bracket, if one is
+        it: for benches whose clearance equals the margin to about 1e-12 m at the start or in a graze, or to 1e-10 m for
+        a while. `overlapping` then names a pair that is certainly within the margin at the end of the bracket, if any
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 

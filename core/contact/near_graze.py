@@ -182,8 +182,9 @@ class ExactPair:
     def stays_within(self, start: float, stop: float) -> bool:
         """True if a corner of one is proven to stay within the margin of the other between two near travels [m].
 
-        Its coordinates in the other's frame are gaps along axes, so none exceeds the larger of its values at both ends
-        by more than K h^2 / 8 (core/kernels/pairs.py). An edge has no inside, but two corners may be on its two sides.
+        Its coordinates in the other's frame are gaps along axes, so none leaves the chord between its values at both
+        ends by more than K h^2 / 8 (core/kernels/pairs.py). An edge has no inside, but two corners may be on its two
+        sides.
         raises: Unsolved
         """
         search, slack = self.search, self.search.travel_rounding(start, stop)

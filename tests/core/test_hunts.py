@@ -81,3 +81,13 @@ def test_a_bound_that_is_too_high_and_a_tree_that_is_overlooked_are_faults() -> 
     assert hunt_venues.area_fault(replace(found, nearest=nearest), margin, look)
     (margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CONTACT)
     assert hunt_venues.area_fault(replace(found, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
+
+
+@pytest.mark.parametrize(("seed", "case"), [(1, 6), (1, 11), (1, 201), (3, 130), (3, 186)])
+def test_slow_contacts_of_dances_with_passages_have_narrow_brackets(seed: int, case: int) -> None:
+    """Cases of the campaign whose brackets were up to 6e-7 s wide; corners pass corners in some of them."""
+    dance, margin, start, stop, _ = hunt_contacts.random_case(seed, case)
+    found = first_contact(dance, margin=margin, start=start, stop=stop)
+    assert dance.passages
+    assert found.outcome is Outcome.CONTACT
+    assert not hunt_contacts.is_wide(dance, found)
