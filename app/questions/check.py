@@ -37,9 +37,7 @@ class LeastClearance(Answer):
         "benches overlap at the start, minus the depth",
     )
     at_least: float | None = measure(
-        "m",
-        "Proven lower bound; null: the search gave up before proving one, the distance is below zero, or the first "
-        "touch is undecided",
+        "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
     )
     time: float = measure("s", "Time of the smallest distance")
     benches: Pair = Field(description="The pair at that distance")

@@ -72,7 +72,7 @@ class CollisionTime(Answer):
     time_bracket: Point | None = measure(
         "s",
         "Two times: no contact is proven up to the first, and a contact is certain at the second. If undecided, the "
-        "second is the end of the search unless overlapping names a pair",
+        "second is the end of the search, unless a pair is certainly within the margin then (overlapping)",
     )
     overlapping: Pair | None = Field(
         description="If undecided: the pair that is certainly within the margin, or overlaps, at the second of these "
