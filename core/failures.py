@@ -22,7 +22,7 @@ EXCESS_KNOWN = 1e-6
 class FailureKind(StrEnum):
     """Kind of a failure: two benches, or a bench and an edge of the venue, come within the margin; a bench starts
     outside the square or in an obstacle; a handle is faster than the limit; a bench cannot follow the path any further.
-    UNDECIDED: a search gave up before it could prove any of these."""
+    UNDECIDED: a search gave up before it could prove any of these, and nothing fails for certain after that."""
 
     CONTACT = "contact"
     VENUE = "venue"
@@ -36,7 +36,8 @@ class FailureKind(StrEnum):
 class Failure(Readable):
     """One failed or undecided condition.
 
-    time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail
+    time: first time of the failure [s]; for a search that gave up, the time until which it is proven not to fail, or
+        one at which it certainly fails
     benches: those at fault (for a speed: the handle); area: the venue's polygon, None if no area is involved
     message: one sentence
     time_bracket: (proven not to fail up to, failing at) [s]; None without a search
@@ -76,6 +77,11 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
         time = contact.time_bracket[0]
+        if contact.overlapping is not None:
+            a, b = map(contact.dance.dragon.called, contact.overlapping)
+            message = _at_the_latest(f"Benches {a} and {b} {meet}", contact.time_bracket)
+            late, pair = contact.time_bracket[1], contact.overlapping
+            return [Failure(FailureKind.CONTACT, late, pair, None, message, contact.time_bracket)]
         message = f"Whether benches {meet} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), None, message)]
     if contact.time is None or contact.benches is None:
@@ -83,6 +89,11 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     a, b = map(contact.dance.dragon.called, contact.benches)
     message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin, 'overlap')}."
     return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
+
+
+def _at_the_latest(meet: str, bracket: tuple[float, float]) -> str:
+    """The sentence of a contact that is certain at the end of a bracket [s], but may be earlier."""
+    return f"{meet} at {bracket[1]:.6f} s at the latest; up to {said_bound(bracket[0], 6)} s none do."
 
 
 def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
@@ -121,6 +132,10 @@ def _area_failures(dragon: Dragon, area: AreaClearance, margin: float, stray: fl
     if area.outcome is Outcome.UNDECIDED:
         assert area.time_bracket is not None
         time = area.time_bracket[0]
+        if area.overlapping is not None:
+            message = _at_the_latest(f"Bench {dragon.called(area.overlapping)} {words}", area.time_bracket)
+            late, bench = area.time_bracket[1], area.overlapping
+            return [Failure(FailureKind.VENUE, late, (bench,), area.name, message, area.time_bracket)]
         message = f"Whether a bench {words} is not decided from {time:.6f} s on."
         return [Failure(FailureKind.UNDECIDED, time, (), area.name, message)]
     if area.time is None or area.bench is None:

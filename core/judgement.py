@@ -8,7 +8,7 @@ from enum import StrEnum
 from core.contact.answer import FirstContact
 from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import first_contact
-from core.contact.walls import VenueClearance, is_clear_beyond, venue_clearance, venue_end
+from core.contact.walls import VenueClearance, venue_clearance
 from core.dance import Dance, EndReason
 from core.dragon import Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
@@ -49,7 +49,7 @@ class Report(Readable):
     verdict: see Judgement; passed: True for PASSES
     failures: in order of time, none after the stop, with the undecided conditions
     first_contact: within the margin; least_clearance: of any two benches, None for fewer than three
-    venue: None without one, or if no bench can be followed there from the start on
+    venue: None without one
     sharpest_bend: None for a single bench
     highest_speed: None in a run to a fold, where speeds grow without bound
     A quick check leaves venue, sharpest_bend and highest_speed None if the verdict does not need them.
@@ -142,21 +142,20 @@ def _judged(
     begin, until = dance.span(dance.begin if start is None else start, stop)
     contact = first_contact(dance, margin=margin, stray=strayed, start=begin, stop=stop, budget=budget)
     least, touch = None, contact.time
+    if contact.overlapping is not None and contact.time_bracket is not None:
+        touch = contact.time_bracket[1]  # which contact is the first is not decided
     if details or (margin > 0.0 and touch is not None):
         least = least_clearance(dance, stray=strayed, start=begin, stop=until, budget=budget)
-        touch = least.time if least is not None and least.distance <= 0.0 else None
+        if margin > 0.0 or contact.overlapping is None:
+            touch = least.time if least is not None and least.distance <= 0.0 else None
     if touch is not None:
         until = min(until, max(touch, begin + MOMENT))
     bend = sharpest_bend(dance, start=begin, stop=until, budget=budget) if details else None
     square = None
-    seen = until
-    if venue is not None:  # as long as the benches can be followed
-        followed = venue_end(dance)
-        seen = min(until, followed) if followed >= begin + MOMENT else begin
-        if seen > begin:
-            square = venue_clearance(
-                dance, venue, margin=margin, stray=strayed, start=begin, stop=seen, nearest=details, budget=budget
-            )
+    if venue is not None:
+        square = venue_clearance(
+            dance, venue, margin=margin, stray=strayed, start=begin, stop=until, nearest=details, budget=budget
+        )
     folds = dance.ends_by(until)
     speed = highest_speed(dance, start=begin, stop=until, budget=budget) if details and not folds else None
     excess = None
@@ -170,13 +169,6 @@ def _judged(
     failures += touch_failures(contact, least, margin)
     if folds:
         failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.travel(end.time))))
-    if (
-        venue
-        and seen < until
-        and not is_clear_beyond(dance, venue, margin=margin, stray=strayed, start=begin, seen=seen)
-    ):
-        message = f"From {seen:.6f} s on the spiral is too tight to compare the benches with the venue."
-        failures.append(Failure(FailureKind.UNDECIDED, seen, (), None, message))
     failures.sort(key=lambda failure: failure.time)
     told = tuple(replace(failure, head=dance.path.head(dance.clock.travel(failure.time))) for failure in failures)
     if not told:

@@ -86,6 +86,7 @@ ORDER = (
     "core.contact.search",
     "core.contact.fold",
     "core.contact.clearance",
+    "core.contact.decimal_shapes",
     "core.contact.near_graze",
     "core.contact.answer",
     "core.contact.first_contact",

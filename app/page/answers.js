@@ -82,10 +82,13 @@ export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason 
 export const instantWords = (time, { answer, end }) => (time === end && answer.time === null ? (answer.end?.time ?? time) : time).toFixed(6);
 
 function contactLine(answer, asked) {
-  const { time_bracket, point, benches: both, head, end, gap } = answer;
+  const { time_bracket, overlapping: met, point, benches: both, head, end, gap } = answer;
   const { benches } = asked;
   const state = stateOf(answer);
-  if (state === "undecided") return say("undecidedFrom", { time: bound(time_bracket[0], 9, -1) });
+  if (state === "undecided") {
+    const [time, late] = [bound(time_bracket[0], 9, -1), bound(time_bracket[1], 9, 1)];
+    return met ? sayOf("undecidedMet", asked, { ...pair(met, benches), time, late }) : say("undecidedFrom", { time });
+  }
   if (state === "folds") return sayOf("foldsUntil", asked, { name: benchName(end.bench, benches) });
   if (state === "clear") return end ? sayOf("clearUntil", asked, { time: end.time.toFixed(6) }) : sayOf("clearAll", asked);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
@@ -108,7 +111,9 @@ const methodOf = ({ method }) => paragraph(proofWords(method), { className: "met
 export function showFirstContact(box, answer, asked) {
   const { time_bracket, certificate } = answer;
   const lines = [contactLine(answer, asked)];
-  const rows = time_bracket ? [[say("bracket"), sayOf("bracketTime", asked, ends(time_bracket, 10))]] : [];
+  const open = answer.outcome === "undecided" && !answer.overlapping;
+  const known = (values) => (open ? say("bracketOpen", values) : sayOf("bracketTime", asked, values));
+  const rows = time_bracket ? [[say("bracket"), known(ends(time_bracket, 10))]] : [];
   rows.push([say("certificate"), certificateWords(answer, asked)]);
   const least = certificate.least_clearance;
   if (least) {
@@ -117,8 +122,8 @@ export function showFirstContact(box, answer, asked) {
   }
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
-  const known = [facts(...rows), methodOf(certificate), engines(answer.cross_check, asked.benches, asked)];
-  show(box, titleOf("firstContact", asked), [mark, outcomeWords(answer, asked)], lines, known, state);
+  const evidence = [facts(...rows), methodOf(certificate), engines(answer.cross_check, asked.benches, asked)];
+  show(box, titleOf("firstContact", asked), [mark, outcomeWords(answer, asked)], lines, evidence, state);
 }
 
 /** A button of an answer, with its text and its action. */

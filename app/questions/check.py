@@ -32,7 +32,9 @@ class LeastClearance(Answer):
     """The least clearance over the dance."""
 
     distance: float = measure(
-        "m", "Smallest distance found; 0 at the first touch; if benches overlap at the start, minus the depth"
+        "m",
+        "Smallest distance found; 0 at the first touch, or at a later one if it is undecided which is the first; if "
+        "benches overlap at the start, minus the depth",
     )
     at_least: float | None = measure(
         "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
@@ -59,7 +61,13 @@ class AreaClearance(Answer):
     outcome: Outcome = Field(description="Whether a bench comes within the margin, or touches if it is 0")
     time: float | None = measure("s", "First such time; null when clear or undecided")
     time_bracket: Point | None = measure(
-        "s", "Two times: proven clear up to the first; within the margin at the second"
+        "s",
+        "Two times: proven clear up to the first; within the margin at the second. If undecided, the second is the end "
+        "of the search unless overlapping names a bench",
+    )
+    overlapping: int | None = Field(
+        description="If undecided: the bench that is certainly within the margin, or touches, at the second of these "
+        "times; null if none is, or not undecided"
     )
     bench: int | None = Field(description="The first bench within the margin, or touching if it is 0")
     gap: float | None = measure(
@@ -111,8 +119,8 @@ class Failure(Answer):
     kind: core.FailureKind = Field(description="Kind of failure")
     time: float = measure(
         "s",
-        "First time of the failure; for an undecided condition, the time until which it is proven to hold; for a "
-        "speed, the first instant above the limit",
+        "First time of the failure, or the first at which it is certain; for an undecided condition, the time until "
+        "which it is proven to hold; for a speed, the first instant above the limit",
     )
     benches: list[int] = Field(description="Benches at fault; for a speed, the handles")
     area: str | None = Field(description="Area of the venue; null if the venue is not involved")
@@ -163,8 +171,8 @@ class Report(Answer):
         description="Least clearance of any two benches; null with fewer than three, or without details"
     )
     venue: VenueClearance | None = Field(
-        description="Distances between the benches and the venue; null without a venue, or if the benches cannot be "
-        "followed there from the start on"
+        description="Distances between the benches and the venue, up to the end of the time checked; null without a "
+        "venue"
     )
     highest_speed: HighestSpeed | None = Field(
         description="Highest speed of any handle; null in a run to a fold, where speed has no bound, or without details"

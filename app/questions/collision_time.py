@@ -70,7 +70,13 @@ class CollisionTime(Answer):
         "s", "First time within the margin, or touching if it is 0; null when clear or undecided"
     )
     time_bracket: Point | None = measure(
-        "s", "Two times: no contact is proven up to the first, and a contact is certain at the second"
+        "s",
+        "Two times: no contact is proven up to the first, and a contact is certain at the second. If undecided, the "
+        "second is the end of the search, unless a pair is certainly within the margin then (overlapping)",
+    )
+    overlapping: Pair | None = Field(
+        description="If undecided: the pair that is certainly within the margin, or overlaps, at the second of these "
+        "times, perhaps not for the first time; null if no contact is certain, or not undecided"
     )
     head: Head | None = Field(description="The head at that time")
     benches: Pair | None = Field(description="The pair in contact")

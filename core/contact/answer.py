@@ -68,8 +68,9 @@ class FirstContact(Readable):
 
     outcome: what the search found; certificate: how that is known
     time: [s], None if clear or undecided; 0 for contact_at_start
-    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided the
-        same, or up to the end of the run if no overlap is certain; None if clear or at the start
+    time_bracket: (proven clear up to, overlapping at) [s], at most 1e-9 s wide, see first_contact(); if undecided of
+        any width, or up to the end of the search if no overlap is certain; None if clear or at the start
+    overlapping: if undecided, the pair that is certainly within the margin at the end of the bracket; None if none is
     head: state of the head at that time; benches: the pair (a, b), a < b; corner, edge: the features that meet
     point: (x, y) [m] of the corner; end: end of the run if clear
     gap: separation of the pair in its nominal places at that time [m]: the margin, or another value at the start or
@@ -81,6 +82,7 @@ class FirstContact(Readable):
     _: KW_ONLY
     time: float | None = None
     time_bracket: tuple[float, float] | None = None
+    overlapping: tuple[int, int] | None = None
     head: HeadState | None = None
     benches: tuple[int, int] | None = None
     corner: Feature | None = None
@@ -95,7 +97,13 @@ class FirstContact(Readable):
 
     def _line(self) -> str:
         if self.time_bracket is not None and self.outcome is Outcome.UNDECIDED:
-            return f"undecided from {worded(self.time_bracket[0], 's')} on"
+            certain = ""
+            if self.overlapping is not None:
+                a, b = self.overlapping
+                near = f"within {worded(self.margin, 'm')}" if self.margin else "in contact"
+                may = " may be" if self.stray else " are"
+                certain = f"; benches {a} and {b}{may} {near} at {worded(self.time_bracket[1], 's')}"
+            return f"undecided from {worded(self.time_bracket[0], 's')} on{certain}"
         near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
         near = f"may {near} with strays up to {worded(self.stray, 'm')}" if self.stray else near
         if self.benches is None or self.time is None:

@@ -17,7 +17,7 @@ from core.dance import Clock, Dance
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, asked_of
 from core.kernels import NO_BRACKET, Budget, Ended
-from core.kernels.results import Dip
+from core.kernels.results import Dip, Marched
 from core.motion.trajectory import instants
 from core.sampling import dips
 from core.shown import Readable, WithArrays, counted, worded
@@ -35,6 +35,8 @@ PROFILE_STEP = 0.2
 GRAZE_WIDTH = 1e-11
 # Width to which the least distance is proven [m]; the second one is used if the first needs too many steps.
 PROOF_WIDTHS = (1e-5, 1e-3)
+# Distances ahead at which a search that gave up looks for a certain contact [m of head travel].
+BEYOND = (1e-3, 1e-1)
 # Number of lowest samples to refine before the proof begins.
 DIPS_REFINED = 5
 # Most smaller distances that a proof may find; each one is smaller by PROOF_WIDTHS[0] or more.
@@ -108,9 +110,11 @@ class LeastClearance(Readable):
     """The least clearance over an interval of the dance.
 
     distance: the least one found [m], reached at `time` [s] by `benches`. If benches touch, it is 0 at the first touch,
-        without a statement on later times; if they overlap at the start, it is their negative separation there
+        without a statement on later times; if they overlap at the start, it is their negative separation there. If it
+        is not decided when they touch first, it is 0 at a time at which they do
     at_least: proven lower bound [m], PROOF_WIDTHS[0] below the distance or, if that needs too many steps,
-        PROOF_WIDTHS[1]; None if the search gave up first, or benches overlap at the start
+        PROOF_WIDTHS[1]; None if the search gave up first, if benches overlap at the start, or if their first touch is
+        not decided
     """
 
     distance: float
@@ -253,12 +257,37 @@ def least_over(
     return best, proven
 
 
-def _first_touch(search: Search, begin: float, until: float, head_speed: float, touching: Dip) -> tuple[Dip, float]:
-    """The first touch if benches certainly touch; if the search gives up, the touch that is already known."""
+# A search gives up where rounding hides whether two touch. A little further on they may be apart again, or surely
+# overlap: a march from there meets a certain contact. Where they stay at the margin for long, samples look for one.
+def overlap_beyond(search: Search, proven: float, until: float, head_speed: float) -> Marched | None:
+    """A certain contact after a travel at which a search gave up [m], perhaps not the first; None if none is known."""
+    for beyond in BEYOND:
+        state, found, _ = search.approach(min(proven + beyond, until), until, head_speed)
+        if state in TOUCHES and found.touching is not None:
+            return found
+        if state is Ended.REACHED:
+            return None
+    for travel in _grid(search, proven, until):
+        if min(search.work, search.budget.left) <= search.room:
+            return None
+        search.spend(float(search.room))
+        gap, pair = search.clearance(travel)
+        if gap <= search.margin and search.surely_within(travel, pair):
+            return Marched(proven, travel, pair)
+    return None
+
+
+def _first_touch(
+    search: Search, begin: float, until: float, head_speed: float, touching: Dip
+) -> tuple[Dip, float | None]:
+    """The first touch, before which nothing touches; if that is not decided, a certain or else a computed touch."""
     search.use(search.path, 0.0)
     state, found, half_bracket = search.approach(begin, until, head_speed)
     if state not in TOUCHES or found.touching is None:
-        return touching._replace(gap=0.0), 0.0
+        met = overlap_beyond(search, found.proven, until, head_speed) if state is Ended.STUCK else None
+        if met is not None and met.touching is not None:
+            touching = Dip(0.0, met.touching, met.benches)
+        return touching._replace(gap=0.0), None
     travel = found.touching - (half_bracket if state is Ended.TOUCHED else 0.0)
     return Dip(0.0, travel, found.benches), 0.0
 

@@ -16,9 +16,9 @@ from functools import partial
 
 from core import kernels
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
-from core.contact.clearance import Graze
+from core.contact.clearance import Graze, overlap_beyond
 from core.contact.fold import approach_fold
-from core.contact.march import BRACKETS_GRAZING, TOUCHES
+from core.contact.march import TOUCHES
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
@@ -29,12 +29,8 @@ from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
 from core.paths.frame import WORLD
 
-# First distance ahead at which a search that gave up looks for a certain overlap [m of head travel].
-BEYOND = 1e-3
-
 OUTCOMES = {
     Ended.REACHED: Outcome.CLEAR,
-    Ended.STUCK: Outcome.UNDECIDED,
     Ended.TOUCHED: Outcome.CONTACT,
     Ended.TOUCHED_AT_START: Outcome.CONTACT_AT_START,
 }
@@ -62,7 +58,7 @@ ENDS = {
     EndReason.END: "; there the path ends.",
     EndReason.STOP: "; the search was to stop there.",
 }
-UNDECIDED_THEN = "; whether any do after that is not decided."
+UNDECIDED_THEN = "; whether any do after that is not decided"
 
 
 @asked_of("dance", Dance, "the first contact was not decided")
@@ -82,11 +78,12 @@ def first_contact(
         time at which two benches may come within the margin, because the grounds that they may cover do
     start, stop: interval of the search [s]; None for dance.default_start and for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is
-        at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s);
-        within about 5e-5 m of a graze along waypoints, behind bench 60, or if a second pair meets at once; and where
-        benches that stray nearly graze (1e-7 s). Both ends hold in spite of rounding (core/kernels/rounding.py,
-        pairs.py). The answer is undecided if rounding hides it: for benches whose clearance at the start equals the
-        margin to about 1e-12 m
+        at most 1e-9 s wide. It is wider where arc lengths or times are less exact (beyond 1e5 m, below 1e-3 m/s, on
+        pieces of about 1e-6 m); by a pause of the head within it; within about 5e-5 m of a graze along waypoints,
+        behind bench 60, or if a second pair meets at once; and where benches that stray nearly graze (1e-7 s). Both
+        ends hold in spite of rounding (core/kernels/rounding.py, pairs.py). The answer is undecided if rounding hides
+        it: for benches whose clearance equals the margin to about 1e-12 m at the start or in a graze, or to 1e-10 m for
+        a while. `overlapping` then names a pair that is certainly within the margin at the end of the bracket, if any
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     source: the model of Yang et al., sections 2.4 and 2.5, whose times differ: see app/questions/paper.py
 
@@ -125,26 +122,47 @@ def contact_within(
     state, found, half_bracket = search.approach(first, stops[0][0], head_speed)
     if to_fold and state not in TOUCHES:
         state, found, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, found, half_bracket))
-    narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-    if (
-        not (strayed or dance.passages)
-        and state is Ended.TOUCHED
-        and half_bracket > narrow >= 2.0 * search.travel_rounding(found.touching or 0.0)
-    ):
-        narrower = narrowed(search, found, narrow, head_speed)
-        if narrower is not None:
-            found, half_bracket = narrower, narrow
-    if state is Ended.STUCK:
-        until = _known_overlap(search, found.proven, stops[-1][0], clock, until)
+    narrow = search.narrow_half((state, found, half_bracket), head_speed)
+    if narrow is not None:
+        known = narrowed(search, found, narrow, None if dance.passages else head_speed)
+        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
+    if state is Ended.STUCK:
+        met = overlap_beyond(search, found.proven, stops[-1][0], head_speed)
+        return _undecided(dance, search, found, met, (begin, until))
     return _result(dance, search, state, found, end, (begin, until), half_bracket)
 
 
-def _known_overlap(search: Search, proven: float, last: float, clock: Clock, until: float) -> float:
-    """Time after the end of a failed search at which benches are certainly within the margin [s]; else `until`."""
-    state, found, _ = search.approach(min(proven + BEYOND, last), last, clock.slowest)
-    return until if state is Ended.STUCK or found.touching is None else clock.time(found.touching)
+def _undecided(
+    dance: Dance, search: Search, found: Marched, met: Marched | None, span: tuple[float, float]
+) -> FirstContact:
+    """The answer of a search that gave up. met: overlap_beyond(); span: of the search [s]"""
+    clock, (begin, until), asked = dance.clock, span, (dance, search.margin, search.stray)
+    proven, overlapping, ends = max(clock.time(found.proven), begin), None, ""
+    if met is not None and met.touching is not None:
+        until, overlapping = clock.time(met.touching), met.benches
+        ends = before_overlap(overlapping, search.margin, search.stray, until)
+    known = proven > begin
+    words = claim(*asked, (begin, proven), f"{UNDECIDED_THEN}{ends}.")
+    method = words if known else claim_undecided(*asked, begin, ends)
+    graze = _graze(found, clock, begin)
+    evidence = Evidence(method, found.steps, proven if known else None, found.gap_curvature, graze)
+    return FirstContact(
+        Outcome.UNDECIDED,
+        time_bracket=(proven, until),
+        overlapping=overlapping,
+        certificate=evidence,
+        margin=search.margin,
+        stray=search.stray,
+        dance=dance,
+    )
+
+
+def _graze(found: Marched, clock: Clock, begin: float) -> Graze | None:
+    """The narrowest graze of a march that begins at a time [s]."""
+    graze = found.graze
+    return None if graze is None else Graze(max(clock.time(graze.travel), begin), graze.gap, graze.benches)
 
 
 def _result(
@@ -156,27 +174,23 @@ def _result(
     span: tuple[float, float],
     half_bracket: float,
 ) -> FirstContact:
-    graze, clock = None, dance.clock
-    if found.graze is not None:
-        graze = Graze(max(clock.time(found.graze.travel), span[0]), found.graze.gap, found.graze.benches)
+    clock = dance.clock
     proven = end.time if state is Ended.REACHED else max(clock.time(found.proven), span[0])
     outcome = OUTCOMES[state]
     method = _method(dance, search, outcome, found, end, (span[0], proven))
     clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, graze)
+    certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, _graze(found, clock, span[0]))
     told = partial(
         FirstContact, outcome, certificate=certificate, margin=search.margin, stray=search.stray, dance=dance
     )
     if outcome is Outcome.CLEAR:
         return told(end=end)
-    if outcome is Outcome.UNDECIDED:
-        return told(time_bracket=(proven, span[1]))
     at_start = outcome is Outcome.CONTACT_AT_START
     assert found.touching is not None
     travel = found.touching if at_start else found.touching - half_bracket
     corner, edge, point, gap = _touching_features(search, travel, found.benches)
     return told(
-        time=span[0] if at_start else clock.time(travel),
+        time=span[0] if at_start else max(clock.time(travel), span[0]),
         time_bracket=None if at_start else (proven, clock.time(found.touching)),
         head=search.path.head(travel),
         benches=found.benches,
@@ -194,8 +208,6 @@ def _method(
     asked = (dance, margin, search.stray)
     if outcome is Outcome.CLEAR:
         return claim(*asked, span, ENDS[end.reason])
-    if outcome is Outcome.UNDECIDED:
-        return claim(*asked, span, UNDECIDED_THEN) if span[1] > span[0] else claim_undecided(*asked, span[0])
     pair = found.benches
     if outcome is Outcome.CONTACT_AT_START:
         return claim_at_start(*asked, span[0], pair)
@@ -245,17 +257,25 @@ def claim_at_start(dance: Dance, margin: float, stray: float, start: float, pair
     return f"{_dance(dance)}: {_strayed(stray)}{touching} {MEASURED}"
 
 
-def claim_undecided(dance: Dance, margin: float, stray: float, start: float) -> str:
-    """claim() for a search that gave up at the start [s]."""
+def claim_undecided(dance: Dance, margin: float, stray: float, start: float, before: str) -> str:
+    """claim() for a search that gave up at the start [s]. before: of a certain contact, see before_overlap()"""
     near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
-    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}."
+    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}{before}."
     return f"{_dance(dance)}: {_strayed(stray)}{never} {TRIED}"
+
+
+def before_overlap(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
+    """The end of the sentence of a search that gave up, if a contact is certain at a later time [s]."""
+    return f" before {said(time)} s, when benches {pair[0]} and {pair[1]} {_nearer(margin, stray)}"
 
 
 def contact_then(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
     """The end of a claim's sentence for a contact that is certain at a time [s]."""
-    near = f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
-    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {near}."
+    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {_nearer(margin, stray)}."
+
+
+def _nearer(margin: float, stray: float) -> str:
+    return f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
 
 
 def _strayed(stray: float) -> str:

@@ -16,7 +16,7 @@ from core.contact.march import TOUCHES
 from core.contact.search import Approached, Search, joined
 from core.dance import RunEnd
 from core.kernels import Ended
-from core.kernels.constants import CHORD, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_BOUND, NO_ROOT, THETA
+from core.kernels.constants import CHORD, EDGES_PER_WORK, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_BOUND, NO_ROOT, THETA
 from core.kernels.results import Marched
 from core.values import Floats
 
@@ -66,7 +66,7 @@ def approach_fold(
 
 def _leaves(search: Search, early: float, last: float, found: Marched, theta: float) -> bool:
     """True if a march may end at a travel [m]: the way to the fold is clear, and samples show no narrower graze."""
-    if search.dragon.benches >= 3:
+    if search.pairs:
         least = least_left(search, early - search.travel_rounding(early), theta)
         return least > search.margin and not _dips_ahead(search, early, last, found)
     return True
@@ -97,7 +97,7 @@ def least_to_fold(search: Search, travel: float, fold: float) -> float | None:
     fold: theta of the head there [rad]
     The way is divided into at most FOLD_STRETCHES parts, until the bound exceeds the margin.
     """
-    if search.dragon.benches < 3:
+    if not search.pairs:
         return FREE
     travel, last = travel - search.travel_rounding(travel), search.travel_at(fold)
     stretches = [(least_left(search, travel, fold), travel, last)]
@@ -126,6 +126,7 @@ def least_to_fold(search: Search, travel: float, fold: float) -> float | None:
 # at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
 # handle by o at most and sideways by w / 2, moves by no more than
 #     max(D_a, D_b) + (o + w / 2) angle.
+# Edges at rest do not move: a gap to one of them loses only the motion of the bench.
 # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
 #
 # Rounding. Stretches meet at the same computed theta, so that nothing is left out; the first one begins before its
@@ -144,10 +145,10 @@ def least_left(search: Search, travel: float, theta: float) -> float:
     It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
     sizes; NO_BOUND if a bench without a place in `placed` could come near one that leads a pair.
     """
-    search.spend(STRETCH_WORK + FOLD_WORK * search.room)
+    search.spend(STRETCH_WORK + FOLD_WORK * search.room * (1.0 + len(search.edges) / EDGES_PER_WORK))
     gap, _ = search.clearance(travel)
     arcs, moved = moved_until(search, theta)
-    reached = 2.0 * float(moved.max())
+    reached = (1.0 if len(search.edges) else 2.0) * float(moved.max())  # edges stay at rest
     rounding = gap_rounding(search, travel, min(gap, FREE) + reached)
     arcs += search.placed[search.room - 1, ERROR]
     radii = search.growth * search.placed[: search.room + 1, THETA]
@@ -205,6 +206,12 @@ def gap_rounding(search: Search, travel: float, within: float) -> float:
     """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""
     search.place_leaders(travel, search.room)
     kernels.chain_rounding(search.curve, search.room, search.sizes, search.placed)
-    error, sway = search.placed[: search.room, kernels.ERROR].max(), search.placed[: search.room, kernels.SWAY].max()
-    reach = 4.0 * search.rings.all_radius + within
+    benches, edges = slice(search.room), slice(search.room + 1, None)
+    error, sway = search.placed[benches, kernels.ERROR].max(), search.placed[benches, kernels.SWAY].max()
+    radius = search.rings.all_radius
+    if len(search.edges):
+        error = max(error, search.scene.wall_error)
+        sway = max(sway, search.placed[edges, kernels.SWAY].max())
+        radius = max(radius, search.sizes[edges, kernels.RADIUS].max())
+    reach = 4.0 * radius + within
     return float(2.0 * (2.0 * error + (2.0 * sway + 50.0 * kernels.ULP) * reach))

@@ -3,12 +3,6 @@
 The model is that of the kernels: their doubles (growth, chords, the table of a route) are taken as exact, and the chain
 is solved again in decimal arithmetic, starting from the kernels' result. Curves through waypoints are not covered,
 because their arc length is itself a quadrature.
-
-Sine, cosine and the separation are written out here, because the module decimal has none. mpmath would save 20 lines,
-but it is one more requirement, and the same contacts would take 1.25 to 1.4 times as long (44 instead of 35 ms,
-measured 2026-11-21). python-flint needs 0.6 microseconds for a sine with its cosine and 1.4 for an arc length, while
-decimal needs 21 and 26 (measured 2026-11-22); but it takes 27 MB, it is not part of every installation, and one answer
-should have one method.
 """
 
 from __future__ import annotations
@@ -17,9 +11,23 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
 from threading import Lock
-from typing import NamedTuple
 
 from core import kernels
+from core.contact.decimal_shapes import (
+    CORNERS,
+    DIGITS,
+    GAP_ROUNDING,
+    Bench,
+    Vector,
+    beyond,
+    coil_arc,
+    coil_theta,
+    cos_sin,
+    crosses,
+    distance,
+    exact_gap,
+    exact_separation,
+)
 from core.contact.search import Search
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.constants import (
@@ -50,22 +58,13 @@ from core.kernels.constants import (
 from core.kernels.results import Marched
 from core.sampling import falls_to_zero
 
-# An angle has up to 6e5 rad, and its error is enlarged by the radius: at 1e5 m chords are met within 1e-36 m, with 40
-# digits only within 1e-30 m. A near graze takes 12 % longer than with 40 digits (measured 2026-11-26).
-DIGITS = 48
 # Allowed error of a chord [m], and most steps towards it, of which three are enough except near a fold.
 NEGLIGIBLE = Decimal("1e-34")
 LINK_STEPS = 40
-# Smallest term of a series [1]: the five doublings after it enlarge an error at most a thousandfold.
-LAST_TERM = Decimal("1e-51")
-# Largest error of a gap [m]: each of up to LAST_BENCH links has an error of at most NEGLIGIBLE, or nothing is claimed;
-# a fold may enlarge it a hundred million times, and overhangs ten thousand times.
-GAP_ROUNDING = Decimal("1e-20")
 # Shortest interval of a proof [m].
 SHORTEST = 1e-13
 # Largest relative error of a travel that is divided by the head speed, in doubles, and multiplied again [1].
 CLEAR_ROUNDING = 4.0 * kernels.ULP
-TWO_PI = Decimal("6.2831853071795864769252867665590057683943387987502116419498891846156")
 # Last bench of a pair in decimals, because each handle takes a third of a millisecond for each instant [1]; and most
 # intervals before a proof is given up: about a second in all.
 LAST_BENCH = 60
@@ -74,8 +73,6 @@ CURVATURE_ROUNDING = 1e-12
 INTERVALS_MAX = 60
 # Groups of columns in a chain row of the kernels.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
-
-Vector = tuple[Decimal, Decimal]
 
 
 class Unsolved(ArithmeticError):
@@ -99,65 +96,53 @@ def _alone(budget: Budget) -> Iterator[None]:
         _ALONE.release()
 
 
-class Bench(NamedTuple):
-    """Centre [m], unit vector towards the front, half length and half width [m]."""
-
-    centre: Vector
-    along: Vector
-    half_length: Decimal
-    half_width: Decimal
-
-
-class BenchAxis(NamedTuple):
-    """A unit vector fixed in the first (0) or the second (1) bench of a pair, by its parts along it and to its left.
-
-    It points to the place of the other bench when the axis was chosen. A gap along it proves an interval clear only if
-    it keeps its sign: a bench on one side at the start and on the other at the end has passed through.
-    """
-
-    owner: int
-    along: Decimal
-    left: Decimal
-
-
 class ExactPair:
-    """Two benches of a search: their places and their separation.
+    """Two benches of a search, or a bench and an edge at rest: their places and their separation.
 
     can_follow: True if the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
     """
 
     def __init__(self, search: Search, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
+        self.edge = pair[1] - search.room - 1 if len(search.edges) else -1  # -1: the second one is a bench
+        self.last = pair[0] if self.edge >= 0 else pair[1]
         path = search.path
         self.pieces = [[Decimal(number) for number in row] for row in path.as_route(path.end).table.tolist()]
         if path.spiral is not None:  # growth and start_theta are doubles, but their arc length is not
             with localcontext() as context:
                 context.prec = DIGITS
-                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(path.spiral.start_theta))
+                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * coil_arc(Decimal(path.spiral.start_theta))
         kinds = {int(row[PIECE_KIND]) for row in self.pieces}
-        self.can_follow = pair[1] <= LAST_BENCH and not kinds & {CUBIC, CREST}
+        self.can_follow = self.last <= LAST_BENCH and not kinds & {CUBIC, CREST}
 
     def benches(self, travel: Decimal) -> tuple[Bench, Bench]:
         """The two benches with the head at a travel [m]. raises: Unsolved"""
         search = self.search
-        search.place_leaders(float(travel), self.pair[1] + 1)
+        search.place_leaders(float(travel), self.last + 1)
         rows, path = search.placed, search.path
         s, points = travel, [self._point(path.piece_at(rows[0]), travel)]
-        for k in range(self.pair[1] + 1):
+        for k in range(self.last + 1):
             chord, piece = Decimal(float(search.sizes[k, CHORD])), path.piece_at(rows[k + 1])
             s = Decimal(float(path.along(rows[k + 1, LAG])))
             slope = Decimal(float(rows[k + 1, TANGENT] @ rows[k, LINK]))
             for _ in range(LINK_STEPS):
                 point = self._point(piece, s)
-                excess = _distance(points[-1], point) - chord
+                excess = distance(points[-1], point) - chord
                 if abs(excess) < NEGLIGIBLE:
                     break
                 s += excess / slope
             else:
                 raise Unsolved(f"link {k}")
             points.append(point)
-        first, second = (self._bench(k, points[k], points[k + 1]) for k in self.pair)
-        return first, second
+        first = self._bench(self.pair[0], *points[self.pair[0] : self.pair[0] + 2])
+        return first, self._edge() if self.edge >= 0 else self._bench(self.last, *points[self.last : self.last + 2])
+
+    def _edge(self) -> Bench:
+        """The edge at rest, as a bench without width."""
+        x, y, x_end, y_end = (Decimal(number) for number in self.search.edges[self.edge].tolist())
+        length = distance((x, y), (x_end, y_end))
+        along = ((x_end - x) / length, (y_end - y) / length)
+        return Bench(((x + x_end) / 2, (y + y_end) / 2), along, length / 2, Decimal(0))
 
     def gap(self, travel: Decimal) -> Decimal:
         """Separation of the two less the margin [m]. raises: Unsolved"""
@@ -194,6 +179,30 @@ class ExactPair:
             start = start + h if start + h < stop else stop
         return True
 
+    def stays_within(self, start: float, stop: float) -> bool:
+        """True if a corner of one is proven to stay within the margin of the other between two near travels [m].
+
+        Its coordinates in the other's frame are gaps along axes, so none leaves the chord between its values at both
+        ends by more than K h^2 / 8 (core/kernels/pairs.py). An edge has no inside, but two corners may be on its two
+        sides.
+        raises: Unsolved
+        """
+        search, slack = self.search, self.search.travel_rounding(start, stop)
+        h = stop - start + 2.0 * slack
+        curvatures = kernels.pair_curvatures(search.scene, search.probe, search.place - start + slack, h, *self.pair)
+        if max(curvatures) >= kernels.FREE:
+            return False
+        bend = Decimal((1.0 + CURVATURE_ROUNDING) * max(curvatures) * h * h / 8.0)
+        ends = [self.benches(Decimal(travel)) for travel in (start, stop)]
+        most = Decimal(search.margin) - GAP_ROUNDING
+        if self.edge >= 0 and crosses([(edge, bench) for bench, edge in ends], bend + GAP_ROUNDING):
+            return True
+        return any(
+            beyond([(pair[owner], pair[1 - owner]) for pair in ends], corner, bend) <= most
+            for owner in (0, 1)
+            for corner in CORNERS
+        )
+
     def _bench(self, k: int, front: Vector, rear: Vector) -> Bench:
         chord, half_length, half_width = (
             Decimal(number) for number in self.search.sizes[k, CHORD : HALF_WIDTH + 1].tolist()
@@ -210,97 +219,10 @@ class ExactPair:
         if kind == ARC:
             radius, angle = row[ARC_RADIUS], row[ARC_ANGLE] + row[SIGN] * u / row[ARC_RADIUS]
         else:
-            theta = _theta((row[COIL_ARC] + row[SIGN] * u) / row[COIL_GROWTH])
+            theta = coil_theta((row[COIL_ARC] + row[SIGN] * u) / row[COIL_GROWTH])
             radius, angle = row[COIL_GROWTH] * theta, theta + row[COIL_ROTATION]
-        cos, sin = _cos_sin(angle)
+        cos, sin = cos_sin(angle)
         return row[CENTRE_X] + radius * cos, row[CENTRE_Y] + radius * sin
-
-
-def exact_separation(first: Bench, second: Bench) -> tuple[Decimal, BenchAxis]:
-    """Signed separation of two rectangles [m], as in core.separation(), and the axis along which they have it."""
-    faces = [(exact_gap(first, second, axis), axis) for axis in _FACES]
-    gap, axis = max(faces)
-    if gap <= 0:
-        return gap, axis
-    nearest = min(_nearest_corner(0, first, second), _nearest_corner(1, second, first))
-    # If a corner faces an edge, both are equal; and the direction between touching points is only rounding.
-    return nearest if nearest[0] - gap > GAP_ROUNDING else (gap, axis)
-
-
-def exact_gap(first: Bench, second: Bench, axis: BenchAxis) -> Decimal:
-    """Gap of two rectangles along an axis from its owner to the other one [m]; at most their separation."""
-    own, other = (first, second) if axis.owner == 0 else (second, first)
-    (x, y), (ux, uy) = _local(own, other.centre), other.along
-    along, left = own.along[0] * ux + own.along[1] * uy, own.along[0] * uy - own.along[1] * ux
-    reach = abs(axis.along) * own.half_length + abs(axis.left) * own.half_width
-    reach += abs(axis.along * along + axis.left * left) * other.half_length
-    reach += abs(axis.left * along - axis.along * left) * other.half_width
-    return axis.along * x + axis.left * y - reach
-
-
-_ONE, _NONE = Decimal(1), Decimal(0)
-_NORMALS = ((_ONE, _NONE), (_NONE, _ONE), (-_ONE, _NONE), (_NONE, -_ONE))
-_FACES = [BenchAxis(owner, *parts) for owner in (0, 1) for parts in _NORMALS]
-
-
-def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, BenchAxis]:
-    """Least distance from a corner of the other bench to this one [m], and its direction."""
-    found = []
-    for a in (-1, 1):
-        for b in (-1, 1):
-            ux, uy = other.along
-            length, width = a * other.half_length, b * other.half_width
-            x, y = _local(own, (other.centre[0] + length * ux - width * uy, other.centre[1] + length * uy + width * ux))
-            dx = (abs(x) - own.half_length).max(_NONE).copy_sign(x)
-            dy = (abs(y) - own.half_width).max(_NONE).copy_sign(y)
-            gap = (dx * dx + dy * dy).sqrt()
-            found.append((gap, BenchAxis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
-    return min(found)
-
-
-def _local(bench: Bench, point: Vector) -> Vector:
-    dx, dy = point[0] - bench.centre[0], point[1] - bench.centre[1]
-    return dx * bench.along[0] + dy * bench.along[1], dy * bench.along[0] - dx * bench.along[1]
-
-
-def _distance(a: Vector, b: Vector) -> Decimal:
-    return ((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2).sqrt()
-
-
-def _theta(arc: Decimal) -> Decimal:
-    """Polar angle of a spiral at an arc length from its centre, in units of growth.
-
-    One step of Chebyshev's method from kernels.spiral_theta(), whose relative error is a few 1e-16. With f the excess
-    of the arc length, f' = sqrt(1 + theta^2) and f'' = theta / f', the step is -f / f' (1 + f f'' / (2 f'^2)). The
-    error after it is below the third power of the one before, divided by 2 theta^2 for large theta: 1e-39 at 1e5 turns.
-    """
-    theta = Decimal(kernels.spiral_theta(float(arc)))
-    square = 1 + theta * theta
-    root = square.sqrt()
-    step = (_arc(theta) - arc) / root
-    return theta - step * (1 + step * theta / (2 * square))
-
-
-def _arc(theta: Decimal) -> Decimal:
-    """Arc length of a spiral from its centre, in units of growth."""
-    root = (1 + theta * theta).sqrt()
-    return (theta * root + (theta + root).ln()) / 2
-
-
-def _cos_sin(angle: Decimal) -> Vector:
-    """Cosine and sine, by the series of the exponential for the angle reduced to [-pi, pi] and halved five times."""
-    x = angle.remainder_near(TWO_PI) / 32
-    cos, sin, term, k = Decimal(1), Decimal(0), Decimal(1), 0
-    while abs(term) > LAST_TERM:
-        k += 1
-        term = term * x / k
-        if k % 2:
-            sin += term if k % 4 == 1 else -term
-        else:
-            cos += term if k % 4 == 0 else -term
-    for _ in range(5):
-        cos, sin = cos * cos - sin * sin, 2 * cos * sin
-    return cos, sin
 
 
 # From `proven` on the gap of the pair falls until it touches. The first instant t within the margin is found, by the
@@ -309,13 +231,14 @@ def _cos_sin(angle: Decimal) -> Vector:
 # kernels' K, in as many intervals as necessary. All other pairs are marched over the same interval in doubles.
 #
 # The claims are about times, which are travels divided by the head speed in doubles: the pair is within the margin at
-# the true travel of the later time, and apart until a little beyond that of the earlier one.
-def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.0) -> Marched | None:
+# the true travel of the later time, and apart until a little beyond that of the earlier one. With passages the true
+# travels are not known exactly, only within travel_rounding() of the computed ones.
+def narrowed(search: Search, found: Marched, half: float, head_speed: float | None = 1.0) -> Marched | None:
     """The wide bracket of a contact, narrowed to half width `half` [m]; None if that is not proven.
 
     found: result of Search.march() with `proven`, `touching` and the pair; so is the returned value, and its contact is
         at `touching` - `half`
-    head_speed: speed that turns travels into times [m/s]
+    head_speed: speed that turns travels into times [m/s]; None with passages, where several do
     """
     pair = ExactPair(search, found.benches)
     if found.touching is None or not pair.can_follow:
@@ -331,6 +254,11 @@ def narrowed(search: Search, found: Marched, half: float, head_speed: float = 1.
             return None
         contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
+        if head_speed is None:
+            slack = search.travel_rounding(clear, touching)
+            sure = pair.stays_within(touching - slack, touching + slack)
+            apart = sure and pair.stays_apart(found.proven, clear + slack)
+            return found._replace(proven=clear, touching=touching) if apart else None
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * CLEAR_ROUNDING
         if pair.gap(later) <= -GAP_ROUNDING and pair.stays_apart(found.proven, beyond):

@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.coils import clear_places
-from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TOUCHES, TRAVEL_ROUNDING
+from core.contact.march import BRACKET, BRACKET_MIN, BRACKETS_GRAZING, FOLD_SLIVER, FOLD_WAYS, TRAVEL_ROUNDING
 from core.dance import RunEnd
 from core.dragon import Dragon
 from core.kernels import Budget, Ended
@@ -44,8 +44,8 @@ class Search:
     stray: [m]; kinds: the hulls of that ground, none without a stray
     rings: lengths of the benches for the kernels, with bounds for the current path and margin
     sizes: (rows, SIZE_COLUMNS) of the leading benches; own_sizes: the same without the stray; edges: (E, 4) x, y, x, y
-        of edges at rest [m], on routes only. With edges, every pair is a bench and an edge: edge e has the bench number
-        room + 1 + e
+        of edges at rest [m] in the own frame of the path. With edges, every pair is a bench and an edge: edge e has the
+        bench number room + 1 + e
     scene: the same benches on the current path; probe: an interval of it to examine single pairs
     placed: chain (rows, CHAIN_COLUMNS) that clearance() and place_leaders() fill; tried, probed: chains that single
         calls fill. A march writes over them, and over two more of its own: chains holds all five
@@ -89,8 +89,14 @@ class Search:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
         self.room = 0
         self.use(path, margin)
-        everyone = path.spiral is None and rings.clear_place >= kernels.FREE  # no benches are known to be out of reach
+        # no benches are known to be out of reach
+        everyone = len(self.edges) > 0 or (path.spiral is None and rings.clear_place >= kernels.FREE)
         self.resize(dragon.benches if everyone else min(dragon.benches, 255))
+
+    @property
+    def pairs(self) -> bool:
+        """True if any two can touch: three benches or more, or a bench and an edge."""
+        return self.dragon.benches >= 3 or len(self.edges) > 0
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Change the path and the margin of the search."""
@@ -102,6 +108,8 @@ class Search:
                 radius = float(kernels.clear_radius(float(route.table[0, kernels.COIL_GROWTH]), margin, self.rings))
             places = clear_places(route, self.dragon, margin, radius, self.travel_rounding)
             self.rings.clear_place, self.rings.end_place = places
+        elif len(self.edges):  # no radius is clear of edges
+            self.clear_radius = kernels.FREE
         else:
             self.clear_radius = float(kernels.clear_radius(path.growth, margin, self.rings))
         self.rings.clear_radius = self.clear_radius
@@ -132,15 +140,17 @@ class Search:
         chains = self.chains = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
         chains[:, :2] = 0.0
         self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
-        if len(edges):
-            along = edges[:, 2:4] - edges[:, 0:2]
-            half = 0.5 * np.hypot(along[:, 0], along[:, 1])
-            self.sizes[benches + 1 :, kernels.HALF_LENGTH] = self.sizes[benches + 1 :, kernels.RADIUS] = half
-            chains[:, benches + 1 :] = 0.0
-            chains[:, benches + 1 :, kernels.MX : kernels.MY + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
-            chains[:, benches + 1 :, kernels.UX : kernels.UY + 1] = along / (2.0 * half)[:, None]
         self.room = benches
         self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, self.dragon.benches, len(edges))
+        if len(edges):
+            along, walls = edges[:, 2:4] - edges[:, 0:2], np.zeros((len(edges), kernels.FRAME_COLUMNS))
+            half = 0.5 * np.hypot(along[:, 0], along[:, 1])
+            walls[:, kernels.FRAME_X : kernels.FRAME_Y + 1] = 0.5 * (edges[:, 0:2] + edges[:, 2:4])
+            walls[:, kernels.FRAME_UX : kernels.FRAME_UY + 1] = along / (2.0 * half)[:, None]
+            self.sizes[benches + 1 :, kernels.HALF_LENGTH] = self.sizes[benches + 1 :, kernels.RADIUS] = half
+            chains[:, benches + 1 :] = 0.0
+            chains[:, benches + 1 :, kernels.MX : kernels.UY + 1] = walls[:, kernels.FRAME_X : kernels.FRAME_UY + 1]
+            self.scene.lay_walls(walls)
         self._set_scene()
         self.placed, self.tried, self.probed, self.probed_later, self.opening = chains
         self.interval = kernels.Interval(self.scene, self.placed, self.tried, self.motion)
@@ -193,8 +203,7 @@ class Search:
         if clear_until > start:
             opening = False
             start = max(start, clear_until - rounding)
-        nothing = self.dragon.benches < 3 and not len(self.edges)
-        if nothing or (start >= stop and not opening):
+        if not self.pairs or (start >= stop and not opening):
             return Ended.REACHED, Marched(asked[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
         grazes = dips or half_bracket != kernels.NO_BRACKET
@@ -209,8 +218,6 @@ class Search:
         found = self._march.result()
         proven = asked[1] if ended is Ended.REACHED else max(found.proven - rounding, asked[0])
         touching = found.touching
-        if touching is not None and touching < 0.0 and ended not in TOUCHES:
-            touching = None  # before time 0 a crossing that could not be bracketed does not count
         if ended is Ended.TOUCHED_AT_START:
             touching = asked[0]
         return ended, found._replace(proven=proven, touching=touching)
@@ -234,6 +241,14 @@ class Search:
                     state, found = self.march(until, half_bracket, start=begin, opening=opening)
                     found = found._replace(proven=max(proven, found.proven))
         return state, found, half_bracket
+
+    def narrow_half(self, met: Approached, head_speed: float) -> float | None:
+        """Half width to which core/contact/near_graze.py may narrow a wide bracket [m]; None if it is narrow enough, or
+        rounding of travels does not allow it."""
+        state, found, half_bracket = met
+        narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
+        wide = state is Ended.TOUCHED and half_bracket > narrow >= 2.0 * self.travel_rounding(found.touching or 0.0)
+        return narrow if wide and not self.stray else None
 
     def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:
         """Travels before a fold, at `until`, at which a march may end, and their distances from it [m].

@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from core import kernels
 from core.contact.answer import Outcome
-from core.contact.clearance import Pair, least_over
-from core.contact.fold import moved_until
-from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search
-from core.dance import Clock, Dance
+from core.contact.clearance import Pair, least_over, overlap_beyond
+from core.contact.fold import clear_to_fold
+from core.contact.march import TOUCHES
+from core.contact.near_graze import narrowed
+from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search, before_fold
+from core.dance import Dance
 from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue, Quantity, asked_of, bound, checked_number, checked_type
+from core.errors import asked_of, checked_number, checked_type
 from core.kernels import Budget, Ended
 from core.motion.trajectory import trajectory
-from core.paths.following import follows, tightest_bend
 from core.paths.frame import Frame
-from core.paths.route import Route
-from core.paths.spiral import Spiral
 from core.shapes.engines import inside
 from core.shapes.rectangles import bench_poses
 from core.shown import Readable, worded
 from core.values import Floats, Point
 from core.venue import Area, Venue
-
-# Length of a spiral beyond the last instant, so that rounding cannot put that instant outside it [m].
-SPARE = 1e-3
-# Distance by which a computed place must be beyond a radius [m], and as a part of that radius [1]: places of handles
-# are good to 1e-12 of their distance from the centre (trajectory()).
-SURELY, SURELY_OF_RADIUS = 1e-9, 1e-11
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -55,11 +49,12 @@ class AreaClearance(Readable):
     """The benches and the edges of one area, by the name of the area.
 
     outcome: of the search for a bench within the margin; time: of the first one [s], None if clear or undecided
-    time_bracket: (proven clear up to, within the margin at) [s]; if undecided up to the end; None if clear or at the
-        start
+    time_bracket: (proven clear up to, within the margin at) [s], see venue_clearance(); if undecided of any width, or
+        up to the end of the search if no contact is certain; None if clear or at the start
     bench, point (x, y) [m]: the first bench within the margin, and its nearest point
     gap: between that bench and the edge at that time [m]: the margin to rounding, except for contact_at_start
     nearest: None if it was not requested
+    overlapping: if undecided, the bench that is certainly within the margin at the end of the bracket; None if none is
     """
 
     name: str
@@ -70,6 +65,7 @@ class AreaClearance(Readable):
     point: Point | None
     nearest: Nearest | None
     gap: float | None = None
+    overlapping: int | None = None
 
     def _line(self) -> str:
         nearest = f", nearest {self.nearest._line()}" if self.nearest else ""
@@ -124,28 +120,24 @@ def venue_clearance(
     """Distance of the benches from the square's edges and from each obstacle, and the first time within the margin.
 
     An edge counts as a rectangle at rest without width: benches and edges are marched like pairs of benches, with the
-    same proof. If a bench touches no edge, its centre stays inside or outside an area, as at the start.
+    same proof, on a spiral up to its fold. If a bench touches no edge, its centre stays inside or outside an area, as
+    at the start. A bracket is as wide as one of first_contact(), and wider where a bench slowly meets a corner, of two
+    edges at once.
     margin: [m]; stray: largest distance of every hole from its place [m]: then the ground that benches may cover counts
     start, stop: [s], None for dance.default_start and for the end of the run
     nearest: True also finds the least distance, which takes most of the time
-    raises: InvalidValue, also (stop) for a spiral that becomes too tight for a chord, as most do shortly before their
-        end; OutsideRun; TooMuchWork
+    raises: InvalidValue; OutsideRun; TooMuchWork
     """
     checked_type("venue", venue, Venue)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
-    clock, frame = dance.clock, dance.path.frame
-    path = venue_route(dance.path, clock.travel(until))
-    if not follows(dance.dragon, path):
-        rule = "must be at most {last}, when the path becomes too tight for bench {bench}"
-        last, bench = bound(venue_end(dance), 6, "s"), tightest_bend(dance.dragon)[1]
-        raise InvalidValue("stop", rule, got=Quantity(until, "s"), last=last, bench=bench)
-    strayed = checked_stray(stray, dance.dragon)
+    frame, strayed = dance.path.frame, checked_stray(stray, dance.dragon)
     share = NEAR_WORK_BUDGET / len(venue.areas)  # an area has a Search of its own: its edges, and its share of work
     areas = []
     for area in venue.areas:
-        search = Search(dance.dragon, path, margin, own_edges(area, frame), work=share, budget=budget, stray=strayed)
-        areas.append(_area_clearance(search, area.name, (begin, until), clock, frame, nearest))
+        edges = own_edges(area, frame)
+        search = Search(dance.dragon, dance.path, margin, edges, work=share, budget=budget, stray=strayed)
+        areas.append(_area_clearance(search, area.name, dance, (begin, until), nearest))
     return VenueClearance(_misplaced(dance, venue, begin), tuple(areas))
 
 
@@ -154,78 +146,47 @@ def own_edges(area: Area, frame: Frame) -> Floats:
     return frame.back(area.edges.reshape(-1, 2, 2)).reshape(-1, 4)
 
 
-def venue_route(path: Spiral | Route, stop: float) -> Route:
-    """The path in its own frame up to a head travel [m]: a spiral as a coil."""
-    return path.as_route(max(stop, 0.0) + SPARE)
-
-
-def venue_end(dance: Dance) -> float:
-    """Last time to which venue_clearance() can follow the dance [s]: a spiral may become too tight for a chord."""
-    gentle = dance.path.gentle_end(2.0 * kernels.ROUTE_SINE_LIMIT / float(dance.dragon.chords.max()))
-    return min(dance.end.time, dance.clock.time(gentle - 2.0 * SPARE))
-
-
-def is_clear_beyond(
-    dance: Dance, venue: Venue, *, margin: float, stray: float = 0.0, start: float, seen: float
-) -> bool:
-    """True if a spiral dance is proven to stay clear of the venue to its end, given that it is clear from start to
-    `seen` [s].
-
-    The head goes inwards, so the benches up to the first of the equal ones stay in the disc around the centre that the
-    chords from the head to that bench span. Every other bench, once it has passed the start of the bench before it, is
-    at a place where that one has been since the start, unless it moves back behind its own start (family lemma,
-    core/kernels/repeats.py). So there is no new contact if all edges are outside the disc by more than the margin.
-    """
-    search = Search(dance.dragon, dance.path, margin, stray=stray)
-    dragon = search.dragon
-    frame, clock = dance.path.frame, dance.clock
-    ends = np.linalg.norm(trajectory(dance.steady, dance.steady_times(np.array([start, seen]))).position, axis=-1)
-    surely = SURELY + SURELY_OF_RADIUS * float(ends.max())
-    if (ends[1, 1:] + surely > ends[0, :-1]).any():
-        return False
-    alike = dragon.uniform_from + 1
-    search.resize(dragon.benches)
-    search.place_leaders(clock.travel(seen), dragon.benches)
-    arcs, _ = moved_until(search, dance.end.theta or 0.0)
-    rates = np.hypot(1.0, search.placed[: dragon.benches + 1, kernels.THETA])
-    outwards = arcs / rates  # radii grow by this part of an arc
-    if (ends[1] + outwards + surely > ends[0])[alike:].any():
-        return False
-    reach = ends[1, 0] + dragon.chords[:alike].sum() + dragon.overhangs[:alike].max()
-    reach += 0.5 * dragon.widths[:alike].max()
-    edges = np.concatenate([own_edges(area, frame) for area in venue.areas])
-    along = edges[:, 2:] - edges[:, :2]
-    share = np.clip(-(edges[:, :2] * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
-    nearest = np.linalg.norm(edges[:, :2] + share[:, None] * along, axis=1).min()
-    return bool(nearest > reach + margin + surely)
-
-
 def _area_clearance(
-    search: Search, name: str, span: tuple[float, float], clock: Clock, frame: Frame, with_nearest: bool
+    search: Search, name: str, dance: Dance, span: tuple[float, float], with_nearest: bool
 ) -> AreaClearance:
-    """The benches and one area between two times [s]. frame: of the search"""
-    (begin, until), slowest = span, clock.slowest
+    """The benches and one area between two times [s]."""
+    (begin, until), clock = span, dance.clock
     first, last, search.timing = clock.travel(begin), clock.travel(until), clock.rounding(until)
-    state, found, half_bracket = search.approach(first, last, slowest)
+    fold = dance.end.theta if dance.nears_fold(until) else None
+    last = last if fold is None else before_fold(last)
+    state, found, half_bracket = search.approach(first, last, clock.slowest)
+    narrow = search.narrow_half((state, found, half_bracket), clock.slowest)
+    if narrow is not None:
+        known = narrowed(search, found, narrow, None if dance.passages else clock.slowest)
+        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
+    if fold is not None and state not in TOUCHES and found.touching is None:
+        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
+    overlapping = None
     if state is Ended.STUCK:
+        met = overlap_beyond(search, found.proven, last, clock.slowest)
+        if met is not None and met.touching is not None:
+            until, overlapping = clock.time(met.touching), met.benches[0]
         outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
     elif state is not Ended.REACHED:
         at_start = state is Ended.TOUCHED_AT_START
         assert found.touching is not None
         travel = found.touching - (0.0 if at_start else half_bracket)
         outcome = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT
-        time = begin if at_start else clock.time(travel)
+        time = begin if at_start else max(clock.time(travel), begin)
         bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))
         pair = found.benches
-        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, frame)
-    if not with_nearest:
-        return AreaClearance(name, outcome, time, bracket, bench, point, None, gap)
-    (distance, travel, pair), at_least = least_over(search, first, last, slowest)
-    nearest = Nearest(
-        distance, at_least, max(clock.time(travel), begin), pair[0], *_witnesses(search, travel, pair, frame)[:2]
-    )
-    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap)
+        bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, dance.path.frame)
+    nearest = _nearest(search, dance, (begin, first, last), fold) if with_nearest else None
+    return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap, overlapping)
+
+
+def _nearest(search: Search, dance: Dance, span: tuple[float, float, float], fold: float | None) -> Nearest:
+    """Smallest distance of a search between two travels [m]. span: time [s] and travel of the first, the last one"""
+    clock, (begin, first, last) = dance.clock, span
+    (distance, travel, pair), at_least = least_over(search, first, last, clock.slowest, fold)
+    witnesses = _witnesses(search, travel, pair, dance.path.frame)
+    return Nearest(distance, at_least, max(clock.time(travel), begin), pair[0], *witnesses[:2])
 
 
 def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple[Point, Point, float]:
@@ -233,7 +194,11 @@ def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple
     search.clearance(travel)
     kernels.meet(search.scene, *pair, search.placed)
     met = search.scene.met
-    return frame.point(float(met.ax), float(met.ay)), frame.point(float(met.bx), float(met.by)), float(met.separation)
+    theta = search.path.head(travel).theta or 0.0  # on a spiral the chain has its head at polar angle 0
+    cos, sin = math.cos(theta), math.sin(theta)
+    ends = [(float(x), float(y)) for x, y in ((met.ax, met.ay), (met.bx, met.by))]
+    bench, wall = (frame.point(x * cos - y * sin, x * sin + y * cos) for x, y in ends)
+    return bench, wall, float(met.separation)
 
 
 def _misplaced(dance: Dance, venue: Venue, begin: float) -> Misplaced | None:

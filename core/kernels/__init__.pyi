@@ -175,7 +175,9 @@ class Scene:
     left_out_too: int
     kinds: Kinds
     met: Witnesses
+    wall_error: float
     def __init__(self, curve: Curve, place: float, rings: Rings, sizes: Floats, benches: int, edges: int) -> None: ...
+    def lay_walls(self, walls: Floats) -> None: ...
 
 class Interval:
     scene: Scene

@@ -26,7 +26,7 @@ cdef Closest row_clearance(
     Scene scene, Py_ssize_t active, Py_ssize_t handles, Closest best, Rows chain, Rows boxes
 ) noexcept nogil
 
-@cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t)
+@cython.locals(i=cython.Py_ssize_t, j=cython.Py_ssize_t, first=cython.Py_ssize_t, end=cython.Py_ssize_t)
 cpdef double clearance_left(
     Scene scene, Py_ssize_t leaders, Py_ssize_t benches, Rows chain, double[::1] moved
 ) noexcept nogil

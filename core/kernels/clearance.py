@@ -99,7 +99,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
         for i in range(active):
             if scene.budget.stopped:
                 break
-            best = least_with(scene, i, handles + 1, handles + 1 + scene.edges, best, chain)
+            best = least_with(scene, i, scene.room + 1, scene.room + 1 + scene.edges, best, chain)
         return best
     if active > 0:  # a first value to compare with
         best = least_with(scene, 0, scene.between + 1, handles, best, chain)
@@ -126,19 +126,22 @@ def row_clearance(scene, active, handles, best, chain, boxes):
 def clearance_left(scene, leaders, benches, chain, moved):
     """Least separation, less the ways of both benches, of all pairs led by the first `leaders` benches [m].
 
-    moved: (benches,) the way that each bench still moves [m]; returns FREE without pairs
+    moved: (benches,) the way that each bench still moves [m], an edge at rest none; returns FREE without pairs
     """
     sizes: cython.double[:, ::1] = scene.sizes
     best = FREE
     for i in range(leaders):
         if scene.budget.stopped:
             break
-        for j in range(i + scene.between + 1, benches):
+        first = scene.room + 1 if scene.edges > 0 else i + scene.between + 1
+        end = first + scene.edges if scene.edges > 0 else benches
+        for j in range(first, end):
+            way = moved[i] if scene.edges > 0 else moved[i] + moved[j]
             dx = chain[j, MX] - chain[i, MX]
             dy = chain[j, MY] - chain[i, MY]
-            far = sizes[i, RADIUS] + sizes[j, RADIUS] + moved[i] + moved[j] + best
+            far = sizes[i, RADIUS] + sizes[j, RADIUS] + way + best
             if far > 0.0 and dx * dx + dy * dy <= far * far:
-                best = min(best, row_gap(scene, i, j, chain) - moved[i] - moved[j])
+                best = min(best, row_gap(scene, i, j, chain) - way)
     return best
 
 
@@ -149,6 +152,7 @@ def clearance_at(scene, place, benches, leaders, chain, boxes):
     """
     if place_chain(scene.curve, place, benches, scene.sizes, chain) == FOLDED:
         return FREE, 0, 0
+    scene.turn_edges(chain)
     best = row_clearance(scene, leaders, benches, Closest(FREE, 0, 0), chain, boxes)
     return best.gap, best.first, best.second
 
@@ -162,6 +166,7 @@ def gap_at(scene, place, a, b, chain):
     """Separation of bench a from bench b, or from edge at rest b, with the head at a place [m]; FREE at a fold."""
     if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return FREE
+    scene.turn_edges(chain)
     return row_gap(scene, a, b, chain)
 
 
@@ -172,6 +177,7 @@ def gap_rate_at(scene, place, a, b, chain):
     """
     if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return 0.0
+    scene.turn_edges(chain)
     meet(scene, a, b, chain)
     rate = -speed_along(scene, a, scene.met.ax, scene.met.ay, chain)
     if b < scene.room:

@@ -105,9 +105,10 @@ def curvature_along(scene, interval, i, j, distance):
 def pair_curvatures(scene, interval, place, h, a, b):
     """Bounds on the second derivative of gaps of two benches while the head travels h from a place [1/m].
 
-    returns: for axes fixed in bench a, and for axes fixed in bench b; FREE where no bound is known
+    b: a bench or an edge at rest
+    returns: for axes fixed in bench a, and for axes fixed in b; FREE where no bound is known
     """
-    if not interval.lay_out(place, h, b + 1):
+    if not interval.lay_out(place, h, b + 1 if b < scene.room else a + 1):
         return FREE, FREE
     distance = centres_apart(interval, a, b)
     return curvature_along(scene, interval, a, b, distance), curvature_along(scene, interval, b, a, distance)

@@ -296,7 +296,7 @@ class March(Found):
             return self.end(Ended.TOUCHED)
         width = CROSSING_WIDTH * self.half_bracket
         self.target = contact_between(scene, self.travel, end, self.first, self.second, width, self.probe.before)
-        self.aims = self.target > 0.0  # a contact before travel 0 is bracketed by the step after it
+        self.aims = True
         self.meet(self.target)
         way = self.target - self.half_bracket - self.travel
         if way > self.rounding and way < self.h:

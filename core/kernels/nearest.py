@@ -31,8 +31,7 @@ def interval_least(scene, interval, active):
     if not interval.bound(False):
         return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     rounding = interval_rounding(scene, interval)
-    # of centres; an edge at rest that is near has coordinates hardly larger than the bench, whose rounding ERROR covers
-    reach = scene.margin * (1.0 + 1e-12) + 16.0 * rounding.point
+    reach = scene.margin * (1.0 + 1e-12) + 16.0 * (rounding.point + scene.wall_error)  # of centres
     if not stays_beyond(scene, interval, active, rounding.point):
         return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     for i in range(active):
@@ -42,7 +41,7 @@ def interval_least(scene, interval, active):
         first = i + scene.between + 1
         end = interval.handles
         if scene.edges > 0:  # they follow the last handle's row, which holds no bench
-            first = interval.handles + 1
+            first = scene.room + 1
             end = first + scene.edges
         for j in range(first, end):
             if far < FREE and innermost(scene, interval, j, motion[j, HANDLE_SPEED]) - rounding.point > far:
@@ -70,7 +69,7 @@ def interval_least(scene, interval, active):
 
 def interval_rounding(scene, interval):
     """Largest errors of points and gaps of a bounded interval."""
-    if scene.curve.is_spiral and interval.motion[interval.handles, RATE_LOW] > 0.0:
+    if scene.curve.is_spiral and scene.edges == 0 and interval.motion[interval.handles, RATE_LOW] > 0.0:
         error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
         end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
         error = max(error, end)
@@ -89,8 +88,9 @@ def innermost(scene, interval, k, rate):
 
 
 def reach_of(scene, interval, i, error):
-    """Radius of a spiral beyond which benches stay clear of bench i during an interval [m]; FREE on a route."""
-    if not scene.curve.is_spiral:
+    """Radius of a spiral beyond which benches stay clear of bench i during an interval [m]; FREE on a route, and
+    where benches meet edges at rest."""
+    if not scene.curve.is_spiral or scene.edges > 0:
         return FREE
     growth = scene.curve.growth
     rate = interval.motion[i, HANDLE_SPEED]
@@ -102,7 +102,7 @@ def reach_of(scene, interval, i, error):
 
 def stays_beyond(scene, interval, leaders, error):
     """Whether benches that are not laid out stay out of reach of those that lead pairs, during an interval."""
-    if interval.handles == scene.benches:
+    if interval.handles == scene.benches or scene.edges > 0:
         return True
     if not scene.curve.is_spiral:
         return coil_stays_beyond(scene, interval, leaders, error)

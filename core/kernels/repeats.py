@@ -32,6 +32,7 @@ def chain_between(scene, place, leaders, allowance, reversing, chain):
     growth = scene.curve.growth
     theta = spiral_theta(place / growth)
     start_chain(theta, chain)
+    scene.turn_edges(chain)
     clear = scene.rings.clear_radius + (allowance if reversing else 0.0)
     k = extend_chain(growth, 0, leaders, clear, scene.sizes, chain)
     if k <= 0:

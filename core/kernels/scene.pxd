@@ -7,20 +7,24 @@ from core.kernels.rectangles cimport Witnesses
 from core.kernels.rings cimport Rings
 from core.kernels.hulls cimport Kinds
 
-cdef double WIDTH_ROUNDING
+cdef double WIDTH_ROUNDING, TURNED_ROUNDING
 
 @cython.final
 cdef class Scene:
     cdef public Curve curve
     cdef public double place
     cdef public Rings rings
-    cdef Rows sizes
+    cdef Rows sizes, walls
+    cdef readonly double wall_error
     cdef readonly Py_ssize_t benches, room, edges
     cdef public Kinds kinds
     cdef public double margin
     cdef public Budget budget
     cdef public Py_ssize_t left_out, left_out_too, between
     cdef readonly Witnesses met
+
+    @cython.locals(e=cython.Py_ssize_t, j=cython.Py_ssize_t)
+    cdef void turn_edges(self, Rows chain) noexcept nogil
 
 @cython.final
 cdef class Interval:

@@ -1,6 +1,7 @@
 """A scene, which is a dragon on a path; an interval of head travel in it; and the results of proven steps."""
 
 import cython
+from cython.cimports.libc.math import cos, fabs, sin
 
 from core.kernels.results import Marched
 
@@ -13,6 +14,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.rectangles import Witnesses
 
 
+# Largest error of a turned vector, as a part of the sum of its coordinates [1].
+TURNED_ROUNDING = 6.0 * ULP
 # Part by which the width of an interval is widened, for the rounding of numbers that a step computes only once [1].
 WIDTH_ROUNDING = 1e-12
 
@@ -24,7 +27,9 @@ class Scene:
     sizes: (room + 1 + edges, SIZE_COLUMNS), a row for every bench, an empty one, then a row for every edge at rest;
         chains have the same rows
     benches: number in the dragon; room: number of these that have a row
-    edges: number of edges at rest, on a route only; where there are any, benches meet these alone, else each other
+    edges: number of edges at rest; where there are any, benches meet these alone, else each other
+    walls: centres [m] and directions of these in the own frame of the path, (edges, FRAME_COLUMNS); wall_error: largest
+        error of a centre [m]
     budget: ends the loops before they are done
     kinds: the hulls of benches that are not rectangles; sizes then hold the rectangles around them
     margin: the clearance required [m]; left_out, left_out_too: a pair of benches that does not count, or NO_BENCH
@@ -33,6 +38,7 @@ class Scene:
 
     def __init__(self, curve, place, rings, sizes, benches, edges):
         self.curve = curve
+        self.wall_error = 0.0
         self.kinds = Kinds()
         self.place = place
         self.rings = rings
@@ -45,6 +51,35 @@ class Scene:
         self.between = 1
         self.budget = Budget()
         self.met = Witnesses()
+
+    def lay_walls(self, walls):
+        """Set the edges at rest."""
+        self.walls = walls
+        for e in range(self.edges):
+            error = TURNED_ROUNDING * (fabs(walls[e, FRAME_X]) + fabs(walls[e, FRAME_Y]))
+            self.wall_error = max(self.wall_error, error)
+
+    # The frame of a chain on a spiral has its head at polar angle 0, and turns with it by exactly the head's double
+    # theta (rounding.py). So an edge at rest turns back by theta there. sin and cos are good to 2 u of themselves, and
+    # each coordinate is the sum of two products: |x| and |y| together times 4 u. On a route the frame is at rest.
+    def turn_edges(self, chain):
+        """Fill in the edges at rest in a chain on a spiral whose head is placed, with their errors."""
+        if self.edges == 0 or not self.curve.is_spiral:
+            return
+        c = cos(chain[0, THETA])
+        s = sin(chain[0, THETA])
+        for e in range(self.edges):
+            x = self.walls[e, FRAME_X]
+            y = self.walls[e, FRAME_Y]
+            ux = self.walls[e, FRAME_UX]
+            uy = self.walls[e, FRAME_UY]
+            j = self.room + 1 + e
+            chain[j, MX] = x * c + y * s
+            chain[j, MY] = y * c - x * s
+            chain[j, UX] = ux * c + uy * s
+            chain[j, UY] = uy * c - ux * s
+            chain[j, ERROR] = TURNED_ROUNDING * (fabs(x) + fabs(y))
+            chain[j, SWAY] = TURNED_ROUNDING * (fabs(ux) + fabs(uy))
 
 
 class Interval:
@@ -98,6 +133,8 @@ class Interval:
             return False
         if place_chain(self.scene.curve, place - h, last, self.scene.sizes, self.after) == FOLDED:
             return False
+        self.scene.turn_edges(self.before)
+        self.scene.turn_edges(self.after)
         self.round()
         return self.bound(False)
 

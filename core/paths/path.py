@@ -112,9 +112,6 @@ class Path(Protocol):
     def gentle_lag(self, curvature: float) -> float:
         """Lag from which backwards no handle reverses, where the |curvature| is at most this [1/m]."""
 
-    def gentle_end(self, curvature: float) -> float:
-        """Largest s at which the |curvature| is at most this [1/m]; infinity on a route, whose bends Dance checks."""
-
     def sharpest_before(self, s: float) -> float:
         """Upper bound of the |curvature| under a dragon whose head is at s or before it [1/m]."""
 

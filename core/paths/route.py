@@ -216,10 +216,6 @@ class Route(Readable):
         """Minus infinity, because no handle reverses on a route that a dance can follow."""
         return -math.inf
 
-    def gentle_end(self, curvature: float) -> float:
-        """Infinity, because Dance refuses bends that are too tight."""
-        return math.inf
-
     def sharpest_before(self, s: float) -> float:
         """Upper bound of the |curvature| of the whole route [1/m]."""
         return float(self.sharpest[0] + np.abs(self.table[:, kernels.CURVATURE_SLACK]).max())

@@ -158,10 +158,6 @@ class Spiral(Readable):
 
         return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
 
-    def gentle_end(self, curvature: float) -> float:
-        """Largest s at which the |curvature| is at most this [1/m]."""
-        return self._s(min(self.gentle_lag(curvature), self.start_theta))
-
     def sharpest_before(self, s: float) -> float:
         """Upper bound of the |curvature| at arc length s and before it [1/m]."""
         return float(kernels.spiral_curvature(float(self.theta(min(s, self.length))))) / self.growth

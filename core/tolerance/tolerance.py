@@ -14,11 +14,10 @@ from enum import StrEnum
 import numpy as np
 
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
-from core.contact.walls import own_edges, venue_route
+from core.contact.walls import own_edges
 from core.dance import Dance
 from core.errors import asked_of, checked_type, said
 from core.kernels import Budget
-from core.kernels.constants import HALF_LENGTH, MX, MY, UX, UY
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.shapes.rectangles import bench_poses, frames, frames_separation
@@ -134,17 +133,15 @@ def tolerance(
 
 
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:
-    fields, travels = [], (dance.clock.travel(span[0]), dance.clock.travel(span[1]))
+    fields, first, last, fold = [], dance.clock.travel(span[0]), dance.clock.travel(span[1]), None
+    if dance.nears_fold(span[1]):
+        last, fold = before_fold(last), dance.end.theta
     if dance.dragon.benches > 2:
-        last, fold = travels[1], None
-        if dance.nears_fold(span[1]):
-            last, fold = before_fold(last), dance.end.theta
-        fields.append(Field(dance, None, None, (travels[0], last), fold, NEAR_WORK_BUDGET, budget))
+        fields.append(Field(dance, None, None, (first, last), fold, NEAR_WORK_BUDGET, budget))
     if venue is not None:
-        danced = replace(dance, path=venue_route(dance.path, travels[1]))
         share = NEAR_WORK_BUDGET / len(venue.areas)
         placed = [(area.name, own_edges(area, dance.path.frame)) for area in venue.areas]
-        fields += [Field(danced, edges, name, travels, None, share, budget) for name, edges in placed]
+        fields += [Field(dance, edges, name, (first, last), fold, share, budget) for name, edges in placed]
     return fields
 
 
@@ -159,11 +156,10 @@ def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhib
     if field.edges is None:
         other = frames(pose[b : b + 1], size[b : b + 1])
     else:
-        search = field.search(0.0)
-        search.place_leaders(field.dance.clock.travel(time), a + 1)
-        x, y, ux, uy = (float(search.placed[b, column]) for column in (MX, MY, UX, UY))
-        edge = Body(x, y, math.atan2(uy, ux), 0.0, float(search.sizes[b, HALF_LENGTH]), 0.0)
-        other = frames(np.array([[x, y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
+        x1, y1, x2, y2 = field.edges[b - dragon.benches - 1].tolist()
+        heading = math.atan2(y2 - y1, x2 - x1)
+        edge = Body(0.5 * (x1 + x2), 0.5 * (y1 + y2), heading, 0.0, 0.5 * math.hypot(x2 - x1, y2 - y1), 0.0)
+        other = frames(np.array([[edge.x, edge.y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
     normal = frames_separation(frames(pose[a : a + 1], size[a : a + 1]), other).normal[0]
     pair = (a, b if field.edges is None else None)
     shown = exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), found.stray, time)

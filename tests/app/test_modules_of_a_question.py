@@ -113,7 +113,13 @@ CROSS_CHECK = {
 # A dragon that is not among those kept from the requests before.
 NEW_DRAGON = {"core.dragon"}
 # A contact so near a graze that doubles do not narrow its bracket: the pair in decimals, on the pieces of the path.
-NEAR_GRAZE = {"core.contact.near_graze", "core.paths.pieces", "core.paths.route", "core.sampling"}
+NEAR_GRAZE = {
+    "core.contact.decimal_shapes",
+    "core.contact.near_graze",
+    "core.paths.pieces",
+    "core.paths.route",
+    "core.sampling",
+}
 # Modules that contribute only values, made by the constructors of dataclasses.
 VALUES = {"core.contact.answer", "core.contact.clearance", "core.paths.frame", "core.paths.path"}
 CROSS_CHECK_VALUES = {"core.shapes.overlaps"}

@@ -68,6 +68,9 @@ EXPRESSIONS = {
     "least clearance": "core.least_clearance(Dance(Dragon(20), Spiral()), start=405.0, stop=411.0)",
     "edges of a venue": "core.venue_clearance(Dance(Dragon(4), Turn(1.7)), core.Venue(core.Area("
     "'square', (((-9, -9), (9, -9), (9, 9), (-9, 9), (-9, -9)),))), start=0.0, stop=6.0)",
+    "edges of a venue before a fold": "core.venue_clearance(Dance(Dragon(3), Spiral(0.8, 3.0)), core.Venue(core.Area("
+    "'square', (((-9, -9), (9, -9), (9, 9), (-9, 9), (-9, -9)),)), (core.Area("
+    "'post', (((0, -1.9), (0.1, -1.9), (0, -2), (0, -1.9)),)),)), start=16.0)",
     "highest speed": "core.highest_speed(Dance(Dragon(4), Turn(1.7)), start=8.0, stop=14.0)",
     "highest speed before a fold": "core.highest_speed(Dance(Dragon(4), Spiral(1.2, 3.0)), stop=30.7)",
     "envelope": "core.envelope(Dance(Dragon(4), Turn(1.7)), start=6.0, stop=8.0)",

@@ -8,6 +8,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
+from core import Dragon, minimum_pitch
+from core.design.pitch_bands import BORDER_WIDTH
+
 MARKS = {"clear": "✓", "folds": "!", "contact": "✕", "contact_at_start": "✕"}
 WIDE = {"width": 1440, "height": 900}
 PHONE = {"width": 390, "height": 844}
@@ -61,6 +64,20 @@ def test_a_dance_passes_in_green_alone(visit: Any, query: str, outcome: str, col
     assert verdict(page)[2].startswith(words)
     # The box is drawn anew when another answer of the same dance comes in.
     expect(page.locator("#first-contact .value")).to_have_css("color", tone(page, colour))
+
+
+def test_an_undecided_search_names_in_both_languages_the_pair_that_surely_meets(visit: Any) -> None:
+    pitch = minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH
+    page = visit(f"?benches=60&pitch={pitch!r}")
+    page.locator("#first-contact[data-outcome=undecided]").wait_for()
+    said = page.locator("#first-contact").inner_text()
+    assert re.search(r"Proven clear up to 216\.338\d* s; .+ and .+ meet at 226\.780\d* s at the latest\.", said)
+    page.get_by_role("button", name="中文").click()
+    page.locator("#first-contact", has_text="最迟在 226.780").wait_for()
+    page.locator("#first-contact details").first.evaluate("details => { details.open = true; }")
+    method = page.locator("#first-contact .method").inner_text()
+    assert "之前无法判定，届时" in method
+    assert not re.search("[a-z]{4,}", method)
 
 
 def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(visit: Any) -> None:

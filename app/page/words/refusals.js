@@ -157,7 +157,6 @@ export const WHOLE = {
   "{field} must not make the curve stop or turn on the spot, as between points {first} and {second}": ["Between its points {first+1} and {second+1} the path turns on the spot. Move one of them", "路径在第 {first+1} 点与第 {second+1} 点之间原地折返：请移动其中一个"],
   "{field} is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last} (more along bends)": ["The path is too short: it is {got~} m long, and the dragon takes {least~} m of it, more along bends. Draw it longer, or take fewer benches", "路径太短：长 {got~} m，而队伍要占 {least~} m（弯道处更多）。请延长路径或减少板凳节数"],
   "{field} must not bend tighter than a radius of {least} for the chord of bench {bench} ({chord}), got {bend} near {at}, s = {s}": ["The path bends too tightly near {at}: its radius is {bend}, and {bench} needs {least}", "路径在 {at} 附近弯得过急：半径为 {bend}，而{bench}至少需要 {least}"],
-  "{field} must be at most {last}, when the path becomes too tight for bench {bench}": ["At {last} the path becomes too tight for {bench}: end before that", "到 {last} 时，路径对{bench}来说已弯得过急：请在此之前结束"],
   "the joint of {before} and {after} must close": ["The pieces of the path do not join smoothly at {at}", "路径的各段在 {at} 处没有平滑相接"],
   "the joint of {before} and {after} must be smooth": ["The pieces of the path do not join smoothly at {at}", "路径的各段在 {at} 处没有平滑相接"],
   ...Object.fromEntries(FAULTS),

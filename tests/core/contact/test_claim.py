@@ -78,23 +78,21 @@ def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> Non
     at_start = first_contact(Dance(Dragon(), Spiral(0.35)))
     assert "at 0 s benches {} and {} touch.".format(*at_start.benches) in at_start.certificate.method
     undecided = first_contact(Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0])))
-    clear, _ = undecided.time_bracket
-    assert f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided." in (
-        undecided.certificate.method
-    )
+    clear, touching = undecided.time_bracket
+    never = f"to {clear} s no two benches that share no handle touch; whether any do after that is not decided"
+    met = "before {} s, when benches {} and {} overlap.".format(touching, *undecided.overlapping)
+    assert f"{never} {met}" in undecided.certificate.method
 
 
 def test_nothing_is_said_to_be_clear_where_benches_touch_at_the_start_or_nothing_is_decided() -> None:
     dragon, spiral = Dragon(), Spiral()
     at_start = first_contact(Dance(dragon, spiral), margin=0.2)
     assert (at_start.outcome, at_start.certificate.clear_until) == (Outcome.CONTACT_AT_START, None)
-    seen = float(clearance_profile(Dance(dragon, spiral), 0.0).clearance)
-    undecided = first_contact(Dance(dragon, spiral), margin=seen)
+    seen = float(clearance_profile(Dance(dragon, spiral), 10.0).clearance)
+    undecided = first_contact(Dance(dragon, spiral), margin=seen, start=10.0)
     assert (undecided.outcome, undecided.certificate.clear_until) == (Outcome.UNDECIDED, None)
-    words = (
-        f"from 0 s on it is not decided whether two benches that share no handle are nearer to each other than {seen} m"
-    )
-    assert words in undecided.certificate.method
+    words = f"not decided whether two benches that share no handle are nearer to each other than {seen} m"
+    assert f"from 10 s on it is {words}" in undecided.certificate.method
 
 
 def test_numbers_of_a_claim_have_no_needless_zero_and_no_sign_of_one() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,19 @@ from core import (
     Dance,
     Dragon,
     EndReason,
+    FailureKind,
     InvalidValue,
+    Judgement,
     Outcome,
+    Report,
     Spiral,
+    Turn,
+    check,
     clearance_profile,
     first_contact,
+    least_clearance,
     minimum_pitch,
+    quick_check,
 )
 from core.contact.march import BRACKET
 from core.contact.search import MARGIN_MAX
@@ -270,6 +278,65 @@ def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact() -> 
     assert clear <= bottom
     assert abs(least) <= ROUNDING
     assert within == pytest.approx(first_contact(Dance(Dragon(60), Spiral(free))).time, rel=0, abs=ACCURACY)
+
+
+SLOW = Dragon(20, 1.2, 1.2, 0.8, 0.25)
+
+
+@pytest.mark.parametrize("start", [-194.0, -15.0, -12.1])
+def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(start: float) -> None:
+    """On the way in a turn is the spiral from the same turns; the benches close by 4 mm per metre."""
+    turn, spiral = Dance(SLOW, Turn(1.0, 1.5, start_turns=8.0)), Dance(SLOW, Spiral(1.0, 8.0))
+    later = first_contact(spiral)
+    found = first_contact(turn, start=start)
+    assert (later.outcome, found.outcome) == (Outcome.CONTACT, Outcome.CONTACT)
+    assert found.benches == later.benches
+    assert found.time == pytest.approx(later.time + turn.begin, rel=0, abs=ACCURACY)
+    assert found.time_bracket[0] <= found.time <= found.time_bracket[1] <= found.time_bracket[0] + ACCURACY
+    least = least_clearance(turn, start=start)
+    assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, found.benches)
+    assert least.time == pytest.approx(found.time, rel=0, abs=ACCURACY)
+    assert check(turn, start=start).verdict is Judgement.FAILS
+
+
+def undecided_dance() -> Dance:
+    """Benches 0 and 19 graze to the last digits, and others overlap some seconds later."""
+    return Dance(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH))
+
+
+def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no_bound() -> None:
+    dance = undecided_dance()
+    found, least = first_contact(dance), least_clearance(dance)
+    assert (found.outcome, found.time, found.benches) == (Outcome.UNDECIDED, None, None)
+    assert found.overlapping is not None
+    slow = SlowDance.of(dance.dragon, dance.path)
+    gaps, pairs = slow.clearance([found.time_bracket[1] + 1e-6])
+    assert gaps[0] < 0.0
+    assert tuple(pairs[0]) == found.overlapping
+    assert (least.distance, least.at_least) == (0.0, None)
+    assert slow.pair_gap(least.time + 1e-6, least.benches) < 0.0
+
+
+@pytest.mark.parametrize("judge", [check, quick_check])
+def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge: Callable[..., Report]) -> None:
+    dance = undecided_dance()
+    found, report = first_contact(dance, start=dance.begin), judge(dance)
+    failure = report.failures[0]
+    assert report.verdict is Judgement.FAILS
+    assert (failure.kind, failure.benches) == (FailureKind.CONTACT, found.overlapping)
+    assert (failure.time, failure.time_bracket) == (found.time_bracket[1], found.time_bracket)
+    assert report.stop == pytest.approx(failure.time, rel=0, abs=ACCURACY)
+    assert "at the latest; up to 216." in failure.message
+
+
+def test_without_a_certain_contact_an_undecided_search_stays_undecided() -> None:
+    dance = undecided_dance()
+    stop = first_contact(dance).time_bracket[0] + 1.0
+    found, report = first_contact(dance, stop=stop), check(dance, stop=stop)
+    assert (found.outcome, found.overlapping, found.time_bracket[1]) == (Outcome.UNDECIDED, None, stop)
+    assert report.verdict is Judgement.UNDECIDED
+    assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
+    assert report.least_clearance.at_least is None
 
 
 def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from decimal import Decimal, localcontext
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
 
 import core.contact.near_graze
 from core import (
@@ -17,6 +14,7 @@ from core import (
     Dance,
     Dragon,
     Outcome,
+    Passage,
     Route,
     Spiral,
     Turn,
@@ -25,8 +23,9 @@ from core import (
     minimum_pitch,
     separation,
 )
-from core.contact.near_graze import DIGITS, LAST_BENCH, NEGLIGIBLE, Bench, ExactPair, exact_gap, narrowed
-from core.contact.near_graze import exact_separation as precise_separation
+from core.contact.decimal_shapes import DIGITS
+from core.contact.decimal_shapes import exact_separation as precise_separation
+from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrowed
 from core.contact.search import Search
 from core.kernels import Ended
 from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
@@ -85,51 +84,6 @@ def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path: Spiral | Route
             assert abs(size - 1) < NEGLIGIBLE
 
 
-boxes = st.tuples(
-    *(st.floats(-2, 2), st.floats(-2, 2), st.floats(-math.pi, math.pi), st.floats(0.5, 3), st.floats(0.1, 1))
-)
-
-
-@pytest.mark.uncompiled
-@settings(max_examples=200, deadline=None)
-@given(boxes, boxes)
-# corners that touch but for the last digits: the direction between them is rounding alone
-@example((0.0, 0.0, 0.5, 1.0, 1.0), (-0.479425538604203, 0.8775825618903728, 0.5, 1.0, 1.0))
-def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tuple[float, ...]) -> None:
-    def bench(x: float, y: float, heading: float, length: float, width: float) -> Bench:
-        numbers = (x, y, math.cos(heading), math.sin(heading), 0.5 * length, 0.5 * width)
-        dx, dy, ux, uy, half_length, half_width = map(Decimal, numbers)
-        size = (ux * ux + uy * uy).sqrt()  # a direction in doubles has not quite the length 1
-        return Bench((dx, dy), (ux / size, uy / size), half_length, half_width)
-
-    first, second = bench(*a), bench(*b)
-    distance, axis = precise_separation(first, second)
-    found = separation(a[:3], a[3:], b[:3], b[3:]).separation
-    assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
-    assert float(exact_gap(first, second, axis)) == pytest.approx(float(distance), rel=0, abs=DOUBLE)
-
-
-@pytest.mark.parametrize("owner", [0, 1])
-@pytest.mark.parametrize("across", [Decimal(0), Decimal("0.1")], ids=["faces", "corners"])
-def test_a_bench_that_passed_through_the_other_is_not_apart_along_the_axis_of_its_former_side(
-    owner: int, across: Decimal
-) -> None:
-    """The gap along an axis chosen while the other bench lies to the left is negative once that lies to the right."""
-
-    def bench(x: Decimal, y: Decimal) -> Bench:
-        return Bench((x, y), (Decimal(1), Decimal(0)), Decimal(1), Decimal("0.2"))
-
-    resting = bench(Decimal(0), Decimal(0))
-    sides = [bench(30 * across, Decimal(2)), bench(30 * across, Decimal(-2))]
-    left, right = ((resting, side) if owner == 0 else (side, resting) for side in sides)
-    with localcontext() as context:
-        context.prec = DIGITS
-        distance, axis = precise_separation(*left)
-        assert abs(exact_gap(*left, axis) - distance) < PRECISE
-        assert exact_gap(*right, axis) < 0
-        assert abs(precise_separation(*right)[0] - distance) < PRECISE
-
-
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 @pytest.mark.parametrize("below", [1e-11, 1e-9, 1e-7])
 @pytest.mark.parametrize("head_speed", [0.01, 1.0, 2.0])
@@ -148,6 +102,19 @@ def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, belo
             for time in (clear, within)
         ]
     assert at[0] > 0 >= at[1]
+
+
+@pytest.mark.parametrize("below", [1e-9, 1e-7])
+@pytest.mark.parametrize("margin", [0.0, 0.05])
+def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin: float, below: float) -> None:
+    spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
+    steady = first_contact(Dance(Dragon(60), spiral), margin=margin)
+    passages = [Passage(1.5, until_s=30.0), Passage(0.0, until_time=50.0), Passage(1.0, until_s=100.0)]
+    found = first_contact(Dance(Dragon(60), spiral, 1.0, passages), margin=margin)
+    assert (found.outcome, found.benches) == (Outcome.CONTACT, steady.benches)
+    clear, within = found.time_bracket
+    assert clear < found.time < within <= clear + BRACKET
+    assert found.time == pytest.approx(steady.time + 20.0, rel=0, abs=BRACKET)  # 30 m in 50 s instead of 30 s
 
 
 def grazing() -> tuple[Search, Marched]:

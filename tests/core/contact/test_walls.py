@@ -16,14 +16,16 @@ from core import (
     Coil,
     Dance,
     Dragon,
-    InvalidValue,
+    FailureKind,
     Line,
     Outcome,
-    Quantity,
+    Passage,
     Route,
     Spiral,
     Venue,
+    bench_outlines,
     bench_poses,
+    check,
     trajectory,
     venue_clearance,
 )
@@ -167,15 +169,86 @@ def test_a_spiral_has_its_place_also_before_its_start(start: float, stop: float)
     assert found.distance == pytest.approx(known.min(), abs=1e-3)
 
 
-def test_a_spiral_too_tight_for_the_head_by_the_stop_is_refused() -> None:
-    dance = Dance(Dragon(benches=3), Spiral())
-    for stop, got in ((432.0, "432 s"), (None, "432.917")):
-        with pytest.raises(InvalidValue, match=f"bench 0, got {got}") as refused:
-            venue_clearance(dance, VENUE_ROUND, stop=stop)
-        assert refused.value.field == "stop"
-    last = refused.value.values["last"]
-    assert isinstance(last, Quantity)
-    assert venue_clearance(dance, VENUE_ROUND, stop=last.value).areas[0].outcome is Outcome.CLEAR
+TREE = Area("tree", (((0.0, -4.723129), (0.1, -5.723129), (-0.1, -5.723129), (0.0, -4.723129)),))
+# The place of the least distance, found with slow_search.py and shapely: 3.0085432166 m at 6.50325 s.
+TREE_DISTANCE, TREE_TIME = 3.0085432166, 6.5032
+
+
+@pytest.mark.parametrize("stop", [8.36, None])
+def test_a_tree_beside_the_last_metres_before_a_fold_is_seen(stop: float | None) -> None:
+    dance = Dance(Dragon(1), Spiral(0.8, 2.38))
+    tree = venue_clearance(dance, Venue(VENUE_ROUND.square, (TREE,)), stop=stop).areas[1]
+    assert tree.outcome is Outcome.CLEAR
+    assert tree.nearest.distance == pytest.approx(TREE_DISTANCE, abs=1e-8)
+    assert tree.nearest.at_least is not None
+    assert tree.nearest.at_least <= TREE_DISTANCE
+    assert tree.nearest.time == pytest.approx(TREE_TIME, abs=1e-3)
+
+
+@pytest.mark.parametrize("before", [1.0, 1e-2, 1e-4, 1e-6])
+def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before: float) -> None:
+    """A post whose corner is where the outer rear corner of the head stands at some time [s] before the fold."""
+    dance = Dance(Dragon(3), Spiral(0.8, 3.0))
+    at = dance.end.time - before
+    ahead = shapely_distances(dance.dragon, dance.path, TREE, np.array([at - 1e-9 * before]))  # poses exist there
+    assert np.isfinite(ahead).all()
+    x, y = bench_outlines(dance.dragon, trajectory(dance, [at]).position)[0, 2, 3]
+    out = np.array([x, y]) / np.hypot(x, y)
+    side = np.array([-out[1], out[0]])
+    corner = np.array([x, y]) - 0.001 * out
+    ring = [tuple(corner + 0.5 * out + k * 0.02 * side) for k in (-1, 1)]
+    post = Area("post", ((tuple(corner), *ring, tuple(corner)),))
+    found = venue_clearance(dance, Venue(VENUE_ROUND.square, (post,)), start=dance.end.time - 2.0 * before).areas[1]
+    touching = shapely_distances(dance.dragon, dance.path, post, np.array([at])).min()
+    assert touching == 0.0
+    assert found.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
+    if found.time_bracket is not None:
+        clear, touch = found.time_bracket
+        assert clear <= at
+        assert shapely_distances(dance.dragon, dance.path, post, np.array([touch])).min() < AT_MARGIN
+
+
+@pytest.mark.parametrize("slope", [1e-2, 1e-4, 1e-7])
+@pytest.mark.parametrize("pause", [False, True])
+def test_a_wall_is_met_within_a_nanosecond_however_slowly_a_bench_comes_near(slope: float, pause: bool) -> None:
+    route = Route([Line((-60, 0), (60, 0))], start=60.0)
+    passages = [Passage(1.0, until_s=10.0), Passage(0.0, until_time=13.0)] if pause else []
+
+    def height(x: float) -> float:
+        return 0.15 + slope * (30.0 - x)  # the head's front corner, at 0.15 m, is there at 29.725 s
+
+    wall = Area(
+        "wall", (((-50.0, height(-50.0)), (55.0, height(55.0)), (55.0, 5.0), (-50.0, 5.0), (-50.0, height(-50.0))),)
+    )
+    square = Venue(boxed("square", -70, -9, 70, 9), (wall,))
+    found = venue_clearance(Dance(Dragon(5), route, 1.0, passages), square, nearest=False).areas[1]
+    assert found.outcome is Outcome.CONTACT
+    assert found.time_bracket is not None
+    clear, touching = found.time_bracket
+    assert touching - clear <= 1e-9 * (1.0 + 1e-5)
+    at = 29.725 + (3.0 if pause else 0.0)
+    rounding = 1e-16 / slope  # of the heights of the wall
+    assert clear - rounding <= at <= touching + rounding
+
+
+def test_a_wall_that_stays_at_the_margin_is_undecided_until_a_bench_is_surely_nearer() -> None:
+    """A parallel wall at the margin but for its last digits, and a step of it further on."""
+    route = Route([Line((-60, 0), (60, 0))], start=60.0)
+    ring = ((-50.0, 0.35), (40.0, 0.35), (40.0, 0.3), (50.0, 0.3), (50.0, 5.0), (-50.0, 5.0), (-50.0, 0.35))
+    venue = Venue(boxed("square", -70, -9, 70, 9), (Area("wall", (ring,)),))
+    dance = Dance(Dragon(5), route)
+    found = venue_clearance(dance, venue, margin=0.35 - 0.15).areas[1]
+    assert (found.outcome, found.bench, found.time) == (Outcome.UNDECIDED, None, None)
+    assert found.overlapping == 0
+    assert found.time_bracket is not None
+    touching = found.time_bracket[1]
+    assert shapely_distances(dance.dragon, route, venue.obstacles[0], np.array([touching])).min() < 0.2
+    failure = next(
+        one for one in check(dance, venue=venue, margin=0.35 - 0.15, start=0.0).failures if one.area == "wall"
+    )
+    assert (failure.kind, failure.benches, failure.time_bracket) == (FailureKind.VENUE, (0,), found.time_bracket)
+    assert failure.time == touching
+    assert "at the latest" in failure.message
 
 
 def test_a_dragon_inside_the_square_is_not_misplaced() -> None:

@@ -1,0 +1,249 @@
+"""First contacts, least clearances and verdicts of random dances against a slow search that shares no code with them.
+
+`python -m tests.core.hunt_contacts SEED SECONDS`. Dances are on spirals, on turns and on routes of lines, arcs and
+coils, also from before time 0, with passages and pauses; dragons are uniform or given bench by bench. Half of the
+margins are chosen so that benches only graze, and so meet slowly.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from core import (
+    Arc,
+    BenchDragonError,
+    Coil,
+    Dance,
+    Dragon,
+    Judgement,
+    Line,
+    Outcome,
+    Passage,
+    Route,
+    Spiral,
+    Turn,
+    check,
+    first_contact,
+    least_clearance,
+)
+from tests.core import hunting
+from tests.core.slow_route import SlowRoute
+from tests.core.slow_search import RUN, SPLIT, STEP, SlowDance
+
+# Accuracy of slow clearances [m], and of times at 1 m/s [s].
+GAP, TIME = 1e-9, 1e-9
+# Width of a bracket as promised at 1 m/s [s], and where a second pair or rounding may hide more.
+NARROW = 1e-9
+# Largest number of coarse samples of a slow search: longer dances are cut.
+SAMPLES = 2_000
+# Rounds in which the least of the samples is refined, and the number of dips that are.
+REFINED, DIPS = 3, 4
+# A touch this much above 0 or a margin counts as none, because two benches only graze [m].
+SURE = 1e-8
+
+
+def random_dragon(rng):
+    """3 to 16 benches, uniform or bench by bench."""
+    benches, chord = int(rng.integers(3, 17)), 10.0 ** rng.uniform(-0.3, 0.4)
+    width, overhang = chord * 10.0 ** rng.uniform(-1.0, -0.1), chord * rng.choice([0.0, 0.1, 0.25, 0.4])
+    if rng.uniform() < 0.3:
+        chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
+        overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
+        return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
+    head = chord * 10.0 ** rng.uniform(-0.2, 0.4)
+    return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
+
+
+def random_path(rng, dragon):
+    """A spiral, a turn, or a route of lines, arcs and coils that bends back towards itself."""
+    chord, width = float(dragon.chords.max()), float(dragon.widths.max())
+    kind = rng.choice(["spiral", "turn", "route", "coil"])
+    pitch = float(rng.uniform(0.8, 2.0) * width + rng.uniform(0.0, 0.6) * chord)
+    if kind == "spiral":
+        return Spiral(pitch, float(rng.uniform(1.5, 9.0)))
+    if kind == "turn":
+        radius = float(rng.uniform(1.1, 3.0) * chord)
+        return Turn(
+            pitch, radius, float(rng.uniform(0.6, 2.5)), start_turns=float(radius / pitch + rng.uniform(1.0, 5.0))
+        )
+    if kind == "coil":
+        inner = 1.2 * chord / pitch
+        return Route([Coil(pitch, float(inner + rng.uniform(2.0, 5.0)), float(inner))])
+    radius, sweep = float(rng.uniform(0.55, 1.5) * chord), float(rng.uniform(2.0, 3.1)) * rng.choice([-1, 1])
+    way = float(sum(dragon.chords) + rng.uniform(1.0, 6.0) * chord)
+    end = np.array([radius * np.sin(abs(sweep)), np.sign(sweep) * radius * (1.0 - np.cos(sweep))])
+    heading = np.array([np.cos(sweep), np.sin(sweep)])
+    arc = Arc((0.0, float(np.sign(sweep)) * radius), radius, -0.5 * np.pi * float(np.sign(sweep)), float(sweep))
+    return Route([Line((-way, 0.0), (0.0, 0.0)), arc, Line(tuple(end), tuple(end + way * heading))], start=way)
+
+
+def random_passages(rng):
+    """No passages, or some with pauses, from time 0 on."""
+    if rng.uniform() < 0.6:
+        return ()
+    passages, time = [], 0.0
+    for _ in range(int(rng.integers(1, 4))):
+        time += float(rng.uniform(0.5, 6.0))
+        passages.append(Passage(0.0 if rng.uniform() < 0.4 else float(rng.uniform(0.3, 2.0)), until_time=time))
+    return tuple(passages)
+
+
+def travelled(dance, time):
+    """Travel of the head at a time, by its passages that end at given times [m]."""
+    if time <= 0.0 or not dance.passages:
+        return dance.head_speed * time
+    ends, travel = [0.0, *(passage.until_time for passage in dance.passages)], 0.0
+    for (start, end), passage in zip(pairwise(ends), dance.passages, strict=True):
+        travel += passage.speed * (min(max(time, start), end) - start)
+    return travel + dance.head_speed * max(time - ends[-1], 0.0)
+
+
+class SlowLook:
+    """The slow clearance of a dance between two travels, in samples that are closer around the lowest of them."""
+
+    def __init__(self, slow, begin, until):
+        self.slow, self.begin = slow, begin
+        self.until = min(until, begin + SAMPLES * STEP * slow.chords.min())
+        steps = 3 + int((self.until - begin) / (STEP * slow.chords.min()))
+        part = np.linspace(0.0, 1.0, steps)
+        # handles move as the square root of the way to a fold
+        ahead = until - self.until < 1.0 and not isinstance(slow, SlowRoute)
+        self.travels = begin + (self.until - begin) * (1.0 - (1.0 - part) ** 2 if ahead else part)
+        self.gaps = np.concatenate([slow.clearance(part)[0] for part in np.array_split(self.travels, 1 + steps // 400)])
+        for _ in range(REFINED):
+            self._refine()
+
+    def _refine(self):
+        gaps = np.concatenate([[np.inf], self.gaps, [np.inf]])
+        low = np.flatnonzero((gaps[:-2] >= self.gaps) & (self.gaps <= gaps[2:]))
+        known = [self.travels]
+        for k in low[np.argsort(self.gaps[low])][:DIPS]:
+            ends = self.travels[max(k - 1, 0)], self.travels[min(k + 1, len(self.travels) - 1)]
+            known.append(np.linspace(*ends, SPLIT + 1)[1:-1])
+        new = np.concatenate(known[1:])
+        travels, gaps = np.concatenate([self.travels, new]), np.concatenate([self.gaps, self.slow.clearance(new)[0]])
+        order = np.argsort(travels)
+        self.travels, self.gaps = travels[order], gaps[order]
+
+    def least(self, until=np.inf):
+        """Least gap and its travel, up to one."""
+        seen = self.travels <= until
+        k = int(np.argmin(np.where(seen, self.gaps, np.inf)))
+        return (float(self.gaps[k]), float(self.travels[k])) if seen.any() else (np.inf, self.begin)
+
+    def at(self, travel):
+        """The gap at a travel."""
+        return float(self.slow.clearance([travel])[0][0])
+
+
+def random_case(seed, case):
+    """dance, margin, stop, and the slow look at it; raises: BenchDragonError for what core refuses"""
+    rng = hunting.generator(seed, case)
+    dragon = random_dragon(rng)
+    path = random_path(rng, dragon)
+    dance = Dance(dragon, path, 1.0, random_passages(rng))
+    is_spiral = isinstance(path, Spiral)
+    start = dance.begin - (rng.uniform(0.0, 8.0) if is_spiral and rng.uniform() < 0.3 else 0.0)
+    stop = None if rng.uniform() < 0.6 else float(start + (dance.end.time - start) * rng.uniform(0.3, 1.0))
+    slow = SlowDance.of(dragon, path) if is_spiral else SlowRoute.of(dragon, path)
+    ends = slow.end() if stop is None else travelled(dance, stop)
+    look = SlowLook(
+        slow, travelled(dance, start), RUN * min(ends, dance.end.time) if stop is None and is_spiral else ends
+    )
+    if look.until < ends - 1.0:  # only so much is looked at
+        stop = float(dance.clock.time(look.until))
+    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]) * dragon.widths.max())
+    low = look.least()[0]
+    if rng.uniform() < 0.5 and 0.0 < low < 1e3:  # benches that just graze meet slowly
+        margin = max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-11.0, -2.0), 0.0)
+    return dance, margin, start, stop, look
+
+
+def fault(seed, case):
+    """The kind of one random answer, and its fault in words ('' for none)."""
+    try:
+        dance, margin, start, stop, look = random_case(seed, case)
+    except BenchDragonError as refused:
+        return f"refused: {type(refused).__name__}", ""
+    span = {"start": start, "stop": stop}
+    found = first_contact(dance, margin=margin, **span)
+    path = "spiral" if dance.path.spiral is not None else f"{len(dance.path.pieces)} pieces"
+    kind = f"{path}, {found.outcome.value}{', wide' if is_wide(dance, found) else ''}"
+    known = certain = found.overlapping is not None
+    if known:
+        kind += ", overlap known"
+    wrong = contact_fault(dance, found, margin, look)
+    least = least_clearance(dance, **span)
+    wrong = wrong or least_fault(dance, least, look, found if margin == 0.0 else None)
+    verdict = check(dance, margin=margin, **span).verdict
+    certain = certain or found.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
+    if certain and verdict is not Judgement.FAILS:
+        wrong = wrong or f"{found!r}, but check says {verdict.value}"
+    if verdict is Judgement.PASSES and look.least()[0] < margin - GAP:
+        wrong = wrong or f"check passes, but the gap is {look.least()}"
+    return kind, wrong and f"{wrong} in {dance!r}, margin {margin!r}, {span}"
+
+
+def is_wide(dance, found):
+    """True for the bracket of a contact that is wider than promised."""
+    if found.outcome is not Outcome.CONTACT:
+        return False
+    clear, touching = found.time_bracket
+    return touching - clear > NARROW / min(1.0, dance.clock.slowest) * 1.01
+
+
+def contact_fault(dance, found, margin, look):
+    """What is wrong with a first contact."""
+    if found.outcome is Outcome.CONTACT_AT_START:
+        gap = look.at(look.begin)
+        return f"{found!r}, but the gap is {gap}" if gap > margin + GAP else ""
+    clear = look.until if found.outcome is Outcome.CLEAR else travelled(dance, found.time_bracket[0])
+    least, there = look.least(clear)
+    if least < margin - GAP:
+        return f"proven clear up to {clear} m, but the gap is {least} at {there} m"
+    if found.outcome is Outcome.CONTACT or found.overlapping is not None:
+        touching = travelled(dance, found.time_bracket[1])
+        gap = look.at(touching)
+        if gap > margin + GAP:
+            return f"certain contact at {touching} m, but the gap is {gap}"
+    return ""
+
+
+def least_fault(dance, least, look, contact):
+    """What is wrong with a least clearance. contact: the first one without a margin, if it was asked for"""
+    if least is None:
+        return ""
+    seen = look.until if least.distance > 0.0 else travelled(dance, least.time) - TIME
+    low, there = look.least(seen)
+    if least.at_least is not None and low < least.at_least - GAP:
+        return f"{least!r}, but the gap is {low} at {there} m"
+    if least.distance > 0.0 and low < least.distance - 1.1e-3:
+        return f"{least!r}, but the gap is {low} at {there} m"
+    gap = look.at(travelled(dance, least.time))
+    if abs(max(gap, min(least.distance, 0.0)) - least.distance) > SURE and not (least.distance == 0.0 and gap < SURE):
+        return f"{least!r}, but the gap there is {gap}"
+    if (
+        contact is not None
+        and contact.outcome is Outcome.UNDECIDED
+        and least.distance == 0.0
+        and least.at_least is not None
+    ):
+        return f"{found_words(contact)}, but {least!r}"
+    return ""
+
+
+def found_words(contact):
+    """An undecided first contact."""
+    return f"undecided from {contact.time_bracket[0]} s on"
+
+
+def hunt(seed, seconds):
+    """(cases, faults) of a campaign of some seconds."""
+    found = hunting.hunt(fault, seed, seconds)
+    return found.cases, found.faults
+
+
+if __name__ == "__main__":
+    hunting.main(fault, "dances")

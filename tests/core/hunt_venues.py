@@ -1,0 +1,190 @@
+"""Venues of random dances on spirals, up to the fold, against dense poses compared by shapely.
+
+`python -m tests.core.hunt_venues SEED SECONDS`. Most obstacles have a corner next to a place that a bench passes, many
+of them in the last metres before the fold; spirals stand anywhere, turned and mirrored.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from core import Area, BenchDragonError, Dance, Dragon, Judgement, Outcome, Spiral, Venue, check, venue_clearance
+from tests.core import hunting
+from tests.core.slow_search import RUN, SPLIT, SlowDance
+
+# Accuracy of slow distances [m]: towards a fold handles move without bound for a rounding of the time.
+GAP = 1e-9
+# Number of poses on the way, evenly spaced in time and towards the fold in its square root; rounds and dips in which
+# the least is refined.
+POSES, REFINED, DIPS = 600, 3, 4
+# Largest difference between a distance and its proven bound [m].
+PROVEN = 1.1e-3
+# Width of a bracket as it is promised [s].
+NARROW = 1e-9
+# Half the side of the square [m].
+WIDE = 60.0
+
+
+def random_dragon(rng):
+    """1 to 12 benches, uniform or bench by bench."""
+    benches, chord = int(rng.choice([1, 2, 3, 5, 8, 12])), 10.0 ** rng.uniform(-0.3, 0.5)
+    width, overhang = chord * 10.0 ** rng.uniform(-1.2, -0.3), chord * rng.choice([0.0, 0.1, 0.25])
+    if rng.uniform() < 0.3:
+        chords = chord * 10.0 ** rng.uniform(-0.2, 0.2, benches)
+        return Dragon.of(chords + 2.0 * overhang, np.full(benches, width), np.full(benches, overhang))
+    head = chord * 10.0 ** rng.uniform(-0.2, 0.3)
+    return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
+
+
+class SlowVenue:
+    """Distances of all benches from one area at many times, in the frame of the spiral."""
+
+    def __init__(self, slow, boundary, times):
+        self.slow, self.boundary, self.times = slow, boundary, times
+        self.rows = self.distances(times)
+        for _ in range(REFINED):
+            self._refine()
+
+    def distances(self, times):
+        """(T,) least distance at times (T,) [m]; where they cross, minus the length of the boundary in a bench."""
+        handles = self.slow.handles(times)
+        front, rear = handles[:, :-1], handles[:, 1:]
+        middle, along = 0.5 * (front + rear), front - rear
+        along /= np.linalg.norm(along, axis=-1, keepdims=True)
+        ahead = along * (0.5 * self.slow.lengths)[None, :, None]
+        left = np.stack([-along[..., 1], along[..., 0]], axis=-1) * (0.5 * self.slow.widths)[None, :, None]
+        ring = np.stack(
+            [middle + ahead + left, middle + ahead - left, middle - ahead - left, middle - ahead + left], -2
+        )
+        benches = shapely.polygons(ring)
+        apart = shapely.distance(benches, self.boundary)
+        cut = apart <= 0.0
+        apart[cut] = -shapely.length(shapely.intersection(benches[cut], self.boundary))
+        return apart.min(axis=1)
+
+    def _refine(self):
+        rows = np.concatenate([[np.inf], self.rows, [np.inf]])
+        low = np.flatnonzero((rows[:-2] >= self.rows) & (self.rows <= rows[2:]))
+        new = []
+        for k in low[np.argsort(self.rows[low])][:DIPS]:
+            ends = self.times[max(k - 1, 0)], self.times[min(k + 1, len(self.times) - 1)]
+            new.append(np.linspace(*ends, SPLIT + 1)[1:-1])
+        times = np.concatenate([self.times, *new])
+        rows = np.concatenate([self.rows, self.distances(np.concatenate(new))])
+        order = np.argsort(times)
+        self.times, self.rows = times[order], rows[order]
+
+    def least(self, until=np.inf):
+        """Least distance and its time, up to one."""
+        k = int(np.argmin(np.where(self.times <= until, self.rows, np.inf)))
+        return float(self.rows[k]), float(self.times[k])
+
+
+def random_obstacle(rng, slow, times):
+    """A triangle (3, 2) in the frame of the spiral, with a corner beside a bench or anywhere."""
+    last = float(times[-1] - (times[-1] - times[0]) * rng.uniform() ** 3)
+    handles = slow.handles([last])[0]
+    bench = int(min(rng.integers(0, 4), len(slow.chords) - 1))
+    front, rear = handles[bench], handles[bench + 1]
+    along = (front - rear) / np.linalg.norm(front - rear)
+    left = np.array([-along[1], along[0]]) * rng.choice([-1.0, 1.0])
+    length, width = 0.5 * slow.lengths[bench], 0.5 * slow.widths[bench]
+    gap = 10.0 ** rng.uniform(-6.0, 0.0)
+    if rng.uniform() < 0.5:
+        corner = 0.5 * (front + rear) + along * length * rng.uniform(-1.0, 1.0) + left * (width + gap)
+        away = left
+    else:
+        corner, away = 0.5 * (front + rear) + along * (length + gap) + left * width * rng.uniform(-1.0, 1.0), along
+    if rng.uniform() < 0.2:
+        corner = rng.uniform(-1.0, 1.0, 2) * np.linalg.norm(handles[0]) * 1.5
+    size = 10.0 ** rng.uniform(-2.5, 0.1)
+    side = np.array([-away[1], away[0]]) * size * rng.uniform(0.05, 0.5)
+    return np.stack([corner, corner + away * size + side, corner + away * 0.5 * size - side])
+
+
+def random_case(seed, case):
+    """dance, venue, margin, start, stop, and the slow look at the tree; raises: BenchDragonError for what is refused"""
+    rng = hunting.generator(seed, case)
+    dragon, turns = random_dragon(rng), float(rng.uniform(1.2, 5.0))
+    pitch = float(rng.uniform(0.15, 1.2) * dragon.chords.max())
+    centre, rotation, clockwise = rng.uniform(-20.0, 20.0, 2), float(rng.uniform(-4.0, 4.0)), bool(rng.uniform() < 0.5)
+    dance = Dance(dragon, Spiral(pitch, turns, tuple(centre), rotation, clockwise))
+    slow = SlowDance.of(dragon, Spiral(pitch, turns))
+    end = RUN * min(slow.end(), dance.end.time)  # the slow one may step over a fold beside the centre
+    start = float(end * rng.uniform(0.0, 0.9)) if rng.uniform() < 0.5 else 0.0
+    stop = None if rng.uniform() < 0.6 else float(start + (end - start) * rng.uniform(0.5, 1.0))
+    until = end if stop is None else stop
+    part = np.linspace(0.0, 1.0, POSES)
+    times = np.unique(start + (until - start) * np.concatenate([part, 1.0 - (1.0 - part) ** 2]))
+    triangle = random_obstacle(rng, slow, times)
+    mirrored = triangle if clockwise else triangle * [1.0, -1.0]
+    cos, sin = np.cos(rotation), np.sin(rotation)
+    placed = centre + mirrored @ np.array([[cos, sin], [-sin, cos]])
+    ring = [*map(tuple, placed.tolist()), tuple(placed[0].tolist())]
+    square = [(-WIDE, -WIDE), (WIDE, -WIDE), (WIDE, WIDE), (-WIDE, WIDE), (-WIDE, -WIDE)]
+    venue = Venue(Area("square", (tuple(square),)), (Area("tree", (tuple(ring),)),))
+    look = SlowVenue(slow, shapely.Polygon(triangle).boundary, times)
+    margin = float(rng.choice([0.0, 0.0, 0.1]) * dragon.widths.max())
+    low = look.least()[0]
+    if rng.uniform() < 0.3 and low > 0.0:  # a margin that is hardly reached
+        margin = max(low + rng.choice([-1.0, 1.0]) * 10.0 ** rng.uniform(-10.0, -3.0), 0.0)
+    return dance, venue, margin, start, stop, look
+
+
+def fault(seed, case):
+    """The kind of one random answer, and its fault in words ('' for none)."""
+    try:
+        dance, venue, margin, start, stop, look = random_case(seed, case)
+    except BenchDragonError as refused:
+        return f"refused: {type(refused).__name__}", ""
+    tree = venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]
+    wrong = area_fault(tree, margin, look)
+    report = check(dance, venue=venue, margin=margin, start=start, stop=stop)
+    shown = report.venue.areas[1]
+    seen = look.least(report.stop)[0]
+    if shown.nearest.at_least is not None and shown.nearest.distance > 0.0 and seen < shown.nearest.at_least - GAP:
+        wrong = wrong or f"check until {report.stop}: {shown!r}, but the distance is {seen}"
+    if report.verdict is Judgement.PASSES and seen < margin - GAP:
+        wrong = wrong or f"check passes, but the distance is {seen}"
+    if tree.overlapping is not None and tree.time_bracket[1] <= report.stop and report.verdict is not Judgement.FAILS:
+        wrong = wrong or f"{tree!r}, but check says {report.verdict.value}"
+    kind = tree.outcome.value
+    if tree.outcome is Outcome.CONTACT and tree.time_bracket[1] - tree.time_bracket[0] > 1.01 * NARROW:
+        kind += ", wide"
+    if tree.nearest.at_least is None:
+        kind += ", no bound"
+    return kind, wrong and f"{wrong} in {dance!r}, {venue.obstacles[0].rings!r}, margin {margin!r}, {start}, {stop}"
+
+
+def area_fault(tree, margin, look):
+    """What is wrong with the clearance from one area."""
+    low, there = look.least()
+    nearest = tree.nearest
+    if nearest.at_least is not None and nearest.distance > 0.0 and low < nearest.at_least - GAP:
+        return f"{nearest!r}, but the distance is {low} at {there} s"
+    if max(low, 0.0) < nearest.distance - PROVEN:
+        return f"{nearest!r}, but the distance is {low} at {there} s"
+    if look.distances([nearest.time])[0] > nearest.distance + 1e3 * GAP:
+        return f"{nearest!r}, but there it is {look.distances([nearest.time])[0]}"
+    if tree.outcome is Outcome.CONTACT_AT_START:
+        return f"{tree!r}, but it is {look.rows[0]}" if look.rows[0] > margin + GAP else ""
+    clear = np.inf if tree.outcome is Outcome.CLEAR else tree.time_bracket[0]
+    low, there = look.least(clear)
+    if low < margin - GAP:
+        return f"clear up to {clear} s, but the distance is {low} at {there} s"
+    if tree.outcome is Outcome.CONTACT or tree.overlapping is not None:
+        gap = look.distances([tree.time_bracket[1]])[0]
+        if gap > margin + 1e2 * GAP:
+            return f"{tree!r}, but there it is {gap}"
+    return ""
+
+
+def hunt(seed, seconds):
+    """(cases, faults) of a campaign of some seconds."""
+    found = hunting.hunt(fault, seed, seconds)
+    return found.cases, found.faults
+
+
+if __name__ == "__main__":
+    hunting.main(fault, "venues")

@@ -1,0 +1,113 @@
+"""A dragon on a route, computed a second time slowly and plainly: no code of core but the numbers of its pieces.
+
+Points follow from the definitions of a line, an arc and a coil; every next handle is the root of a distance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import Arc, Coil, Line
+from tests.core.slow_search import SlowDance, arc_length
+
+# Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
+NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
+# Longest arc over its chord, where the chord can follow the route at all [1].
+LONGEST = 0.5 * np.pi
+# Steps of Newton's to the angle of an arc length, which double the digits from a first guess that is good to 0.2 rad.
+ANGLE_STEPS = 6
+
+
+def coil_angle(arc):
+    """Angle of the spiral r = theta at a length from the centre."""
+    theta = np.sqrt(2.0 * arc)
+    for _ in range(ANGLE_STEPS):
+        theta = theta - (arc_length(theta) - arc) / np.hypot(1.0, theta)
+    return theta
+
+
+def piece_length(piece):
+    """Length of a piece [m]."""
+    if isinstance(piece, Line):
+        return float(np.hypot(piece.end[0] - piece.start[0], piece.end[1] - piece.start[1]))
+    if isinstance(piece, Arc):
+        return abs(piece.sweep) * piece.radius
+    ends = arc_length(2.0 * np.pi * np.array([piece.start_turns, piece.end_turns]))
+    return float(abs(ends[1] - ends[0])) * piece.pitch / (2.0 * np.pi)
+
+
+def piece_points(piece, u):
+    """Points and unit tangents (N, 2) at lengths u (N,) from the beginning of a piece [m], also beyond its ends."""
+    if isinstance(piece, Line):
+        along = np.subtract(piece.end, piece.start) / piece_length(piece)
+        return np.array(piece.start) + u[:, None] * along, np.broadcast_to(along, (u.size, 2))
+    if isinstance(piece, Arc):
+        sign = np.sign(piece.sweep)
+        angle = piece.start_angle + sign * u / piece.radius
+        out = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        return np.array(piece.centre) + piece.radius * out, sign * np.stack([-out[:, 1], out[:, 0]], axis=-1)
+    growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
+    theta = coil_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
+    out = np.stack([np.cos(theta + piece.rotation), np.sin(theta + piece.rotation)], axis=-1)
+    tangents = sign * (out + theta[:, None] * np.stack([-out[:, 1], out[:, 0]], axis=-1))
+    tangents /= np.hypot(1.0, theta)[:, None]
+    return np.array(piece.centre) + growth * theta[:, None] * out, tangents
+
+
+@dataclass
+class SlowRoute(SlowDance):
+    """One dragon on pieces (Line, Arc, Coil), head speed 1 m/s; s = 0 is `start` metres from their beginning."""
+
+    pieces: tuple
+    start: float
+
+    @classmethod
+    def of(cls, dragon, route):
+        lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
+        pieces = route.pieces
+        assert all(isinstance(piece, Line | Arc | Coil) for piece in pieces)
+        chords = lengths - 2 * overhangs
+        return cls(chords, lengths, np.array(dragon.widths), 0.0, 0.0, pieces, route.start)
+
+    def end(self):
+        return sum(map(piece_length, self.pieces)) - self.start
+
+    def points(self, s):
+        """Points and unit tangents (N, 2) at arc lengths s (N,)."""
+        joints = np.cumsum([-self.start, *map(piece_length, self.pieces)])
+        on = np.clip(np.searchsorted(joints, s) - 1, 0, len(self.pieces) - 1)
+        points, tangents = np.empty((s.size, 2)), np.empty((s.size, 2))
+        for k, piece in enumerate(self.pieces):
+            there = on == k
+            if there.any():
+                points[there], tangents[there] = piece_points(piece, s[there] - joints[k])
+        return points, tangents
+
+    def behind(self, s, leaders, chord):
+        """Arc lengths and points of the handles a chord behind leaders at s."""
+        low, high = s - LONGEST * chord, s - chord
+        at = s - chord
+        for step in range(NEWTON_STEPS + HALVINGS):
+            points, tangents = self.points(at)
+            apart = leaders - points
+            distance = np.linalg.norm(apart, axis=-1)
+            if np.abs(distance - chord).max() < CLOSE:
+                break
+            near = distance < chord
+            high, low = np.where(near, at, high), np.where(near, low, at)
+            slope = np.maximum((apart * tangents).sum(-1) / distance, 1e-3)
+            moved = at + (distance - chord) / slope
+            inside = (low < moved) & (moved < high) & (step < NEWTON_STEPS)
+            at = np.where(inside, moved, 0.5 * (low + high))
+        return at, points
+
+    def handles(self, times, benches=None):
+        """(T, n + 1, 2) [m]"""
+        s = np.asarray(times, dtype=float)
+        rows = [self.points(s)[0]]
+        for chord in self.chords[:benches]:
+            s, points = self.behind(s, rows[-1], chord)
+            rows.append(points)
+        return np.stack(rows, axis=1)

@@ -1,0 +1,93 @@
+"""Small parts of the random campaigns, and that they find what is false."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core import Coil, Dance, Dragon, Line, Outcome, Route, Turn, first_contact, trajectory, venue_clearance
+from tests.core import hunt_contacts, hunt_venues, hunting
+from tests.core.slow_route import SlowRoute
+from tests.depth import examples
+
+CONTACTS, VENUES = examples(25, 200), examples(25, 200)
+# Places of handles far out on a route [m].
+SAME_PLACE = 1e-10
+
+
+@pytest.mark.parametrize(("fault", "count"), [(hunt_contacts.fault, CONTACTS), (hunt_venues.fault, VENUES)])
+def test_nothing_false_is_found_in_a_small_part(fault: Callable[[int, int], tuple[str, str]], count: int) -> None:
+    found = hunting.hunt(fault, 44, 0.0, count)
+    assert (found.cases, found.faults) == (count, 0)
+    assert len(found.kinds) >= 3  # contacts, clear dances and others
+
+
+@pytest.mark.parametrize(
+    "route",
+    [
+        Turn(1.0, 1.5, 1.3, start_turns=8.0),
+        Route([Coil(1.7, 9.0, 2.0, (3.0, -2.0), 0.7)], start=40.0),
+        Route([Line((0.0, 0.0), (60.0, 25.0))], start=30.0),
+    ],
+    ids=["turn", "coil", "line"],
+)
+def test_the_slow_route_is_the_route(route: Route) -> None:
+    dragon = Dragon(9, 1.3, 1.1, 0.3, 0.1)
+    slow = SlowRoute.of(dragon, route)
+    assert slow.end() == pytest.approx(route.end, rel=0, abs=SAME_PLACE)
+    times = np.linspace(0.0, 0.9 * route.end, 50)
+    np.testing.assert_allclose(
+        slow.handles(times), trajectory(Dance(dragon, route), times).position, rtol=0, atol=SAME_PLACE
+    )
+
+
+def first_where(campaign: Any, wanted: Callable[[Any], bool]) -> tuple[Any, Any]:
+    """The first random case and its answer that are wanted."""
+    for case in range(200):
+        found = campaign(case)
+        if found is not None and wanted(found[1]):
+            return found
+    raise AssertionError("no such case")
+
+
+def test_a_contact_that_is_left_out_or_invented_is_a_fault() -> None:
+    def campaign(case: int) -> Any:
+        dance, margin, start, stop, look = hunt_contacts.random_case(44, case)
+        return (dance, margin, look), first_contact(dance, margin=margin, start=start, stop=stop)
+
+    (dance, margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CONTACT)
+    assert hunt_contacts.contact_fault(dance, found, margin, look) == ""
+    clear = replace(found, outcome=Outcome.CLEAR, time=None, time_bracket=None, benches=None)
+    assert hunt_contacts.contact_fault(dance, clear, margin, look)
+    start, touching = found.time_bracket
+    early = replace(found, time_bracket=(start - 0.1, start - 1e-4))
+    assert hunt_contacts.contact_fault(dance, early, margin - 1e-9, look)
+    late = replace(found, time_bracket=(touching + 0.05, touching + 0.05))
+    assert hunt_contacts.contact_fault(dance, late, margin, look)
+
+
+def test_a_bound_that_is_too_high_and_a_tree_that_is_overlooked_are_faults() -> None:
+    def campaign(case: int) -> Any:
+        dance, venue, margin, start, stop, look = hunt_venues.random_case(44, case)
+        return (margin, look), venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]
+
+    (margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CLEAR)
+    assert hunt_venues.area_fault(found, margin, look) == ""
+    nearest = replace(found.nearest, at_least=found.nearest.distance + 1e-4)
+    assert hunt_venues.area_fault(replace(found, nearest=nearest), margin, look)
+    (margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CONTACT)
+    assert hunt_venues.area_fault(replace(found, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
+
+
+@pytest.mark.parametrize(("seed", "case"), [(1, 6), (1, 11), (1, 201), (3, 130), (3, 186)])
+def test_slow_contacts_of_dances_with_passages_have_narrow_brackets(seed: int, case: int) -> None:
+    """Cases of the campaign whose brackets were up to 6e-7 s wide; corners pass corners in some of them."""
+    dance, margin, start, stop, _ = hunt_contacts.random_case(seed, case)
+    found = first_contact(dance, margin=margin, start=start, stop=stop)
+    assert dance.passages
+    assert found.outcome is Outcome.CONTACT
+    assert not hunt_contacts.is_wide(dance, found)
