@@ -34,8 +34,9 @@ UNPACKED_MAX, PARTS_MAX = 100_000_000, 500
 # Most elements of all parts: result1 has 410,000. openpyxl keeps those of a row in memory, 300 bytes for each (measured
 # 2026-11-22).
 ELEMENTS_MAX = 2_000_000
-# Largest sheet of a workbook: result1 has 449 x 302 cells, in either orientation; and the number of sheets.
-ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 2_000, 1_000, 20
+# Largest sheet of a workbook: result1 has 449 x 302 cells, in either orientation, and 67,425 rows as a list; and the
+# number of sheets.
+ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 70_000, 1_000, 20
 MAIN, MACROS = "xl/workbook.xml", "xl/vbaProject.bin"
 # Names of elements of a sheet; and the beginning of those in Strict Open XML, which openpyxl cannot read.
 CELL, FORMULA, VALUE, MERGED = (
