@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from enum import StrEnum
 from functools import cache
 
 import numpy as np
@@ -30,6 +31,8 @@ TIME_STEP, PITCH_STEP, RESOLUTION = 0.1, 0.001, 1e-10
 PITCH_RANGE = (0.30, 0.55)
 # Head radius from which the way to the circle is checked: the least clearance is inside it [m].
 WAY_RADIUS = 4.8
+# Part of a step by which the last sample may be missed in rounding [1].
+SLACK = 1e-9
 # Function from poses (..., 3) and sizes (..., 2) to corners (..., 4, 2).
 Outline = Callable[[Floats, Floats], Floats]
 
@@ -62,19 +65,49 @@ def angle_sum_time(outline: Outline, angle: float) -> float:
     return bisected(lambda time: reached(np.array([time]))[0], high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
-def stepped_pitch(step: float, right: float) -> float:
-    """Smallest pitch without a contact at the instants of a grid on the way to the circle [m]. right: the exact one"""
+class Sampled(StrEnum):
+    """What the way to the circle is sampled by: time, radius or angle of the head, in equal steps from the start."""
+
+    TIME = "time"
+    RADIUS = "radius"
+    ANGLE = "angle"
+
+
+def sampled_pitch(sampled: Sampled, step: float, right: float) -> float:
+    """Smallest pitch without a contact at samples of the way to the circle [m].
+
+    step: in s, m or rad; the radius is sampled from the circle outwards; right: the exact pitch
+    """
     sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
 
     def clear(pitch: float) -> bool:
         spiral = Spiral(pitch)
-        late, first = (spiral.length - Spiral(pitch, radius / pitch).length for radius in (TURNING_RADIUS, WAY_RADIUS))
-        times = step * np.arange(math.ceil(first / step), math.floor(late / step) + 1, dtype=np.float64)
-        poses = bench_poses(trajectory_of(Dance(Dragon(RING_BENCHES), spiral), times).position)
+        dance = Dance(Dragon(RING_BENCHES), spiral)
+        poses = bench_poses(trajectory_of(dance, _samples(spiral, sampled, step)).position)
+        if not len(poses):
+            return True
         found = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
         return bool(found.separation.min() > 0.0)
 
-    return bisected(clear, right - PITCH_STEP, right, width=RESOLUTION)[1]
+    steps = range(1, math.ceil((right - PITCH_RANGE[0]) / PITCH_STEP))
+    low = next(pitch for k in steps if not clear(pitch := right - k * PITCH_STEP))
+    return bisected(clear, low, min(low + PITCH_STEP, right), width=RESOLUTION)[1]
+
+
+def _samples(spiral: Spiral, sampled: Sampled, step: float) -> Floats:
+    """Times of the samples between WAY_RADIUS and the circle [s], at 1 m/s from the start of the spiral."""
+    if sampled is Sampled.RADIUS:
+        radii = TURNING_RADIUS + step * np.arange(math.floor((WAY_RADIUS - TURNING_RADIUS) / step + SLACK) + 1)
+        return np.array([spiral.length - Spiral(spiral.pitch, r / spiral.pitch).length for r in radii[::-1]])
+    late, first = (
+        spiral.length - Spiral(spiral.pitch, radius / spiral.pitch).length for radius in (TURNING_RADIUS, WAY_RADIUS)
+    )
+    if sampled is Sampled.TIME:
+        return step * np.arange(math.ceil(first / step), math.floor(late / step) + 1, dtype=np.float64)
+    ends = [spiral.start_theta - radius / spiral.growth for radius in (WAY_RADIUS, TURNING_RADIUS)]
+    turned = step * np.arange(math.ceil(ends[0] / step), math.floor(ends[1] / step + SLACK) + 1)
+    thetas = spiral.start_theta - turned
+    return np.array([spiral.length - Spiral(spiral.pitch, theta / (2.0 * math.pi)).length for theta in thetas])
 
 
 def any_touch_at_start(path: Spiral) -> bool:

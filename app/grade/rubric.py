@@ -55,7 +55,9 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
         yield _criterion("speeds", (contact is not None and contact.verdict in GOOD) or None)
     else:
         yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
-    refined, overhang = (_shown(contact, errors & against) for against in (STEPPED, NO_OVERHANG))
+    # A rounded instant is refined or a step of a search: it does not show which.
+    refined = _shown(None if "rounded_instant" in errors else contact, errors & STEPPED)
+    overhang = _shown(contact, errors & NO_OVERHANG)
     yield _criterion("overhang", overhang)
     yield _criterion("refined", refined)
     turning = placed if placed and placed.workbook is Workbook.RESULT4 else None

@@ -15,7 +15,7 @@ import numpy as np
 
 import core
 from app.grade import contacts
-from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, TURNING_RADIUS
+from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, TURNING_RADIUS, Sampled
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance, right_turn
 from app.grade.geometry import Seen, geometries
 from app.grade.labels import SPEED
@@ -27,6 +27,12 @@ SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
 # Steps of time in students' searches for an event [s], and for the highest speed or the graze of a pitch [s].
 EVENT_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.04, 0.05, 0.08, 0.1, 0.2, 0.25, 0.5, 1.0)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+# Steps of students' checks of the way to the circle: in time [s], radius [m] and angle of the head [rad].
+PITCH_SAMPLES = {
+    Sampled.TIME: (1.0, 0.5, 0.2, 0.1),
+    Sampled.RADIUS: (0.1, 0.05, 0.02, 0.01, 0.005),
+    Sampled.ANGLE: (0.2, 0.1, 0.05, 0.02, math.pi / 180.0),
+}
 # Steps of students' searches for the pitch [m].
 PITCH_GRIDS = (0.01, 0.005, 0.001, 0.0005, 0.0001, 0.00005)
 # The turn's speeds peak among the first handles, soon after the entry [s]; and the step in which they are sampled [s].
@@ -109,8 +115,10 @@ def _pitches() -> Iterator[Shortcut]:
     yield Shortcut("pose_on_circle", contacts.circle_pitch(contacts.any_touch_at_start), {})
     yield Shortcut("pose_on_circle_head", contacts.circle_pitch(contacts.head_touches_at_start), {})
     yield Shortcut("one_corner", contacts.circle_pitch(contacts.corner_at_start), {})
-    for step in STEPS[:4]:
-        yield Shortcut("pitch_time_steps", contacts.stepped_pitch(step, right_answer("pitch")), {"step": f"{step:g}"})
+    for sampled, steps in PITCH_SAMPLES.items():
+        for step in steps:
+            pitch = contacts.sampled_pitch(sampled, step, right_answer("pitch"))
+            yield Shortcut(f"pitch_{sampled.value}_steps", pitch, {"step": f"{step:g}"})
     for error, dragon in _other_dragons():
         with suppress(BenchDragonError):
             yield Shortcut(error, core.minimum_pitch(dragon, turning_radius=TURNING_RADIUS).pitch, {})
