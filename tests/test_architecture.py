@@ -314,7 +314,8 @@ ON_SPIRALS = {
     "core.proof.certificate": 2,  # proofs on spirals alone
     "app.files.figures": 1,  # the pitch in a title
     "app.plan.timing": 1,  # radius and angle of a mark
-    "app.grade.geometry": 2,  # known errors on a spiral
+    "app.grade.geometry": 3,  # known errors on a spiral
+    "app.grade.outside": 1,  # handles before its beginning
     "app.grade.rings": 1,
     "app.questions.tolerance": 2,  # a circle, and an error of the pitch
     "app.command.trajectory": 1,  # times before the start

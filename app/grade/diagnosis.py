@@ -9,7 +9,7 @@ motion, of the right one, or by an error in computing them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -38,8 +38,8 @@ STEADY_SHARE, STEADY = 0.9, 1e-5
 # Uncertainty of an instant that the places of all handles show, in units of the last decimal of a place at 1 m/s: their
 # rounding errors, 0.29 units each, average out over more than 300 numbers to 0.017 units.
 INSTANT_OFF = 0.1
-# Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts for
-# it [s, m].
+# Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts
+# for it [s, m].
 INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
 
 
@@ -105,9 +105,8 @@ def _seen(one: JudgedSheet) -> Seen:
     order = np.argsort(one.handles)
     links = np.linalg.norm(np.diff(one.values[:, order, :2], axis=1), axis=-1)
     is_link = np.diff(one.handles[order]) == 1
-    first, others = links[:, is_link & (one.handles[order][:-1] == 0)], links[:, is_link & (one.handles[order][:-1] > 0)]
-    lengths = [_steady(some, STEADY + 2.0 * 10.0**-one.written) for some in (first, others)]
-    head, body = lengths
+    is_head, tolerance = one.handles[order][:-1] == 0, STEADY + 2.0 * 10.0**-one.written
+    head, body = (_steady(links[:, is_link & which], tolerance) for which in (is_head, ~is_head))
     return Seen(_head(one), None if head is None or body is None else (head, body))
 
 
@@ -125,8 +124,9 @@ def _quotients_of(one: JudgedSheet) -> Iterator[Model]:
     step = float(np.median(np.diff(one.times))) if one.times.size > 2 else 0.0
     if step <= 0.0:
         return
-    for error, before, after in (("forward_difference", 0, 1), ("backward_difference", 1, 0), ("central_difference", 1, 1)):
-        values = {"step": f"{step:g}", "span": _span(-before * step, after * step)}
+    spans = {"forward_difference": (0, 1), "backward_difference": (1, 0), "central_difference": (1, 1)}
+    for error, (before, after) in spans.items():
+        values: dict[str, object] = {"step": f"{step:g}", "span": _span(-before * step, after * step)}
         yield Model(error, partial(_own_quotient, one, step, before, after), values)
 
 
@@ -161,7 +161,7 @@ def speed_errors(motion: Motion) -> Iterator[Model]:
             ("backward_difference", -step, 0.0),
             ("central_difference", -step, step),
         ):
-            values = {"step": f"{step:g}", "span": _span(before, after)}
+            values: dict[str, object] = {"step": f"{step:g}", "span": _span(before, after)}
             yield Model(error, partial(_quotient, motion, before, after), values)
 
 

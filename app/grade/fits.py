@@ -1,9 +1,9 @@
 """How well a known error explains the numbers of a sheet, and whether their digits decide for it.
 
 Input: the judgement of a sheet, and models. Output: the one model that explains it, or none. State: none. Argument: two
-numbers are told apart by the digits of a third one where they differ by more than twice its tolerance, because it agrees
-with at most one of them. A model counts only where the digits decide between it and the right motion, and between it and
-every other model that explains the sheet as well; so noise, rounding and cut digits support none.
+numbers are told apart by the digits of a third one where they differ by more than twice its tolerance, because it
+agrees with at most one of them. A model counts only where the digits decide between it and the right motion, and
+between it and every other model that explains the sheet as well; so noise, rounding and cut digits support none.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ LOOKS, LOOK_SHARE = 12, 0.75
 class Fit:
     """Fit of a model to a sheet.
 
-    numbers: (T, H, C) of the model, NaN where the sheet has none; wrong, all: shares of the wrong cells and of all cells
-    that it gives; off: mean distance from the others; count: of wrong cells; is_decided: True if digits decide for it
-    against the right motion
+    numbers: (T, H, C) of the model, NaN where the sheet has none; wrong, all: shares of the wrong cells and of all
+    cells that it gives; off: mean distance from the others; count: of wrong cells; is_decided: True if digits decide
+    for it against the right motion
     """
 
     model: Model
@@ -108,21 +108,21 @@ def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit |
     spans = [each.model.values.get("span") for each in alike]
     if None in spans:
         return None
-    every = {"span": "; ".join(dict.fromkeys(map(str, spans)))}
+    every: dict[str, object] = {"span": "; ".join(dict.fromkeys(map(str, spans)))}
     return replace(best, model=replace(best.model, error="difference_quotient", values=every))
 
 
 def _is_better(one: JudgedSheet, best: Fit, other: Fit) -> bool:
     """True if digits decide between two models that both explain a sheet.
 
-    Two models may be nearer than a student's arithmetic is exact. Then one is better if nearly all numbers agree with it
-    to the last digit that is written, and not with the other.
+    Two models may be nearer than a student's arithmetic is exact. Then one is better if nearly all numbers agree with
+    it to the last digit that is written, and not with the other.
     """
     if _decided(one.values, best.numbers, other.numbers, one.tolerance):
         return True
     known, rounding = np.isfinite(best.numbers) & np.isfinite(other.numbers), ROUNDED * 10.0**-one.written
     exact, less = ((np.abs(one.values - each.numbers)[known] <= rounding).mean() for each in (best, other))
-    return known.sum() >= DECISIVE_LEAST and exact >= EXACT_SHARE and less < WRONG_SHARE
+    return bool(known.sum() >= DECISIVE_LEAST and exact >= EXACT_SHARE and less < WRONG_SHARE)
 
 
 def _together(models: list[Model]) -> dict[str, object]:

@@ -124,7 +124,7 @@ def _other_questions(dance: Dance, times: Floats, head: Floats) -> Iterator[Mode
     other = dance_of(Workbook.RESULT1 if is_turn else Workbook.RESULT4)
     if (shift := _shift(other, times, head)) is not None:
         right = of_dance(other)
-        values = {"question": 1 if is_turn else 4, "shift": f"{shift:+.6g}"}
+        values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": f"{shift:+.6g}"}
         yield Model("other_question", lambda t: right(t + shift), values)
 
 

@@ -27,8 +27,8 @@ DECIMALS_MOST = 12
 ASKED, FLAT = 6, 2e-6
 # Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
 ARITHMETIC = 2e-6
-# Typical factors of numbers in centimetres and millimetres; the shares of the numbers, by size, that must have them; and
-# how much their factors may differ.
+# Typical factors of numbers in centimetres and millimetres; the shares of the numbers, by size, that must have them;
+# and how much their factors may differ.
 SCALES = {1e-2: (50.0, 200.0), 1e-3: (500.0, 2000.0)}
 SPREAD, STEADY = (0.1, 0.25, 0.5, 0.75, 0.9), 1.25
 # Distance within which a number counts for a handle, when labels are compared with the order [m, m/s].

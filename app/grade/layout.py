@@ -185,7 +185,9 @@ def _contact(
         values[0, :, component] = [odd.value(cells[n][k], n, k) * unit for n in rows]
         row[0, :, component], column[0, :, component] = rows, k
     above, aside = (column, row) if turned else (row, column)
-    return Table(grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, odd.notes())
+    return Table(
+        grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, odd.notes()
+    )
 
 
 def _filled(

@@ -1,7 +1,7 @@
 """Names of files that any output can carry.
 
-A ZIP of Windows with Chinese names, unpacked on Linux, leaves names in GBK. Python keeps their bytes as lone surrogates,
-which no JSON, CSV or workbook can hold. State: none.
+A ZIP of Windows with Chinese names, unpacked on Linux, leaves names in GBK. Python keeps their bytes as lone
+surrogates, which no JSON, CSV or workbook can hold. State: none.
 """
 
 from __future__ import annotations
@@ -42,4 +42,8 @@ def _readable(part: str) -> tuple[str, str]:
         chinese = data.decode(CHINESE)
     except UnicodeDecodeError:
         chinese = ""
-    return (chinese, "name_coded") if chinese.isprintable() and chinese else (data.decode(errors="backslashreplace"), "name_escaped")
+    return (
+        (chinese, "name_coded")
+        if chinese.isprintable() and chinese
+        else (data.decode(errors="backslashreplace"), "name_escaped")
+    )

@@ -1,11 +1,11 @@
-"""Typed answers to the contest's questions: whether they are right to their digits, and which known shortcut gives them.
+"""Typed answers to the contest's questions: whether they are right to their digits, and which known shortcut fits.
 
 Input: the name of a number, its value and its rounding. Output: a verdict, remarks and findings. State: none.
 
-A shortcut is only a guess as long as numbers of as many digits fit one by chance. Between the right value and its mirror
-image about the number there are 2 d / u numbers of a last digit u, where d is the number's distance from the right value;
-some of them, f, fit a shortcut. Someone who is nearly right types any of them, so that f u / (2 d) is the chance of such
-a fit. Findings carry it: at most CERTAIN for a diagnosis, at most POSSIBLE for a guess; beyond that nothing is reported.
+A shortcut is only a guess as long as numbers of as many digits fit one by chance. Within the distance d of a number
+from the right value, on both sides of it, there are 2 d / u numbers with a last digit of size u, and some of them, f,
+fit a shortcut. Someone who errs by up to d may type any of them, so that f u / (2 d) is the chance of a fit. Findings
+carry it: at most CERTAIN for a diagnosis, at most POSSIBLE for a guess; beyond that nothing is reported.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ class Graded:
 def graded_number(name: str, value: float, half_unit: float) -> Graded:
     """The grade of one of UNITS. value: in its unit; half_unit: half of its last digit
 
-    A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded the
-    other way, and nothing else follows from that. A pitch is rounded up, because a smaller one is infeasible.
+    A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
+    the other way, and nothing else follows from that. A pitch is rounded up, because a smaller one is infeasible.
     """
     right, asked = right_answer(name), max(half_unit, HALF_ASKED)
     digits = _decimals_of(asked)
@@ -107,7 +107,7 @@ def gives(one: Shortcut, value: float, half_unit: float) -> bool:
 
 
 def chance_of(name: str, value: float, half_unit: float, known: Sequence[Shortcut]) -> float:
-    """Share of the numbers with the same last digit, as far from the right one as this or nearer, that fit a shortcut."""
+    """Share of the numbers with as many decimals, as far from the right one as this or nearer, that fit a shortcut."""
     right, unit = right_answer(name), 2.0 * half_unit
     far = abs(value - right) + half_unit
     near = {round(one.value / unit) for one in known if abs(one.value - right) <= far}

@@ -18,12 +18,11 @@ from app.grade.labels import SPEED
 from app.grade.layout import COMPONENTS, HANDLES, SHEETS, TableKind
 from app.grade.shortcuts import Finding
 from app.grade.words import note
-from core.values import Floats
 
 Mask = NDArray[np.bool_]
 
-# Least share of the handles outside that are written so, and of the cells written so that are outside [1]. A student may
-# take a handle for one outside, or not, where it is near the beginning.
+# Least share of the handles outside that are written so, and of the cells written so that are outside [1]. A student
+# may take a handle for one outside, or not, where it is near the beginning.
 SHARE = 0.95
 # Fewest handles outside, over all instants, that show what was done with them.
 OUTSIDE_LEAST = 10
@@ -44,13 +43,14 @@ def outside_of(one: JudgedSheet) -> Outside | None:
     """What a student wrote for the handles that are not yet on the spiral; None for the right numbers, and others."""
     if one.workbook is not Workbook.RESULT1 or one.table.kind is TableKind.CONTACT:
         return None
-    beyond, missing = _beyond(one), np.isnan(one.values).all(axis=-1)
-    beyond &= ~np.isnan(one.wanted).all(axis=-1)
+    missing: Mask = np.asarray(np.isnan(one.values).all(axis=-1))
+    graded: Mask = np.asarray(~np.isnan(one.wanted).all(axis=-1))
+    beyond: Mask = _beyond(one) & graded
     if beyond.sum() < OUTSIDE_LEAST:
         return None
-    zero = (one.values == 0.0).all(axis=-1)
-    for way, written in (("zero", zero), ("blank", missing & ~np.isnan(one.wanted).all(axis=-1))):
-        if written[beyond].mean() >= SHARE and beyond[written].mean() >= SHARE:
+    zero: Mask = (one.values == 0.0).all(axis=-1)
+    for way, written in (("zero", zero), ("blank", missing & graded)):
+        if written.any() and float(written[beyond].mean()) >= SHARE and float(beyond[written].mean()) >= SHARE:
             return Outside(way, written | (beyond & (zero | missing)), _finding(one, way, written & beyond, beyond))
     if one.table.kind is TableKind.POSITION and _are_on_line(one, beyond):
         return Outside("line", beyond, _finding(one, "line", beyond, beyond))
@@ -101,8 +101,7 @@ def _finding(one: JudgedSheet, way: str, written: Mask, beyond: Mask) -> Finding
         "count": f"{int(written.sum()):,}",
         "outside": f"{int(beyond.sum()):,}",
     }
-    first: Floats = np.argwhere(written)[0]
-    values["time"] = f"{one.times[int(first[0])]:g}"
-    values["handle"] = int(one.handles[int(first[1])])
+    t, h = np.argwhere(written)[0].tolist()
+    values |= {"time": f"{one.times[t]:g}", "handle": int(one.handles[h])}
     of_speed = COMPONENTS[one.table.kind] == (SPEED,)
     return Finding(f"outside_{way}", note(f"error_outside_{way}"), note(f"evidence_outside{'_v' * of_speed}", **values))

@@ -216,7 +216,9 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],
-        digits=len((mantissa if found.verdict is Rating.WRONG else graded_to).lstrip("+-").replace(".", "").lstrip("0")),
+        digits=len(
+            (mantissa if found.verdict is Rating.WRONG else graded_to).lstrip("+-").replace(".", "").lstrip("0")
+        ),
         notes=[one.said(language) for one in found.notes],
         diagnosis=_found([one for one in found.findings if one.chance <= CERTAIN], language),
         possible=_guessed(found.findings, language),

@@ -30,7 +30,7 @@ def tables_of(grid: Grid) -> list[Table]:
 
 
 def _rectangle(grid: Grid) -> list[list[Cell]]:
-    """The cells as a rectangle that begins at the first one; its end is cut off where a stray cell makes it too large."""
+    """The cells as a rectangle that begins at the first one; cut off where a stray cell makes it too large."""
     width = max((k + 1 for row in grid.rows for k, cell in enumerate(row) if cell is not None), default=0)
     height = max((k + 1 for k, row in enumerate(grid.rows) if any(cell is not None for cell in row)), default=0)
     height = min(height, RECTANGLE_MAX // max(width, 1))

@@ -1,6 +1,7 @@
 """Known shortcuts to the contest's four numbers, each recomputed with its result.
 
-Input: the name of a number. Output: the right one, and those of the shortcuts. State: each is computed once in a process.
+Input: the name of a number. Output: the right one, and those of the shortcuts. State: each is computed once in a
+process.
 """
 
 from __future__ import annotations

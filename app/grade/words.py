@@ -77,6 +77,8 @@ WORDS = ERRORS | PAPER | {
         "{count} 个单元格的内容是文本“{text}”而不是数值，第一个是 {cell}。"),
     "text_numbers": ("Numbers that are stored as text: {count}, the first is in {cell}.",
         "{count} 个数值以文本形式保存，第一个在 {cell}。"),
+    "cut": ("Of the sheet {title} only the first {rows} rows were read, because the rows are too wide.",
+        "工作表 {title} 的行过宽：只读取了前 {rows} 行。"),
     "angles": ("The sheet {title} holds angles, which the contest does not ask for: it was not graded.",
         "工作表 {title} 的内容是角度，不属于赛题要求：未评分。"),
     "named_otherwise": ("The name of the file says {named}, but its sheets are laid out as {workbook}: it was graded as {workbook}.",

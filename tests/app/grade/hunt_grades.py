@@ -1,8 +1,9 @@
 """Right students whom the grader might accuse: python -m tests.app.grade.hunt_grades [seed] [seconds]
 
-Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off, from
-single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the benches. None
-has a known error, so that each diagnosis is a fault; so is a verdict "wrong" on a number that is right to its digits.
+Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off,
+from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the
+benches. None has a known error, so that each diagnosis is a fault; so is a verdict "wrong" on a number that is right to
+its digits.
 """
 
 from __future__ import annotations

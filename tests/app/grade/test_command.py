@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from app.files.tables import Language
-from app.grade.report import typed
 from app.grade.numbers import gives
+from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.app.grade.students import CONTACT, contact_workbook, spiral
@@ -78,7 +78,9 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, co
     for name in names:
         folder = os.path.join(os.fsencode(tmp_path), b"class", name)
         os.makedirs(folder)
-        Path(os.fsdecode(os.path.join(folder, b"result2.xlsx"))).write_bytes(contact_workbook(spiral(np.array([CONTACT]))))
+        Path(os.fsdecode(os.path.join(folder, b"result2.xlsx"))).write_bytes(
+            contact_workbook(spiral(np.array([CONTACT])))
+        )
     summary = tmp_path / "summary.csv"
 
     def graded_class(*options: str) -> bytes:
@@ -172,7 +174,9 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
     assert [one.error for one in found.diagnosis] == [certain] * bool(certain)
     assert [one.error for one in found.possible] == [guess] * bool(guess)
     for one in found.possible:
-        assert one.evidence.endswith(f"One in {round(1.0 / one.chance)} numbers with as many digits fits a known error by chance.")
+        assert one.evidence.endswith(
+            f"One in {round(1.0 / one.chance)} numbers with as many digits fits a known error by chance."
+        )
 
 
 def test_no_pitch_of_two_decimals_has_a_cause() -> None:
@@ -206,7 +210,7 @@ def test_the_stated_chance_is_that_of_random_numbers() -> None:
         ("speed", "1.247", "rounded", "to the nearest digit the right one is 1.246 m/s"),
     ],
 )
-def test_a_number_that_is_right_to_its_last_digit_is_not_accused(name: str, text: str, verdict: str, words: str) -> None:
+def test_a_number_right_to_its_last_digit_is_not_accused(name: str, text: str, verdict: str, words: str) -> None:
     found = typed(name, text, Language.ENGLISH)
     assert (found.verdict, found.diagnosis, found.possible) == (verdict, [], [])
     assert words in " ".join(found.notes)
@@ -220,7 +224,9 @@ def test_every_turn_that_may_be_possible_is_a_right_answer_to_question_4(text: s
     assert "right if both places are stated" in found.notes[0]
 
 
-@pytest.mark.parametrize(("text", "verdict"), [("13.62", "right"), ("8.1", "wrong"), ("13.8", "wrong"), ("20.5", "wrong")])
+@pytest.mark.parametrize(
+    ("text", "verdict"), [("13.62", "right"), ("8.1", "wrong"), ("13.8", "wrong"), ("20.5", "wrong")]
+)
 def test_other_turns_are_graded_against_the_one_of_the_contest(text: str, verdict: str) -> None:
     found = typed("turn_length", text, Language.ENGLISH)
     assert (found.verdict, found.notes) == (verdict, [])

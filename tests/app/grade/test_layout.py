@@ -217,14 +217,19 @@ def test_angles_are_not_graded(title: str) -> None:
 
 def test_angles_without_a_name_are_no_centimetres() -> None:
     sheets = few()
-    [sheet] = [one for one in grade(by_xlsxwriter({"Sheet1": in_angles(sheets["速度"])})).sheets if one.holds == "speed"]
+    [sheet] = [
+        one for one in grade(by_xlsxwriter({"Sheet1": in_angles(sheets["速度"])})).sheets if one.holds == "speed"
+    ]
     assert not any("were converted" in note for note in sheet.notes)
 
 
 @pytest.mark.parametrize("factor", [100.0, 1000.0])
 def test_speeds_in_smaller_units_are_read_as_such(factor: float) -> None:
     sheets = few()
-    rows = [sheets["速度"][0], *([row[0].replace(" (m/s)", ""), *(factor * v for v in row[1:])] for row in sheets["速度"][1:])]
+    rows = [
+        sheets["速度"][0],
+        *([row[0].replace(" (m/s)", ""), *(factor * v for v in row[1:])] for row in sheets["速度"][1:]),
+    ]
     found = grade(by_xlsxwriter({"位置": sheets["位置"], "速度": rows}))
     assert found.sheets[1].right == 4 * 224
 
@@ -239,7 +244,9 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles() -> None:
     assert sheet.notes == [f"{100 * 448 + 201 * 2} cells are missing (1 handles and 100 instants without any)."]
 
 
-@pytest.mark.parametrize(("name", "count"), [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)])
+@pytest.mark.parametrize(
+    ("name", "count"), [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)]
+)
 def test_a_file_with_the_name_of_another_question_is_told(name: str, count: int) -> None:
     times = students.TURN_TIMES[:4]
     found = grade(by_xlsxwriter(students.rows_of(students.turn(times), times)), name)

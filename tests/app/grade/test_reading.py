@@ -313,6 +313,24 @@ def test_a_sheet_without_end_is_cut_and_graded() -> None:
     assert grade(small(change)).sheets[0].right == 4 * 448
 
 
+def test_wide_rows_without_end_are_cut_and_that_is_told() -> None:
+    """A single cell far to the right in each of many rows stands for as many blanks before it."""
+    book, sink = openpyxl.Workbook(write_only=True), io.BytesIO()
+    for title, rows in few().items():
+        sheet = book.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+        for k in range(3_000 if title == "速度" else 0):
+            sheet.append([None] * 999 + [k])
+    book.save(sink)
+    found = grade(sink.getvalue())
+    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
+    [note] = found.notes
+    assert re.fullmatch(
+        r"Of the sheet 速度 only the first 2,\d{3} rows were read, because the rows are too wide.", note
+    )
+
+
 def test_a_budget_ends_the_reading() -> None:
     budget = Budget()
     budget.stop("now")
