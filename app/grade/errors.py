@@ -86,7 +86,7 @@ ERRORS = {
         "数值由正确值向下舍入：此螺距会发生碰撞，同样位数的最小可行螺距为 {up} m。"),
     "pitch_rounded_up": ("The number is the right one, rounded up, as a pitch must be; to the nearest digit it is {nearest} {unit}.",
         "数值由正确值向上舍入（螺距应当如此）；四舍五入为 {nearest} {unit}。"),
-    "rounded_otherwise": ("The number is off by less than its last digit; to the nearest digit the right one is {nearest} {unit}.",
+    "rounded_otherwise": ("The number is off by less than a unit of its last digit; to the nearest digit the right one is {nearest} {unit}.",
         "数值与正确值相差不到末位的一个单位；四舍五入为 {nearest} {unit}。"),
     "possible_turn": ("A turn of this length is possible where the dance enters the circle and leaves it elsewhere: the answer is right if both places are stated. The turn from the edge of the circle is {length} m long.",
         "若自由选取调头的进入点和离开点，这样的长度是可能的：说明这两个位置即为正确答案。从圆的边界进入时，调头曲线长 {length} m。"),

@@ -81,7 +81,9 @@ class DiagnosisAnswer(Answer):
 class GuessAnswer(DiagnosisAnswer):
     """A known error that may explain a number, whose digits are too few to decide."""
 
-    chance: float = Field(description="Share of the numbers with as many digits that fit a known error by chance")
+    probability: float = Field(
+        description="Share of the numbers with as many digits, as far from the right one or nearer, that fit a known error"
+    )
 
 
 class CriterionAnswer(Answer):
@@ -239,7 +241,7 @@ def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswe
             error=one.error,
             words=say("may_be", language, error=one.said.said(language)),
             evidence=f"{one.evidence.said(language)} {say('chance', language, count=round(1.0 / one.chance))}",
-            chance=one.chance,
+            probability=one.chance,
         )
         for one in findings
         if one.chance > CERTAIN

@@ -175,7 +175,7 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
     assert [one.error for one in found.possible] == [guess] * bool(guess)
     for one in found.possible:
         assert one.evidence.endswith(
-            f"One in {round(1.0 / one.chance)} numbers with as many digits fits a known error by chance."
+            f"One in {round(1.0 / one.probability)} numbers with as many digits fits a known error by chance."
         )
 
 
@@ -191,7 +191,7 @@ def test_the_stated_chance_is_that_of_random_numbers() -> None:
     known = [*shortcuts("pitch"), *pitch_grids()]
     fits = [text for text in texts if any(gives(one, float(text), 0.5e-4) for one in known)]
     [guess] = typed("pitch", "0.4202", Language.ENGLISH).possible
-    assert guess.chance == pytest.approx(len(fits) / len(texts), rel=0.2)
+    assert guess.probability == pytest.approx(len(fits) / len(texts), rel=0.2)
 
 
 @pytest.mark.parametrize(

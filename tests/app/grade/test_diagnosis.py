@@ -169,7 +169,7 @@ def test_a_rounded_instant_that_fits_a_shortcut_is_only_a_guess() -> None:
     found = grade(students.contact_workbook(spiral(np.array([406.43]))))
     assert [one.error for one in found.diagnosis] == ["other_instant"]
     [guess] = found.possible
-    assert (guess.error, 0.002 < guess.chance < 0.05) == ("loose_angle", True)
+    assert (guess.error, 0.002 < guess.probability < 0.05) == ("loose_angle", True)
     assert guess.words.startswith("Possibly: ")
     assert {point.criterion: point.met for point in found.rubric}["refined"] is not True
 
