@@ -213,12 +213,20 @@ def test_quotients_of_the_own_places_are_told() -> None:
     assert one.error == "backward_difference"
 
 
-def test_errors_that_give_the_same_digits_are_named_together() -> None:
-    # Two decimals do not tell quotients over 0.5 s from those over 0.2 s.
-    position, speed = students.quotient(-0.5, 0.0, turn)
-    found = grade(students.lines((position.round(3), speed.round(3)), TURN_TIMES)).diagnosis
-    assert [one.error for one in found] == ["backward_difference"]
-    assert found[0].words.endswith("with a step of 0.5 s.")
+def test_quotients_that_give_the_same_digits_are_named_together() -> None:
+    """On the spiral the speeds hardly change in 0.1 s: with a little noise three quotients agree with them."""
+    position, speed = students.quotient(0.0, 0.1)
+    noisy = speed + np.random.default_rng(3).uniform(-1e-6, 1e-6, speed.shape)
+    [one] = grade(students.lines((position, noisy), SPIRAL_TIMES)).diagnosis
+    spans = "t ... t + 0.1 s; t - 0.1 ... t s; t - 0.05 ... t + 0.05 s"
+    assert one.words == f"The speeds are difference quotients. These all give the same digits: {spans}."
+
+
+def test_errors_that_give_the_same_digits_are_not_told() -> None:
+    """With three decimals, quotients over 0.1 s agree with the right speeds too."""
+    position, speed = students.quotient(0.0, 0.1)
+    found = grade(students.lines((position.round(3), speed.round(3)), SPIRAL_TIMES))
+    assert (found.verdict, found.diagnosis) == ("rounded", [])
 
 
 def test_last_digits_support_no_error() -> None:
