@@ -84,6 +84,8 @@ ERRORS = {
         "尚未进入螺线的把手排在一条直线上：它们应位于同一螺线从起点向外的延长线上。"),
     "pitch_rounded_down": ("The number is the right one, rounded down: benches touch at this pitch, and {up} m is the smallest of as many digits at which none do.",
         "数值由正确值向下舍入：此螺距会发生碰撞，同样位数的最小可行螺距为 {up} m。"),
+    "pitch_overlap": ("At this pitch benches overlap while the head goes from {first} m to {last} m from the centre: only a check of its way at radii more than {way} mm apart can miss that.",
+        "在此螺距下，龙头距中心从 {first} m 到 {last} m 的途中板凳重叠：只有极径间隔大于 {way} mm 的检验才会漏掉。"),
     "pitch_rounded_up": ("The number is the right one, rounded up, as a pitch must be; to the nearest digit it is {nearest} {unit}.",
         "数值由正确值向上舍入（螺距应当如此）；四舍五入为 {nearest} {unit}。"),
     "rounded_otherwise": ("The number is off by less than a unit of its last digit; to the nearest digit the right one is {nearest} {unit}.",

@@ -14,6 +14,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from app.grade.contacts import PITCH_RANGE, longest_overlap
 from app.grade.judged import Rating
 from app.grade.shortcuts import UNITS, Finding, Shortcut, pitch_grids, right_answer, shortcuts
 from app.grade.words import Note, note
@@ -30,6 +31,8 @@ DIGITS_SHARE = 2e-3
 CERTAIN, POSSIBLE = 2e-4, 0.1
 # Shortcuts that students hand in exactly must agree to this, in the unit of the number; or to its digits.
 EXACTLY = 1e-6
+# Longest overlap on the way to the circle that a check of it in steps may miss [m].
+OVERLAP_MOST = 0.1
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
 # Shortest turn that counts as possible [m]. Question 4 leaves open where the dance enters the circle and leaves it. The
@@ -68,7 +71,19 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
         return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
     if name == "turn_length" and TURN_LENGTH_LEAST - half_unit <= value < right:
         return Graded(Rating.RIGHT, [note("possible_turn", length=f"{right:.7f}")], [])
-    return Graded(Rating.WRONG, [], explained(name, value, half_unit))
+    notes = _overlap_of(value) if name == "pitch" and value < right else []
+    return Graded(Rating.WRONG, notes, explained(name, value, half_unit))
+
+
+def _overlap_of(pitch: float) -> list[Note]:
+    """Where benches overlap at a pitch that is a little too small, which shows how finely the way must be checked."""
+    if pitch <= PITCH_RANGE[0] or (found := longest_overlap(pitch)) is None:
+        return []
+    way = found[0] - found[1]
+    if way > OVERLAP_MOST:
+        return []
+    values = {"first": f"{found[0]:.6f}", "last": f"{found[1]:.6f}", "way": f"{1000.0 * way:.3g}"}
+    return [note("pitch_overlap", **values)]
 
 
 def _decimals_of(half_unit: float) -> int:

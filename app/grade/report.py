@@ -82,7 +82,7 @@ class GuessAnswer(DiagnosisAnswer):
     """A known error that may explain a number, whose digits are too few to decide."""
 
     probability: float = Field(
-        description="Share of the numbers with as many digits, as far from the right one or nearer, that fit a known error"
+        description="Share of the numbers with as many digits, as near to the right one, that fit a known error"
     )
 
 

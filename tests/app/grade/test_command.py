@@ -179,6 +179,24 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
         )
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        # The overlaps were found by scipy's brentq on the gap of the nearest benches.
+        ("0.449610", "from 4.586996 m to 4.559133 m ... more than 27.9 mm apart"),
+        ("0.4503313691", "from 4.573875 m to 4.571339 m ... more than 2.54 mm apart"),
+        ("0.46", ""),
+        ("0.44", ""),
+    ],
+)
+def test_a_pitch_that_is_a_little_too_small_is_told_where_benches_overlap(text: str, words: str) -> None:
+    """Many ways to sample the way give such a pitch, so that none of them is told."""
+    found = typed("pitch", text, Language.ENGLISH)
+    assert (found.diagnosis, found.possible) == ([], [])
+    assert all(part in " ".join(found.notes) for part in words.split(" ... "))
+    assert ("overlap" in " ".join(found.notes)) is bool(words)
+
+
 def test_no_pitch_of_two_decimals_has_a_cause() -> None:
     for hundredths in range(30, 60):
         found = typed("pitch", f"0.{hundredths}", Language.ENGLISH)
