@@ -3,12 +3,13 @@
 Input: the judgement of a sheet, and models. Output: the one model that explains it, or none. State: none. Argument: two
 numbers are told apart by the digits of a third one where they differ by more than twice its tolerance, because it
 agrees with at most one of them. A model counts only where the digits decide between it and the right motion, and
-between it and every other model that explains the sheet as well; so noise, rounding and cut digits support none.
+between it and every other model that explains the sheet as well, the right numbers with a small bias among them; so
+noise, rounding, cut digits and a slightly wrong constant support none.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,6 +30,9 @@ WRONG_SHARE, ALL_SHARE = 0.9, 0.95
 DECISIVE_LEAST = 10
 # Share of the numbers that agree with exact arithmetic to their last digit [1].
 EXACT_SHARE = 0.99
+# Least size of a number that shows by which part a student's numbers are too large [m, m/s]; and largest bias [m, m/s,
+# 1].
+LARGE, BIAS_MOST = 0.5, 1e-3
 # Instants at which a model is tried first, and share of their cells that it must give to be tried at all instants [1].
 LOOKS, LOOK_SHARE = 12, 0.75
 
@@ -100,7 +104,9 @@ def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit |
     if not found:
         return None
     best = max(found, key=lambda one: (round(one.all, 3), -one.off))
-    alike = [each for each in found if not _is_better(one, best, each)]
+    if any(_gives(one, numbers) and not _is_better(one, best.numbers, numbers) for numbers in _biased(one)):
+        return None
+    alike = [each for each in found if not _is_better(one, best.numbers, each.numbers)]
     if len(plain := [each for each in alike if each.model.is_plain]) == 1:
         return plain[0]
     if len({each.model.error for each in alike}) == 1:
@@ -112,17 +118,46 @@ def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit |
     return replace(best, model=replace(best.model, error="difference_quotient", values=every))
 
 
-def _is_better(one: JudgedSheet, best: Fit, other: Fit) -> bool:
-    """True if digits decide between two models that both explain a sheet.
+def _biased(one: JudgedSheet) -> Iterator[Floats]:
+    """The right numbers with the student's own bias: each component moved, or scaled, by the same amount everywhere.
+
+    A small bias has many causes, and it can be as large as what a difference quotient adds to every speed.
+    """
+    off, large = one.values - one.wanted, np.abs(one.wanted) > LARGE
+    part = off / np.where(large, one.wanted, 1.0)
+    moved, scaled = one.wanted.copy(), one.wanted.copy()
+    for c in range(off.shape[-1]):
+        known = np.isfinite(off[..., c])
+        moved[..., c] += _small(off[..., c][known])
+        scaled[..., c] *= 1.0 + _small(part[..., c][known & large[..., c]])
+    yield from (moved, scaled)
+
+
+def _small(biases: Floats) -> float:
+    """The middle one of some biases, or the largest that counts as one."""
+    return float(np.clip(np.median(biases), -BIAS_MOST, BIAS_MOST)) if biases.size else 0.0
+
+
+def _gives(one: JudgedSheet, numbers: Floats) -> bool:
+    """True if nearly all numbers of a sheet agree with these (T, H, C)."""
+    known = np.isfinite(one.values) & np.isfinite(numbers)
+    return bool(known.any() and (np.abs(one.values - numbers)[known] <= one.tolerance).mean() >= ALL_SHARE)
+
+
+def _is_better(one: JudgedSheet, best: Floats, other: Floats) -> bool:
+    """True if digits decide between the numbers (T, H, C) of two models that both explain a sheet.
 
     Two models may be nearer than a student's arithmetic is exact. Then one is better if nearly all numbers agree with
     it to the last digit that is written, and not with the other.
     """
-    if _decided(one.values, best.numbers, other.numbers, one.tolerance):
+    if _decided(one.values, best, other, one.tolerance):
         return True
-    known, rounding = np.isfinite(best.numbers) & np.isfinite(other.numbers), ROUNDED * 10.0**-one.written
-    exact, less = ((np.abs(one.values - each.numbers)[known] <= rounding).mean() for each in (best, other))
-    return bool(known.sum() >= DECISIVE_LEAST and exact >= EXACT_SHARE and less < WRONG_SHARE)
+    rounding = ROUNDED * 10.0**-one.written
+    apart = np.isfinite(one.values) & (np.abs(best - other) > 0.5 * rounding)
+    if apart.sum() < DECISIVE_LEAST:
+        return False
+    exact, less = (float((np.abs(one.values - each)[apart] <= rounding).mean()) for each in (best, other))
+    return exact >= EXACT_SHARE and less < WRONG_SHARE
 
 
 def _together(models: list[Model]) -> dict[str, object]:

@@ -2,8 +2,8 @@
 
 Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off,
 from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the
-benches. None has a known error, so that each diagnosis is a fault; so is a verdict "wrong" on a number that is right to
-its digits.
+benches or come from a solver, or with a small bias. None has a known error, so that each diagnosis is a fault; so is a
+verdict "wrong" on a number that is right to its digits.
 """
 
 from __future__ import annotations
@@ -67,6 +67,21 @@ def along_benches(values: Floats, random: Random) -> Floats:
     return values + np.cumsum(steps, axis=1)
 
 
+def of_solver(values: Floats, random: Random) -> Floats:
+    """Smooth errors over handles and instants, as from a solver that stops early, the same in x, y and speed or not."""
+    waves = random.uniform(0.0, 0.5, 2)
+    t, h = np.meshgrid(*(np.arange(size) for size in values.shape[:2]), indexing="ij")
+    shape = np.sin(waves[0] * t + waves[1] * h + random.uniform(0.0, 6.0))
+    return values + 10.0 ** -random.uniform(4.0, 8.0) * shape[..., None] * random.uniform(-1.0, 1.0, 3)
+
+
+def biased(values: Floats, random: Random) -> Floats:
+    """All speeds, or all places, too small or too large by the same part."""
+    found, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
+    found[..., which] *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
+    return found
+
+
 def last_digit(values: Floats, random: Random) -> Floats:
     """Some cells off by one in the sixth decimal."""
     return np.round(values, 6) + 1e-6 * random.integers(-1, 2, values.shape) * (random.random(values.shape) < 0.1)
@@ -96,7 +111,8 @@ def missing(values: Floats, random: Random) -> Floats:
 
 
 CHANGES: list[Callable[[Floats, Random], Floats]] = [
-    single_precision, noise, noise_of_one_kind, along_benches, last_digit, few_cells, exchanged, missing,
+    single_precision, noise, noise_of_one_kind, along_benches, of_solver, biased, last_digit, few_cells, exchanged,
+    missing,
 ]  # fmt: skip
 
 

@@ -237,6 +237,17 @@ def test_last_digits_support_no_error() -> None:
     assert (found.verdict, found.diagnosis, found.possible) == ("rounded", [], [])
 
 
+def test_speeds_with_a_small_bias_are_no_quotients() -> None:
+    """Those over 0.01 s are too large by 5e-6 m/s at nearly all handles, as any speeds with such a bias are."""
+    position, speed = spiral(AT_CONTACT)
+    found = grade(students.contact_workbook((position, speed + 4.8e-6)))
+    assert (found.verdict, found.diagnosis) == ("rounded", [])
+    before = spiral(AT_CONTACT - 0.01)[0]
+    quotients = np.linalg.norm(position - before, axis=-1) / 0.01
+    [one] = grade(students.contact_workbook((position, quotients))).diagnosis
+    assert one.words == "The speeds are backward difference quotients with a step of 0.01 s."
+
+
 def test_sparse_instants_do_not_contradict_the_speeds() -> None:
     """Over a minute a handle turns: its way is far from its speed times the time."""
     position, speed = spiral(SPIRAL_TIMES[::60])
