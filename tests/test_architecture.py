@@ -184,17 +184,24 @@ ORDER = (
     "app.grade.errors",
     "app.grade.paper",
     "app.grade.words",
+    "app.grade.names",
     "app.grade.grid",
     "app.grade.workbook",
     "app.grade.reading",
     "app.grade.labels",
+    "app.grade.cells",
     "app.grade.layout",
+    "app.grade.lists",
+    "app.grade.sheets",
     "app.grade.expected",
     "app.grade.judged",
     "app.grade.chains",
     "app.grade.geometry",
     "app.grade.contacts",
     "app.grade.shortcuts",
+    "app.grade.numbers",
+    "app.grade.fits",
+    "app.grade.outside",
     "app.grade.rings",
     "app.grade.diagnosis",
     "app.grade.rubric",
@@ -309,7 +316,8 @@ ON_SPIRALS = {
     "core.proof.certificate": 2,  # proofs on spirals alone
     "app.files.figures": 1,  # the pitch in a title
     "app.plan.timing": 1,  # radius and angle of a mark
-    "app.grade.geometry": 2,  # known errors on a spiral
+    "app.grade.geometry": 3,  # known errors on a spiral
+    "app.grade.outside": 1,  # handles before its beginning
     "app.grade.rings": 1,
     "app.questions.tolerance": 2,  # a circle, and an error of the pitch
     "app.command.trajectory": 1,  # times before the start

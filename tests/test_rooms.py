@@ -20,9 +20,9 @@ TOGETHER = {
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
     " contest/sensitivity contest/solved contest/tables",
     "files/test_film.py": "files/film_spec questions/films",
-    "grade/test_command.py": "command/grade grade/contacts grade/shortcuts",
-    "grade/test_diagnosis.py": "grade/chains grade/geometry grade/rings grade/rubric",
-    "grade/test_layout.py": "grade/labels grade/report grade/judged",
+    "grade/test_command.py": "command/grade grade/contacts grade/names grade/numbers grade/shortcuts",
+    "grade/test_diagnosis.py": "grade/chains grade/fits grade/geometry grade/outside grade/rings grade/rubric",
+    "grade/test_layout.py": "grade/cells grade/judged grade/labels grade/lists grade/report grade/sheets",
     "grade/test_reading.py": "grade/expected grade/grid grade/workbook",
     "grade/test_service.py": "files/workbooks service/graders service/uploads",
     "grade/test_words.py": "grade/errors",

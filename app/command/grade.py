@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
@@ -137,7 +137,8 @@ def _typed(one: TypedAnswer, language: Language) -> Iterator[show.Part]:
     yield from (f"  {words}" for words in one.notes)
     if one.verdict != "right":
         yield "  " + say("is_right", language, right=f"{one.expected:.9f}", unit=one.unit)
-        yield from _diagnosis(one.diagnosis, language)
+    if one.verdict == "wrong":
+        yield from _diagnosis([*one.diagnosis, *one.possible], language)
     yield ""
 
 
@@ -147,7 +148,7 @@ def _file(file: FileAnswer, language: Language) -> Iterator[show.Part]:
     for sheet in file.sheets:
         yield from _sheet(sheet, language)
     if file.diagnosis or file.verdict == "wrong":
-        yield from _diagnosis(file.diagnosis, language)
+        yield from _diagnosis([*file.diagnosis, *file.possible], language)
     marks = {True: "+", False: "-", None: " "}
     yield from (f"  [{marks[one.met]}] {one.words}" for one in file.rubric)
     yield ""
@@ -170,7 +171,7 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
         yield from (f"    {line}" for line in sheet.picture)
 
 
-def _diagnosis(found: list[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
+def _diagnosis(found: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
     if not found:
         yield "  " + say("nothing_fits", language)
     for one in found:

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from enum import StrEnum
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core import Dance, Dragon, Spiral, bench_outlines, bench_poses, clearance_profile, separation
 from core import trajectory as trajectory_of
@@ -28,8 +30,12 @@ RING_BENCHES = 40
 TIME_STEP, PITCH_STEP, RESOLUTION = 0.1, 0.001, 1e-10
 # Pitches that students and the paper try [m].
 PITCH_RANGE = (0.30, 0.55)
+# Step of the radii at which an overlap is looked for [m], and part of it to which its ends are narrowed [1].
+OVERLAP_STEP, OVERLAP_SHARE = 0.0002, 1e-6
 # Head radius from which the way to the circle is checked: the least clearance is inside it [m].
 WAY_RADIUS = 4.8
+# Part of a step by which the last sample may be missed in rounding [1].
+SLACK = 1e-9
 # Function from poses (..., 3) and sizes (..., 2) to corners (..., 4, 2).
 Outline = Callable[[Floats, Floats], Floats]
 
@@ -62,19 +68,82 @@ def angle_sum_time(outline: Outline, angle: float) -> float:
     return bisected(lambda time: reached(np.array([time]))[0], high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
-def stepped_pitch(step: float, right: float) -> float:
-    """Smallest pitch without a contact at the instants of a grid on the way to the circle [m]. right: the exact one"""
+class Sampled(StrEnum):
+    """What the way to the circle is sampled by: time, radius or angle of the head, in equal steps from the start."""
+
+    TIME = "time"
+    RADIUS = "radius"
+    ANGLE = "angle"
+
+
+def sampled_pitch(sampled: Sampled, step: float, right: float) -> float:
+    """Smallest pitch without a contact at samples of the way to the circle [m].
+
+    step: in s, m or rad; the radius is sampled from the circle outwards; right: the exact pitch
+    """
     sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
 
     def clear(pitch: float) -> bool:
         spiral = Spiral(pitch)
-        late, first = (spiral.length - Spiral(pitch, radius / pitch).length for radius in (TURNING_RADIUS, WAY_RADIUS))
-        times = step * np.arange(math.ceil(first / step), math.floor(late / step) + 1, dtype=np.float64)
-        poses = bench_poses(trajectory_of(Dance(Dragon(RING_BENCHES), spiral), times).position)
+        dance = Dance(Dragon(RING_BENCHES), spiral)
+        poses = bench_poses(trajectory_of(dance, _samples(spiral, sampled, step)).position)
+        if not len(poses):
+            return True
         found = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
         return bool(found.separation.min() > 0.0)
 
-    return bisected(clear, right - PITCH_STEP, right, width=RESOLUTION)[1]
+    steps = range(1, math.ceil((right - PITCH_RANGE[0]) / PITCH_STEP))
+    low = next(pitch for k in steps if not clear(pitch := right - k * PITCH_STEP))
+    return bisected(clear, low, min(low + PITCH_STEP, right), width=RESOLUTION)[1]
+
+
+def longest_overlap(pitch: float) -> tuple[float, float] | None:
+    """Radii of the head [m] between which benches overlap longest on the way from WAY_RADIUS to the circle.
+
+    None without an overlap. The radii are searched in steps of OVERLAP_STEP, then by bisection.
+    """
+    spiral, sizes = Spiral(pitch), np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
+    dance = Dance(Dragon(RING_BENCHES), spiral)
+
+    def overlap(radii: Floats) -> NDArray[np.bool_]:
+        poses = bench_poses(trajectory_of(dance, _times(spiral, radii / spiral.growth)).position)
+        gaps = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:]).separation
+        return np.asarray(gaps.min(axis=1) <= 0.0)
+
+    def border(clear: float, touching: float) -> float:
+        def is_past(share: float) -> bool:
+            return bool(overlap(np.array([clear + share * (touching - clear)]))[0])
+
+        return clear + bisected(is_past, 0.0, 1.0, width=OVERLAP_SHARE)[1] * (touching - clear)
+
+    radii: Floats = np.arange(WAY_RADIUS, TURNING_RADIUS, -OVERLAP_STEP, dtype=np.float64)
+    touching = overlap(radii)
+    changes = np.flatnonzero(np.diff(np.concatenate([[False], touching, [False]]).astype(np.int8))).tolist()
+    if not changes:
+        return None
+    first, after = max(zip(changes[::2], changes[1::2], strict=True), key=lambda pair: pair[1] - pair[0])
+    begin = border(radii[first - 1], radii[first]) if first else WAY_RADIUS
+    return begin, border(radii[after], radii[after - 1]) if after < radii.size else TURNING_RADIUS
+
+
+def _samples(spiral: Spiral, sampled: Sampled, step: float) -> Floats:
+    """Times of the samples between WAY_RADIUS and the circle [s], at 1 m/s from the start of the spiral."""
+    first, last = (radius / spiral.growth for radius in (WAY_RADIUS, TURNING_RADIUS))
+    if sampled is Sampled.RADIUS:
+        radii = TURNING_RADIUS + step * np.arange(math.floor((WAY_RADIUS - TURNING_RADIUS) / step + SLACK) + 1)
+        return _times(spiral, np.asarray(radii[::-1] / spiral.growth, dtype=np.float64))
+    if sampled is Sampled.TIME:
+        early, late = _times(spiral, np.array([first, last])).tolist()
+        return step * np.arange(math.ceil(early / step), math.floor(late / step) + 1, dtype=np.float64)
+    turned = [spiral.start_theta - theta for theta in (first, last)]
+    steps = np.arange(math.ceil(turned[0] / step), math.floor(turned[1] / step + SLACK) + 1)
+    return _times(spiral, np.asarray(spiral.start_theta - step * steps, dtype=np.float64))
+
+
+def _times(spiral: Spiral, thetas: Floats) -> Floats:
+    """Times at which the head has these polar angles [s]."""
+    arcs = 0.5 * spiral.growth * (thetas * np.sqrt(1.0 + thetas**2) + np.arcsinh(thetas))
+    return np.asarray(spiral.length - arcs)
 
 
 def any_touch_at_start(path: Spiral) -> bool:

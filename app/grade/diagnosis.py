@@ -1,57 +1,46 @@
 """The known error that explains the wrong cells of a workbook.
 
 Input: the judgements of its sheets. Output: findings, each with the numbers that support it; none if nothing fits.
-State: none. Argument: an error is recomputed as a model, and counts only if it gives nearly all of the wrong cells.
-First the positions are explained, by an error of geometry or by the right motion; then the speeds, by those of the same
-motion or by an error in computing them.
+State: none. Argument: an error is recomputed as a model, and counts only if it gives nearly all of the wrong cells, and
+if digits decide for it (app/grade/fits.py). First come the handles outside the spiral, which are left out of the rest;
+then the positions are explained, by an error of geometry or by the right motion; then the speeds, by those of the same
+motion, of the right one, or by an error in computing them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
-from app.grade.geometry import Model, geometries, time_at
-from app.grade.judged import RIGHT, ROUNDED, JudgedSheet
+from app.grade.fits import best_fit, finding, is_given_by
+from app.grade.geometry import Model, Seen, geometries, time_at
+from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
-from app.grade.layout import COMPONENTS, HANDLES, SHEETS, Ints, TableKind
+from app.grade.layout import HANDLES, TableKind
+from app.grade.numbers import explained, rounded_right
+from app.grade.outside import Outside, outside_of, same_cells, without
 from app.grade.rings import places, wrong_ring
-from app.grade.shortcuts import Finding, explained
+from app.grade.shortcuts import Finding
 from app.grade.words import note
 from core import Budget, Dance
 from core.values import Floats
 
-# Shares of the wrong cells, and of all cells, that a model must give [1].
-WRONG_SHARE, ALL_SHARE = 0.9, 0.95
-# Instants at which a model is tried first, and share of their cells that it must give to be tried at all instants [1].
-LOOKS, LOOK_SHARE = 12, 0.75
-# Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
-ARITHMETIC = 2e-6
 # Fewest decimals with which errors can be told apart.
 DECIMALS_LEAST = 2
-# Uncertainty of an instant that follows from the head's place [s].
-INSTANT_OFF = 1e-5
 # Steps of difference quotients to try [s].
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)
-
-
-@dataclass(frozen=True)
-class _Fit:
-    """Fit of a model: shares of the wrong cells and of all cells that it gives, and mean distance from the others."""
-
-    wrong: float
-    all: float
-    off: float
-    count: int
-    tolerance: float
-
-    @property
-    def explains(self) -> bool:
-        return self.wrong >= WRONG_SHARE and self.all >= ALL_SHARE
+# Share of the links that must have the length of the others, and by how much it may differ, beside rounding [m].
+STEADY_SHARE, STEADY = 0.9, 1e-5
+# Uncertainty of an instant that the places of all handles show, in units of the last decimal of a place at 1 m/s: their
+# rounding errors, 0.29 units each, average out over more than 300 numbers to 0.017 units.
+INSTANT_OFF = 0.1
+# Step of the derivative by which an instant is improved [s]; and largest change, or distance of a handle that counts
+# for it [s, m].
+INSTANT_STEP, INSTANT_FAR = 1e-4, 1e-3
 
 
 def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
@@ -59,77 +48,98 @@ def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
     written = max((one.written for one in judgements), default=0)
     # A sheet of whole numbers, such as equal speeds, has the decimals of the other one.
     judgements = [one if one.written >= DECIMALS_LEAST else replace(one, written=written) for one in judgements]
-    if written < DECIMALS_LEAST or not any(one.is_off for one in judgements):
+    if written < DECIMALS_LEAST:
         return []
     by_kind = {one.table.kind: one for one in judgements}
     if TableKind.CONTACT in by_kind:
-        return _of_contact(by_kind[TableKind.CONTACT], budget)
-    return _over_time(by_kind.get(TableKind.POSITION), by_kind.get(TableKind.SPEED), budget)
+        contact = by_kind[TableKind.CONTACT]
+        return _of_contact(contact, budget) if contact.is_off else []
+    position, speed = by_kind.get(TableKind.POSITION), by_kind.get(TableKind.SPEED)
+    found, position, speed = _outside(position, speed)
+    return found + _over_time(position, speed, budget)
 
 
-def _fit(one: JudgedSheet, given: Floats, at: Ints | slice = slice(None)) -> _Fit:
-    """given: (T, HANDLES, 3), motion of a model at the times of the sheet, or at the ones in `at`"""
-    components = list(COMPONENTS[one.table.kind])
-    known = one.handles < given.shape[1]
-    off = np.abs(one.values[at][:, known] - given[:, one.handles[known]][..., components])
-    wrong = one.off[at][:, known] > RIGHT
-    tolerance = ROUNDED * 10.0**-one.written + ARITHMETIC
-    present, fits = np.isfinite(off), off <= tolerance
-    count = int(wrong.sum())
-    share = float(fits[wrong].mean()) if count else 1.0
-    if not present.any():
-        return _Fit(0.0, 0.0, np.inf, count, tolerance)
-    return _Fit(share, float(fits[present].mean()), float(np.median(off[present])), count, tolerance)
-
-
-def _best(one: JudgedSheet, times: Floats, models: Iterable[Model], budget: Budget) -> tuple[Model, _Fit] | None:
-    """The model that explains a sheet best; None if none does."""
-    found: list[tuple[Model, _Fit]] = []
-    some = np.unique(np.linspace(0, times.size - 1, LOOKS).astype(np.int64))
-    for model in models:
-        budget.look()
-        # Most models are already far off at a few instants.
-        is_near = _fit(one, model.motion(times[some]), some).all >= LOOK_SHARE
-        if is_near and (fit := _fit(one, model.motion(times))).explains:
-            found.append((model, fit))
-    return max(found, key=lambda pair: (round(pair[1].all, 3), -pair[1].off), default=None)
-
-
-def _finding(model: Model, fit: _Fit, one: JudgedSheet) -> Finding:
-    worst = one.worst()
-    assert worst is not None
-    values = {
-        "sheet": one.table.title or note(SHEETS[one.table.kind]),
-        "share": f"{100 * fit.wrong:.1f}",
-        "count": fit.count,
-        "tolerance": f"{fit.tolerance:.1e}",
-        "worst": f"{one.off[worst]:.6g}",
-        "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
-    }
-    return Finding(model.error, note(f"error_{model.error}", **model.values), note("evidence", **values))
+def _outside(
+    position: JudgedSheet | None, speed: JudgedSheet | None
+) -> tuple[list[Finding], JudgedSheet | None, JudgedSheet | None]:
+    """The finding on handles that are not yet on the spiral, and the sheets without those."""
+    outside: Outside | None = outside_of(position) if position else None
+    of_speed = outside_of(speed) if speed else None
+    findings = [one.finding for one in (outside, of_speed) if one][:1]
+    if outside and position:
+        if speed:
+            speed = without(speed, same_cells(outside, position, speed))
+        position = without(position, outside.cells)
+    if of_speed and speed:
+        speed = without(speed, of_speed.cells)
+    return findings, position, speed
 
 
 def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: Budget) -> list[Finding]:
     either = position or speed
     assert either is not None
     dance = dance_of(either.workbook)
-    base: Motion | None = of_dance(dance)
-    findings: list[Finding] = []
+    right = of_dance(dance)
+    motions, findings, unexplained = [right], [], False
     if position and position.is_off:
-        found = _best(position, position.times, geometries(dance, position.times, _head(position)), budget)
-        base = found[0].motion if found else None
-        if found:
-            findings.append(_finding(*found, position))
+        if found := best_fit(position, geometries(dance, position.times, _seen(position)), budget):
+            motions = [found.model.motion]
+            findings.append(finding(found, position))
         elif ring := wrong_ring(position):
             findings.append(ring)
-    if speed is None or not speed.is_off or (base and _fit(speed, base(speed.times)).explains):
+        unexplained = not findings
+    if speed is None or not speed.is_off or any(is_given_by(speed, Model("", motion)) for motion in motions):
         return findings
-    models = [*speed_errors(base)] if base else [_equal_speeds()]
+    models = list(speed_errors(motions[0]))
     if position is None:
-        models += geometries(dance, speed.times, None)
-    if found := _best(speed, speed.times, models, budget):
-        findings.append(_finding(*found, speed))
+        models += geometries(dance, speed.times, Seen())
+    elif unexplained:
+        models += _quotients_of(position)
+    if found := best_fit(speed, models, budget):
+        findings.append(finding(found, speed))
     return findings
+
+
+def _seen(one: JudgedSheet) -> Seen:
+    """What the places of a sheet show of free values."""
+    order = np.argsort(one.handles)
+    links = np.linalg.norm(np.diff(one.values[:, order, :2], axis=1), axis=-1)
+    is_link = np.diff(one.handles[order]) == 1
+    is_head, tolerance = one.handles[order][:-1] == 0, STEADY + 2.0 * 10.0**-one.written
+    head, body = (_steady(links[:, is_link & which], tolerance) for which in (is_head, ~is_head))
+    return Seen(_head(one), None if head is None or body is None else (head, body))
+
+
+def _steady(lengths: Floats, tolerance: float) -> float | None:
+    """The length that nearly all links have [m]; None if they differ."""
+    known = lengths[np.isfinite(lengths)]
+    if not known.size:
+        return None
+    middle = float(np.median(known))
+    return middle if float((np.abs(known - middle) <= tolerance).mean()) >= STEADY_SHARE else None
+
+
+def _quotients_of(one: JudgedSheet) -> Iterator[Model]:
+    """Difference quotients of the places in the student's own sheet, whatever these are."""
+    step = float(np.median(np.diff(one.times))) if one.times.size > 2 else 0.0
+    if step <= 0.0:
+        return
+    spans = {"forward_difference": (0, 1), "backward_difference": (1, 0), "central_difference": (1, 1)}
+    for error, (before, after) in spans.items():
+        values: dict[str, object] = {"step": f"{step:g}", "span": _span(-before * step, after * step)}
+        yield Model(error, partial(_own_quotient, one, step, before, after), values)
+
+
+def _own_quotient(one: JudgedSheet, step: float, before: int, after: int, times: Floats) -> Floats:
+    """Numbers (T, HANDLES, 3) with speeds from the places of the sheet, NaN elsewhere."""
+    found = np.full((times.size, HANDLES, 3), np.nan)
+    for n, time in enumerate(times):
+        ends = [np.flatnonzero(np.abs(one.times - time - at * step) < INSTANT_STEP) for at in (-before, after)]
+        if all(end.size for end in ends):
+            way = one.values[ends[1][0], :, :2] - one.values[ends[0][0], :, :2]
+            known = one.handles < HANDLES
+            found[n, one.handles[known], SPEED] = np.linalg.norm(way[known], axis=-1) / (step * (before + after))
+    return found
 
 
 def _head(one: JudgedSheet) -> Floats | None:
@@ -151,7 +161,14 @@ def speed_errors(motion: Motion) -> Iterator[Model]:
             ("backward_difference", -step, 0.0),
             ("central_difference", -step, step),
         ):
-            yield Model(error, partial(_quotient, motion, before, after), {"step": f"{step:g}"})
+            values: dict[str, object] = {"step": f"{step:g}", "span": _span(before, after)}
+            yield Model(error, partial(_quotient, motion, before, after), values)
+
+
+def _span(before: float, after: float) -> str:
+    """Times of a difference quotient, as in "t ... t + 0.1 s"."""
+    first, last = ("t" + (f" {'-' if end < 0.0 else '+'} {abs(end):g}" if end else "") for end in (before, after))
+    return f"{first} ... {last} s"
 
 
 def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Floats:
@@ -163,22 +180,42 @@ def _quotient(motion: Motion, before: float, after: float, times: Floats) -> Flo
 
 def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
     """Findings on result2, whose instant follows from the place of the head."""
-    dance, head = dance_of(Workbook.RESULT2), _head(one)
+    dance, seen = dance_of(Workbook.RESULT2), _seen(one)
     right = of_dance(dance)
-    for instant in [contact_time(), *(_instants(dance, head) if head is not None else [])]:
-        at, is_other = np.array([instant]), instant != contact_time()
-        models = [Model("other_instant", right, {"time": f"{instant:.6f}"})] if is_other else []
-        models += [*geometries(dance, at, None), *speed_errors(right)]
-        if found := _best(one, at, models, budget):
-            return [_finding(*found, one), *(_why_then(instant) if is_other else [])]
+    instants = [contact_time(), *(_instants(dance, seen.head) if seen.head is not None else [])]
+    for instant in instants:
+        is_other = instant is not instants[0]
+        instant = _improved(one, right, instant) if is_other else instant
+        at = replace(one, times=np.array([instant]))
+        models = [Model("other_instant", right, {"time": f"{instant:.6f}"}, is_plain=True)] if is_other else []
+        models += [*geometries(dance, at.times, Seen(None, seen.chords)), *speed_errors(right)]
+        if found := best_fit(at, models, budget):
+            return [finding(found, at), *(_why_then(instant, one.written) if is_other else [])]
     return []
 
 
-def _why_then(instant: float) -> list[Finding]:
-    """Shortcuts that give an instant, either exactly or as a rounded number."""
-    decimals = next((k for k in range(4) if abs(round(instant, k) - instant) < INSTANT_OFF), 4)
-    exact = round(instant, decimals) if decimals < 4 else instant
-    return explained("collision_time", exact, INSTANT_OFF) or explained("collision_time", exact, 0.5 * 10.0**-decimals)
+def _improved(one: JudgedSheet, right: Motion, instant: float) -> float:
+    """The instant at which all handles are nearest to their places in the sheet, by least squares [s]."""
+    known, time = one.handles < HANDLES, instant
+    for _ in range(3):
+        ends = right(time + INSTANT_STEP * np.array([-1.0, 0.0, 1.0]))[:, one.handles[known], :2]
+        slope, off = (ends[2] - ends[0]) / (2.0 * INSTANT_STEP), one.values[0, known, :2] - ends[1]
+        present = np.isfinite(off) & (np.abs(off) < INSTANT_FAR)
+        time += float((slope * off)[present].sum() / max(float((slope**2)[present].sum()), INSTANT_STEP))
+    return time if abs(time - instant) < INSTANT_FAR else instant
+
+
+def _why_then(instant: float, written: int) -> list[Finding]:
+    """The rounding, or else the shortcuts, that give an instant, either exactly or as a rounded number."""
+    off = INSTANT_OFF * 10.0**-written
+    if (decimals := rounded_right("collision_time", instant, off)) is not None:
+        said = note("error_rounded_instant", decimals=decimals)
+        return [Finding("rounded_instant", said, note("evidence_rounded_instant", time=f"{contact_time():.6f}"))]
+    exact = explained("collision_time", instant, off)
+    decimals = next((k for k in range(4) if abs(round(instant, k) - instant) < off), None)
+    if exact or decimals is None:
+        return exact
+    return explained("collision_time", round(instant, decimals), 0.5 * 10.0**-decimals)
 
 
 def _instants(dance: Dance, head: Floats) -> Iterator[float]:

@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from app.grade.chains import Bent, equal_arcs, on_bent, rounded_angles
-from app.grade.expected import PITCH, Motion, of_dance, right_turn
+from app.grade.expected import PITCH, Motion, Workbook, dance_of, of_dance, right_turn
 from core import BenchDragonError, Dance, Dragon, Spiral, Turn
 from core.values import Floats
 
@@ -25,52 +25,107 @@ CONSTANT_DECIMALS, ANGLE_DECIMALS = (2, 3, 4, 5), (1, 2, 3, 4, 5)
 PI_ROUNDED = (3.14, 3.1416)
 # Step of the search for the time at which the head passes a place [m], and largest distance from that place [m].
 PLACE_STEP, PLACE_NEAR = 0.01, 0.05
+# Least and largest shift of the times that is looked for [s]: six decimals of the head's place show 1e-6 s.
+SHIFT_LEAST, SHIFT_MOST = 1e-5, 500.0
+# Largest distance of a start from one of three decimals, at which it counts as that one [turns].
+SIMPLE_TURNS = 1e-5
+# Decimals of a length that a student types, error of a length that is measured between places of six decimals [m], and
+# difference below which two lengths are the same [m].
+LENGTH_DECIMALS, MEASURED, SAME_LENGTH = (2, 3, 4, 5), 2e-6, 1e-4
 
 
 @dataclass(frozen=True)
 class Model:
-    """A known error, recomputed. error: its name; motion: its result; values: numbers in its words"""
+    """A known error, recomputed. error: its name; motion: its result; values: numbers in its words
+
+    is_plain: True if others beside it have a further error
+    """
 
     error: str
     motion: Motion
     values: dict[str, object] = field(default_factory=dict)
+    is_plain: bool = False
 
 
-def geometries(dance: Dance, times: Floats, head: Floats | None) -> Iterator[Model]:
-    """Every known error in the positions, the likeliest first.
+@dataclass(frozen=True)
+class Seen:
+    """What the student's sheet shows of free values.
 
-    times: (T,) [s] of the sheet; head: (T, 2) [m] the head in the student's sheet, NaN where it is missing
+    head: (T, 2) [m], NaN where it is missing; None if the sheet has no places of the head
+    chords: distances [m] between the first two handles, and between any two others, if they are steady; else None
     """
+
+    head: Floats | None = None
+    chords: tuple[float, float] | None = None
+
+
+def geometries(dance: Dance, times: Floats, seen: Seen) -> Iterator[Model]:
+    """Every known error in the positions, the likeliest first. times: (T,) [s] of the sheet"""
     right = of_dance(dance)
     yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
     yield Model("equal_arcs", equal_arcs(dance))
     yield from _other_dragons(dance)
+    yield from _own_lengths(dance, seen)
     spiral = dance.path.spiral
     if spiral is None:
         yield from _other_turns(dance, right_turn())
     else:
         yield from _other_angles(dance, spiral, times.size > 1)
         yield from _rounded_spirals(dance, spiral)
-    if head is not None:
-        yield from _other_starts(dance, times, head)
+    if seen.head is not None:
+        yield from _other_starts(dance, times, seen.head)
+        yield from _other_questions(dance, times, seen.head)
+
+
+# Lengths and overhangs of benches by the known errors in the distances of the handles [m].
+OTHER_LENGTHS = {
+    "length_for_chord": {"head_length": 3.41, "body_length": 2.20, "overhang": 0.0},
+    "overhang_once": {"head_length": 3.41, "body_length": 2.20, "overhang": 0.1375},
+    "head_as_body": {"head_length": 2.20},
+    "body_as_head": {"body_length": 3.41},
+}
 
 
 def _other_dragons(dance: Dance) -> Iterator[Model]:
     """Wrong distances between the handles."""
-    benches, right = dance.dragon.benches, Dragon()
-    lengths = {"head_length": 3.41, "body_length": 2.20}
-    half = 0.5 * right.overhangs[0]
-    for error, given in (
-        ("length_for_chord", lengths | {"overhang": 0.0}),
-        ("overhang_once", lengths | {"overhang": float(half)}),
-        ("head_as_body", {"head_length": 2.20}),
-        ("body_as_head", {"body_length": 3.41}),
-    ):
-        dragon = Dragon(benches, **given)
-        try:
-            yield Model(error, of_dance(Dance(dragon, dance.path)))
-        except BenchDragonError:  # The arcs are too tight for this chord: a handle would jump.
-            yield Model(error, on_bent(dragon, Bent(right_turn(), tuple(arcs_of(right_turn())))))
+    for error, given in OTHER_LENGTHS.items():
+        yield Model(error, _of_dragon(dance, Dragon(dance.dragon.benches, **given)))
+
+
+def _of_dragon(dance: Dance, dragon: Dragon) -> Motion:
+    try:
+        return of_dance(Dance(dragon, dance.path))
+    except BenchDragonError:  # The arcs are too tight for this chord: a handle would jump.
+        return on_bent(dragon, Bent(right_turn(), tuple(arcs_of(right_turn()))))
+
+
+def _own_lengths(dance: Dance, seen: Seen) -> Iterator[Model]:
+    """Distances between the handles that are steady in the student's sheet, and neither right nor a known error."""
+    if seen.chords is None:
+        return
+    known = [Dragon(2), *(Dragon(2, **given) for given in OTHER_LENGTHS.values())]
+    if any(np.abs(dragon.chords[:2] - seen.chords).max() < SAME_LENGTH for dragon in known):
+        return
+    head, body = (_simple(chord) for chord in seen.chords)
+    margin = 2.0 * float(Dragon(1).overhangs[0])
+    with suppress(BenchDragonError):
+        dragon = Dragon(dance.dragon.benches, head_length=head + margin, body_length=body + margin)
+        yield Model("own_lengths", _of_dragon(dance, dragon), {"head": f"{head:.6g}", "body": f"{body:.6g}"})
+
+
+def _simple(length: float) -> float:
+    """A measured length with as few decimals as it allows, because students type lengths [m]."""
+    return next((one for k in LENGTH_DECIMALS if abs((one := round(length, k)) - length) < MEASURED), length)
+
+
+def _other_questions(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
+    """The numbers of another question, at the times at which its head is at the student's places."""
+    is_turn = dance.path.spiral is None
+    other = dance_of(Workbook.RESULT1 if is_turn else Workbook.RESULT4)
+    if (shift := _shift(other, times, head)) is not None:
+        right = of_dance(other)
+        values: dict[str, object] = {"question": 1 if is_turn else 4, "shift": f"{shift:+.6g}"}
+        yield Model("other_question", lambda t: right(t + shift), values)
 
 
 def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
@@ -85,12 +140,9 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
         return np.asarray((path.length - arc) / dance.head_speed)
 
     def circles(t: Floats) -> Floats:
-        return np.sqrt(np.maximum(start**2 - 2.0 * t / b, 0.0))  # ds = r dtheta
-
-    def no_logarithm(t: Floats) -> Floats:
-        whole = 0.5 * b * start * math.sqrt(1.0 + start**2) - t
-        square = 2.0 * np.maximum(whole, 0.0) / b
-        return np.sqrt(np.maximum(0.5 * (np.sqrt(1.0 + 4.0 * square**2) - 1.0), 0.0))
+        # ds = r dtheta; the arc length without its logarithm gives the same six decimals: theta sqrt(1 + theta^2) is
+        # theta^2 + 1/2 - 1 / (8 theta^2), and theta is 25 or more.
+        return np.sqrt(np.maximum(start**2 - 2.0 * t / b, 0.0))
 
     def steady(t: Floats) -> Floats:
         return start - t / (b * start)  # the angular speed of the start, kept
@@ -112,7 +164,6 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
         return lambda t: right(head_at(law(t)))
 
     yield Model("arc_of_circle", led_by(circles))
-    yield Model("arc_without_logarithm", led_by(no_logarithm))
     yield Model("steady_angle", led_by(steady))
     yield Model("euler_steps", led_by(explicit))
     for decimals in ANGLE_DECIMALS if many else ():
@@ -164,21 +215,35 @@ def _other_starts(dance: Dance, times: Floats, head: Floats) -> Iterator[Model]:
     known = np.flatnonzero(np.isfinite(head).all(axis=1))
     if not known.size:
         return
-    first, path, spiral = known[0], dance.path, dance.path.spiral
+    first, spiral = known[0], dance.path.spiral
+    shift, simple = _shift(dance, times, head), False
     if spiral is not None and times[first] == 0.0:
-        turns = round(float(np.hypot(*head[first])) / spiral.pitch, 3)
-        if turns > 1.0 and abs(turns - spiral.start_turns) > 1e-3:
+        seen = float(np.hypot(*head[first])) / spiral.pitch
+        turns = round(seen, 3)
+        simple = abs(turns - seen) < SIMPLE_TURNS and turns > 1.0 and abs(turns - spiral.start_turns) > 1e-3
+        if simple:
             with suppress(BenchDragonError):
                 moved = of_dance(Dance(dance.dragon, Spiral(spiral.pitch, turns)))
                 yield Model("other_start", moved, {"turns": f"{turns:g}"})
-    span = np.arange(times[first] - 500.0, min(times[first] + 500.0, dance.end.time), PLACE_STEP)
-    off = np.linalg.norm(path.position(span * dance.head_speed) - head[first], axis=-1)
-    if off.min() > PLACE_NEAR:
+    if shift is None or abs(shift) < SHIFT_LEAST:
         return
-    shift = time_at(dance, float(span[off.argmin()]), head[first]) - float(times[first])
-    if abs(shift) > 1e-5:
+    # Another start and a shifted time are the same motion: the simpler number of both is the likelier one.
+    if not simple or abs(round(shift, 2) - shift) < SHIFT_LEAST:
         right = of_dance(dance)
         yield Model("shifted_time", lambda t: right(t + shift), {"shift": f"{shift:+.6g}"})
+
+
+def _shift(dance: Dance, times: Floats, head: Floats) -> float | None:
+    """Time from an instant of the sheet to that at which a dance has its head there [s]; None if it is never near."""
+    known = np.flatnonzero(np.isfinite(head).all(axis=1))
+    if not known.size:
+        return None
+    first = known[0]
+    span = np.arange(times[first] - SHIFT_MOST, min(times[first] + SHIFT_MOST, dance.end.time), PLACE_STEP)
+    off = np.linalg.norm(dance.path.position(span * dance.head_speed) - head[first], axis=-1)
+    if not off.size or off.min() > PLACE_NEAR:
+        return None
+    return time_at(dance, float(span[off.argmin()]), head[first]) - float(times[first])
 
 
 def time_at(dance: Dance, time: float, point: Floats) -> float:

@@ -23,8 +23,14 @@ RIGHT = 5.1e-7
 ROUNDED, DECIMALS = 0.51, (5, 4, 3, 2)
 # Most decimals of a number in metres that a double holds.
 DECIMALS_MOST = 12
-# Typical factors of numbers in centimetres and millimetres.
+# Decimals that the contest asks for; and largest difference of numbers that count as equal [m, m/s].
+ASKED, FLAT = 6, 2e-6
+# Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
+ARITHMETIC = 2e-6
+# Typical factors of numbers in centimetres and millimetres; the shares of the numbers, by size, that must have them;
+# and how much their factors may differ.
 SCALES = {1e-2: (50.0, 200.0), 1e-3: (500.0, 2000.0)}
+SPREAD, STEADY = (0.1, 0.25, 0.5, 0.75, 0.9), 1.25
 # Distance within which a number counts for a handle, when labels are compared with the order [m, m/s].
 NEAR = 0.01
 # Size of the picture, and its marks: right, rounded, wrong, missing.
@@ -78,9 +84,14 @@ class JudgedSheet:
         return off
 
     @property
+    def tolerance(self) -> float:
+        """Distance within which a number agrees with another one that was computed the same way [m, m/s]."""
+        return ROUNDED * 10.0**-self.written + ARITHMETIC
+
+    @property
     def is_off(self) -> bool:
-        """True where a number is further off than its written decimals allow."""
-        return float(np.nan_to_num(self.off).max(initial=0.0)) > max(RIGHT, ROUNDED * 10.0**-self.written)
+        """True where a number is further off than its written decimals and a student's arithmetic allow."""
+        return float(np.nan_to_num(self.off).max(initial=0.0)) > self.tolerance
 
     def worst(self) -> tuple[int, ...] | None:
         """Index of the number with the largest error; None if all are right."""
@@ -119,11 +130,9 @@ def workbook_of(tables: list[Table], name: str) -> Workbook:
     return Workbook.RESULT1
 
 
-def judged(table: Table, workbook: Workbook) -> JudgedSheet:
-    """The judgement of one table."""
-    notes = [*table.notes[:3]]
-    if len(table.notes) > len(notes):
-        notes.append(note("more_text", count=len(table.notes) - len(notes)))
+def judged(table: Table, workbook: Workbook, decimals_beside: int = 0) -> JudgedSheet:
+    """The judgement of one table. decimals_beside: those of the numbers in the other sheets of its file"""
+    notes = [*table.notes]
     times = np.array([contact_time()]) if table.kind is TableKind.CONTACT else table.times
     told = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
     motion = of_dance(dance_of(workbook))(np.where(told, times, 0.0))[..., list(COMPONENTS[table.kind])]
@@ -142,7 +151,9 @@ def judged(table: Table, workbook: Workbook) -> JudgedSheet:
     off, cells = np.abs(values - wanted), cells_of(workbook, table.kind)
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
     largest = float(np.nanmax(off)) if present else np.inf
-    decimals = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None)
+    decimals, written = next((k for k in DECIMALS if largest <= ROUNDED * 10.0**-k), None), decimals_of(values)
+    if decimals is not None and decimals < _decimals_of_flat(values, wanted, max(written, decimals_beside)):
+        decimals = None
     if not present:
         verdict = Rating.UNREADABLE
         notes.append(note("no_numbers"))
@@ -154,14 +165,16 @@ def judged(table: Table, workbook: Workbook) -> JudgedSheet:
         verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
     missing = cells - present
     if missing and present:
-        absent, late = set(range(HANDLES)) - {*handles.tolist()}, {*times_of(workbook).tolist()} - {*times.tolist()}
-        notes.append(note("missing", count=missing, handles=len(absent), times=len(late)))
+        filled = np.isfinite(values)
+        absent = HANDLES - np.unique(handles[filled.any(axis=(0, 2))]).size
+        late = times_of(workbook).size - np.unique(times[filled.any(axis=(1, 2))]).size
+        notes.append(note("missing", count=missing, handles=absent, times=late))
     return JudgedSheet(
         table,
         workbook,
         verdict,
         decimals=None if largest <= RIGHT else decimals,
-        written=_decimals(values),
+        written=written,
         cells=cells,
         right=right,
         missing=missing,
@@ -173,12 +186,30 @@ def judged(table: Table, workbook: Workbook) -> JudgedSheet:
     )
 
 
+def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:
+    """Decimals that numbers which are all equal stand for, where the right ones differ; -1 for numbers that differ.
+
+    Equal numbers show no decimals of their own, so they count with those of the file, or with those that the contest
+    asks for: all speeds 1 are right to two decimals by chance.
+    decimals: of the numbers in the file
+    """
+    known = np.isfinite(values) & np.isfinite(wanted)
+    if not known.any() or np.ptp(values[known]) > FLAT or np.ptp(wanted[known]) <= ROUNDED * 10.0 ** -DECIMALS[0]:
+        return -1
+    return decimals if decimals >= DECIMALS[-1] else ASKED
+
+
 def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
-    """Factor from the numbers to metres; their size shows centimetres and millimetres."""
-    size = float(np.nanmedian(np.abs(table.values))) if np.isfinite(table.values).any() else 0.0
-    right = float(np.median(np.abs(motion)))
+    """Factor from the numbers to metres; sizes in one steady ratio to the right ones show centimetres and millimetres.
+
+    Angles of some hundred radians or degrees are as large as centimetres, but not spread alike.
+    """
+    sizes = np.abs(table.values[np.isfinite(table.values) & (table.values != 0.0)])
+    if not sizes.size:
+        return 1.0
+    ratios = np.quantile(sizes, SPREAD) / np.quantile(np.abs(motion), SPREAD)
     for scale, (low, high) in SCALES.items():
-        if low * right <= size <= high * right:
+        if low <= ratios.min() and ratios.max() <= high and ratios.max() <= STEADY * ratios.min():
             notes.append(note("unit", unit="cm" if scale == 1e-2 else "mm"))
             return scale
     return 1.0
@@ -197,7 +228,7 @@ def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) ->
     return table.by_order
 
 
-def _decimals(values: Floats) -> int:
+def decimals_of(values: Floats) -> int:
     """Number of decimals of the numbers."""
     some = values[np.isfinite(values)].ravel()[:5000]
     scalings = enumerate(some * 10.0**k for k in range(DECIMALS_MOST))

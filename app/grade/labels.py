@@ -11,20 +11,39 @@ from dataclasses import dataclass
 from app.grade.grid import Cell, plain
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米": 1e-3}
+# Units of angles: numbers with them are no places.
+ANGLE_UNITS = {"rad", "radian", "radians", "deg", "degree", "degrees", "°", "弧度", "度"}
 TIME = re.compile(r"(?:t\s*=?\s*)?([-+]?\d+(?:\.\d+)?)\s*(s|sec|seconds?|秒)?", re.IGNORECASE)
-UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
+UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫°弧度]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
+# x and y at the end of a label, or with a word for a place behind or before them, such as x_position or pos_y.
+AXIS = re.compile(
+    r"(?:^|[^a-z]|pos|position|coord|head|body|tail|rear)([xy])[\s_-]*(?:坐标|轴|pos(?:ition)?|coord(?:inate)?s?|axis)?$",
+    re.IGNORECASE,
+)
+ACROSS, UPWARD = re.compile(r"横坐标$"), re.compile(r"纵坐标$")
+ANGLE_WORD = re.compile(r"角度|极角|夹角|弧度|angle|theta|θ", re.IGNORECASE)
 HEAD, REAR = re.compile(r"龙头|head", re.IGNORECASE), re.compile(r"[(（]\s*后|后把手|rear", re.IGNORECASE)
 TAIL = re.compile(r"龙尾|tail", re.IGNORECASE)
 BODY = re.compile(r"第?\s*(\d+)\s*节|body\D*(\d+)|龙身\D*(\d+)", re.IGNORECASE)
 SPEED_WORD = re.compile(r"速度|速率|speed|velocity|^v$", re.IGNORECASE)
-TIME_WORD, HANDLE_WORD = re.compile(r"时间|time|^t$", re.IGNORECASE), re.compile(r"把手|handle", re.IGNORECASE)
+TIME_WORD = re.compile(r"时间|时刻|time|^t$|^t[\s_(]|instant|^(?:s|seconds?|秒)$", re.IGNORECASE)
+# Headings of a column that numbers the handles.
+HANDLE_WORD = re.compile(
+    r"把手|节点|节数|节号|编号|序号|板凳|龙节|^节$|handle|section|segment|node|bench|joint|index|number|^(?:id|no\.?|n|k|i)$",
+    re.IGNORECASE,
+)
 # Components of a number, in the order of the last axis of a table.
 X, Y, SPEED = 0, 1, 2
+# Component of an angle, which no table of the contest holds.
+ANGLE = 3
 
 
 @dataclass(frozen=True)
 class Label:
-    """handle: -1: the tail, -2: its rear; handle and component: None if the label names none."""
+    """handle: -1: the tail, -2: its rear; handle and component: None if the label names none.
+
+    component: X, Y, SPEED or ANGLE
+    """
 
     handle: int | None
     component: int | None
@@ -41,10 +60,10 @@ def label_of(cell: Cell) -> Label | None:
         unit = UNITS.get(found[1].lower(), 1.0)
         component = SPEED if found[2] else None
         text = text[: found.start()].rstrip() if found[2] or found[1].lower() in UNITS else text
-    if component is None and (axis := re.search(r"([xy])\s*(?:坐标|轴)?$", text, re.IGNORECASE)):
-        component = "xy".index(axis[1].lower())
-    elif component is None and SPEED_WORD.search(text):
-        component = SPEED
+    if found and found[1].lower() in ANGLE_UNITS:
+        component, text = ANGLE, text[: found.start()].rstrip()
+    elif component is None:
+        component = _component(text)
     handle = None
     if HEAD.search(text):
         handle = 0
@@ -53,6 +72,17 @@ def label_of(cell: Cell) -> Label | None:
     elif body := BODY.search(text):
         handle = int(next(filter(None, body.groups())))
     return None if handle is None and component is None else Label(handle, component, unit)
+
+
+def _component(text: str) -> int | None:
+    """Component that a label without its unit names."""
+    if axis := AXIS.search(text):
+        return "xy".index(axis[1].lower())
+    if ACROSS.search(text) or UPWARD.search(text):
+        return X if ACROSS.search(text) else Y
+    if SPEED_WORD.search(text):
+        return SPEED
+    return ANGLE if ANGLE_WORD.search(text) else None
 
 
 def instant_of(cell: Cell) -> float | None:

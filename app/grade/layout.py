@@ -6,16 +6,17 @@ the grid. State: none. Labels decide, in both languages and both orientations; w
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.workbooks import letters_of
+from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, plain
-from app.grade.labels import HANDLE_WORD, SPEED, SPEED_WORD, TIME_WORD, Label, X, Y, instant_of, label_of
-from app.grade.words import Note, note
+from app.grade.labels import ANGLE, SPEED, SPEED_WORD, Label, X, Y, instant_of, label_of
+from app.grade.words import Note
 from core.values import Floats
 
 Ints = NDArray[np.int64]
@@ -25,6 +26,8 @@ BENCHES = 223
 HANDLES = BENCHES + 1
 # Number of first rows and columns that may hold labels.
 MARGIN = 8
+# Words for places, in a text that may name speeds too.
+PLACE_WORD = re.compile(r"位置|坐标|position|coordinate", re.IGNORECASE)
 # Fewer labels than this may be chance and are ignored.
 LABELS_LEAST = 3
 
@@ -63,63 +66,9 @@ class Table:
     notes: list[Note] = field(default_factory=list)
 
 
-def tables_of(grid: Grid) -> list[Table]:
-    """The tables of a sheet; none if no numbers are recognised."""
-    cells = _trimmed(grid)
-    if not cells:
-        return []
-    if long := _long(grid, cells):
-        return long
-    turned = [list(line) for line in zip(*cells, strict=True)]
-    found = _wide(grid, cells, turned=False) or _wide(grid, turned, turned=True) or _bare(grid, cells)
-    return [found] if found else []
-
-
-def _trimmed(grid: Grid) -> list[list[Cell]]:
-    """The cells as a rectangle that begins at the first one."""
-    width = max((k + 1 for row in grid.rows for k, cell in enumerate(row) if cell is not None), default=0)
-    height = max((k + 1 for k, row in enumerate(grid.rows) if any(cell is not None for cell in row)), default=0)
-    return [(list(row) + [None] * width)[:width] for row in grid.rows[:height]]
-
-
-def _long(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
-    """Tables of a list with a line for each handle and instant: time, handle, x, y, speed."""
-    columns = {}
-    for k, cell in enumerate(cells[0]):
-        name, label = plain(cell) if isinstance(cell, str) else "", label_of(cell)
-        if TIME_WORD.search(name):
-            columns["time"] = k
-        elif HANDLE_WORD.search(name):
-            columns["handle"] = k
-        elif label and label.component is not None:
-            columns["xyv"[label.component]] = k
-    if not {"time", "handle"} <= columns.keys() or len(columns) < 3:
-        return []
-    placed = [(row[columns["time"]], row[columns["handle"]]) for row in cells]
-    lines = [n for n, pair in enumerate(placed) if n and all(isinstance(one, float) for one in pair)]
-    if not lines:
-        return []
-    instants, numbers = np.array([placed[n] for n in lines], dtype=np.float64).T
-    times, t = np.unique(instants, return_inverse=True)
-    handles, h = np.unique(numbers.astype(np.int64), return_inverse=True)
-    found = []
-    for kind in (TableKind.POSITION, TableKind.SPEED):
-        if not {"xyv"[component] for component in COMPONENTS[kind]} <= columns.keys():
-            continue
-        wanted = [columns["xyv"[component]] for component in COMPONENTS[kind]]
-        shape = (times.size, handles.size, len(wanted))
-        values, rows = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
-        for c, k in enumerate(wanted):
-            values[t, h, c] = [cell if isinstance(cell := cells[n][k], float) else np.nan for n in lines]
-            rows[t, h, c] = lines
-        column = np.broadcast_to(np.array(wanted, dtype=np.int64), shape)
-        found.append(Table(grid.title, kind, times, handles, np.arange(handles.size), values, rows, column))
-    return found
-
-
-def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
+def wide_table(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
     """The table of a sheet with a line for each handle. turned: True if rows and columns of the sheet were swapped"""
-    labels = [[label_of(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+    labels = _label_columns(cells)
     counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
     aside = int(np.argmax(counts))
     if counts[aside] < LABELS_LEAST:
@@ -130,7 +79,28 @@ def _wide(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
     named = {k: label.component for k, label in _head_labels(heads, aside).items()}
     if {X, Y} <= set(named.values()) and len(named) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
         return _contact(grid, cells, lines, _head_labels(heads, aside), turned)
-    return _over_time(grid, cells, lines, _times(heads, cells, aside), turned)
+    return _over_time(grid, cells, lines, _times(heads, cells, aside), _says_speed(grid, heads, cells, turned), turned)
+
+
+def _says_speed(grid: Grid, heads: list[list[Cell]], cells: list[list[Cell]], turned: bool) -> bool:
+    """True if the title of a sheet, or a text before its numbers, names speeds and no places."""
+    above = [row[0] for row in cells[:MARGIN]] if turned else []
+    texts = [grid.title, *(cell for row in heads for cell in row), *above]
+    said = " ".join(plain(text) for text in texts if isinstance(text, str))
+    return SPEED_WORD.search(said) is not None and PLACE_WORD.search(said) is None
+
+
+def _label_columns(cells: list[list[Cell]]) -> list[list[Label | None]]:
+    """Meaning of every cell in the first columns."""
+    return [[label_of(row[k]) for row in cells] for k in range(min(MARGIN, len(cells[0])))]
+
+
+def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
+    """True if a sheet says that it holds angles, and names neither a place nor a speed."""
+    texts = [grid.title, *(cell for row in cells for cell in row[:MARGIN] if isinstance(cell, str))]
+    texts += [cell for row in cells[:MARGIN] for cell in row if isinstance(cell, str)]
+    named = {label.component for text in texts if (label := label_of(text))}
+    return ANGLE in named and not named & {X, Y, SPEED}
 
 
 def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
@@ -139,20 +109,22 @@ def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
     for row in heads:
         for k, cell in enumerate(row):
             label = label_of(cell)
-            if k != aside and label and label.component is not None and label.handle is None:
+            if k != aside and label and label.component in COMPONENTS[TableKind.CONTACT] and label.handle is None:
                 found[k] = label
     return found
 
 
 def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
-    """Lines with their labels. Below a label without an axis, a line without a label is its y (merged cells)."""
+    """Lines with their labels. Where most labels without an axis stand above a line without one, that line is their y
+    (merged cells); one such line alone is a remark below the table, or a blank."""
+    lines = [(k, label) for k, label in enumerate(labels) if label is not None and label.handle is not None]
+    open_below = {k for k, label in lines if label.component is None and labels[k + 1 : k + 2] == [None]}
+    if 2 * len(open_below) <= len(lines):
+        return lines
     found: list[tuple[int, Label]] = []
-    for k, label in enumerate(labels):
-        if label is not None and label.handle is not None:
-            found.append((k, label))
-        elif label is None and found and found[-1][0] == k - 1 and found[-1][1].component is None:
-            found[-1] = (k - 1, replace(found[-1][1], component=X))
-            found.append((k, replace(found[-1][1], component=Y)))
+    for k, label in lines:
+        both = [(k, replace(label, component=X)), (k + 1, replace(label, component=Y))]
+        found += both if k in open_below else [(k, label)]
     return found
 
 
@@ -178,11 +150,16 @@ def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
 
 
 def _over_time(
-    grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], times: dict[int, float], turned: bool
+    grid: Grid,
+    cells: list[list[Cell]],
+    lines: list[tuple[int, Label]],
+    times: dict[int, float],
+    says_speed: bool,
+    turned: bool,
 ) -> Table | None:
-    """Positions or speeds of handles at instants."""
+    """Positions or speeds of handles at instants. says_speed: whether a text beside the numbers names speeds"""
     components = {label.component for _, label in lines}
-    by_speed = SPEED in components or (X not in components and SPEED_WORD.search(grid.title) is not None)
+    by_speed = SPEED in components or (X not in components and says_speed)
     if not by_speed and X not in components:
         # Labels without an axis: two lines for each handle are x above y.
         twice = len(lines) > 1 and lines[0][1].handle == lines[1][1].handle
@@ -202,13 +179,15 @@ def _contact(
     rows = [k for k, _ in lines]
     shape = (1, len(rows), len(COMPONENTS[TableKind.CONTACT]))
     values, row, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
-    notes: list[Note] = []
+    odd = OddCells(turned)
     for component, (k, unit) in columns.items():
         assert component is not None
-        values[0, :, component] = [_value(cells[n][k], notes, n, k, turned) * unit for n in rows]
+        values[0, :, component] = [odd.value(cells[n][k], n, k) * unit for n in rows]
         row[0, :, component], column[0, :, component] = rows, k
     above, aside = (column, row) if turned else (row, column)
-    return Table(grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, notes)
+    return Table(
+        grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, odd.notes()
+    )
 
 
 def _filled(
@@ -227,35 +206,18 @@ def _filled(
     by_label, places = _numbered(lines)
     handles = np.array(list(dict.fromkeys(by_label.tolist())))
     shape = (len(times), handles.size, len(components))
-    values, row = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64)
-    notes: list[Note] = []
+    values, row, odd = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), OddCells(turned)
     for (k, label), place in zip(lines, places, strict=True):
         at = (slice(None), place, components.index(label.component or 0))
-        values[at] = [_value(cells[k][n], notes, k, n, turned) * label.unit for n in times]
+        values[at] = [odd.value(cells[k][n], k, n) * label.unit for n in times]
         row[at] = k
     column = np.broadcast_to(np.array(list(times), dtype=np.int64)[:, None, None], shape)
     above, aside = (column, row) if turned else (row, column)
     instants = np.array(list(times.values()))
-    return Table(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, notes)
+    return Table(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, odd.notes())
 
 
-def _value(cell: Cell, notes: list[Note], row: int, column: int, turned: bool) -> float:
-    """Number in a cell, also if it is stored as text, maybe with a decimal comma; NaN and a note for other text."""
-    if isinstance(cell, float):
-        return cell
-    if cell is None:
-        return float("nan")
-    place = cell_name(*((column, row) if turned else (row, column)))
-    try:
-        number = float(plain(cell).replace(",", "."))
-    except ValueError:
-        notes.append(note("text", cell=place, text=cell[:30]))
-        return float("nan")
-    notes.append(note("text_number", cell=place))
-    return number if np.isfinite(number) else float("nan")
-
-
-def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
+def bare_table(grid: Grid, cells: list[list[Cell]]) -> Table | None:
     """A table of numbers without labels of handles, recognised by its size."""
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     # A line of numbers above those of the handles can only hold times.
@@ -271,12 +233,3 @@ def _bare(grid: Grid, cells: list[list[Cell]]) -> Table | None:
         return _contact(grid, cells, lines, heads, False)
     kind = TableKind.POSITION if twice else TableKind.SPEED
     return _filled(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
-
-
-def cell_name(row: int, column: int) -> str:
-    """Name of a cell in a spreadsheet; row and column are counted from 0.
-
-    >>> cell_name(1, 27)
-    'AB2'
-    """
-    return f"{letters_of(column)}{row + 1}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import PurePath
 
@@ -9,14 +10,18 @@ from pydantic import Field
 
 from app.extras import MissingPackage
 from app.files.tables import Language, handle_names
+from app.grade.cells import cell_name
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
-from app.grade.judged import JudgedSheet, Rating, judged, workbook_of, worst_of
-from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind, cell_name, tables_of
+from app.grade.judged import ASKED, JudgedSheet, Rating, decimals_of, judged, workbook_of, worst_of
+from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind
+from app.grade.names import readable_name
+from app.grade.numbers import CERTAIN, graded_number
 from app.grade.reading import ZIP, grids_of
 from app.grade.rubric import rubric_of
-from app.grade.shortcuts import UNITS, Finding, accepted, explained, other_turn, right_answer
+from app.grade.sheets import tables_of
+from app.grade.shortcuts import UNITS, Finding, right_answer
 from app.grade.words import Note, note, say
 from app.wire.question import Answer
 from core import Budget, InvalidValue, TooMuchWork
@@ -25,6 +30,8 @@ from core.kernels import Halted
 
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
+# Name of a workbook in the name of a file.
+NAMED = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
 VALUE = "in m for x and y, in m/s for a speed"
 
 
@@ -71,6 +78,14 @@ class DiagnosisAnswer(Answer):
     evidence: str = Field(description="The numbers that support it")
 
 
+class GuessAnswer(DiagnosisAnswer):
+    """A known error that may explain a number, whose digits are too few to decide."""
+
+    probability: float = Field(
+        description="Share of the numbers with as many digits, as near to the right one, that fit a known error"
+    )
+
+
 class CriterionAnswer(Answer):
     """One point of the rubric."""
 
@@ -86,6 +101,9 @@ class FileAnswer(Answer):
     workbook: str | None = Field(description="result1, result2 or result4; null if unknown")
     verdict: Rating = Field(description="The worst verdict of all sheets")
     diagnosis: list[DiagnosisAnswer] = Field(description="Errors that explain the wrong cells; empty if nothing fits")
+    possible: list[GuessAnswer] = Field(
+        default=[], description="Shortcuts that give the instant of result2, but not with digits enough for a diagnosis"
+    )
     sheets: list[SheetAnswer] = Field(description="Its sheets")
     rubric: list[CriterionAnswer] = Field(description="The rubric of the contest's reviewers")
     notes: list[str] = Field(description="Remarks for the reader, in words")
@@ -95,13 +113,20 @@ class TypedAnswer(Answer):
     """One number that was typed in."""
 
     answer: str = Field(description="collision_time, pitch, speed or turn_length")
-    verdict: Rating = Field(description="right, as far as its digits go, or wrong")
+    verdict: Rating = Field(
+        description="right, as far as its digits go; rounded, if it is off by less than its last digit; or wrong"
+    )
     found: float = Field(description="The given number, in `unit`")
     expected: float = Field(description="The right number, in `unit`")
     unit: str = Field(description="Unit of both")
     digits: int = Field(description="Significant digits of the given number, to which it is graded")
     notes: list[str] = Field(description="Remarks for the reader, in words")
-    diagnosis: list[DiagnosisAnswer] = Field(description="Shortcuts that give the number; empty if nothing fits")
+    diagnosis: list[DiagnosisAnswer] = Field(
+        description="The shortcut that gives the number, if its digits tell it from chance; empty if nothing fits"
+    )
+    possible: list[GuessAnswer] = Field(
+        default=[], description="The shortcut that gives the number, if its digits are too few for a diagnosis"
+    )
 
 
 class GradeAnswer(Answer):
@@ -113,8 +138,9 @@ class GradeAnswer(Answer):
 
 def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
     """The grade of one file. name: of the file, which may say which workbook it is; raises: TooMuchWork"""
+    shown, remark = readable_name(name)
     try:
-        return _graded(name, data, language, budget)
+        answer = _graded(shown, data, language, budget)
     except UnreadableTable as error:
         return unreadable(name, error.said, language)
     except Halted as error:
@@ -123,14 +149,16 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
         raise
     except Exception as error:  # An error of ours in one file must not stop the grading of the others.
         return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]), language)
+    return answer.model_copy(update={"notes": [*answer.notes, remark.said(language)]}) if remark else answer
 
 
 def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
     """The answer for a file that was not graded."""
+    shown, remark = readable_name(name)
+    notes = [one.said(language) for one in (why, remark) if one]
     return FileAnswer(
-        file=name, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[],
-        notes=[why.said(language)],
-    )  # fmt: skip
+        file=shown, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes
+    )
 
 
 def too_long(data: bytes, budget: Budget) -> TooMuchWork:
@@ -145,18 +173,24 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
         is_named_so = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
         raise UnreadableTable(note("no_workbook" if is_named_so and not data.startswith(ZIP) else "no_table"))
     workbook = workbook_of(tables, PurePath(name).stem)
-    judgements = [judged(table, workbook) for table in tables]
+    decimals = max(decimals_of(table.values) for table in tables)
+    judgements = [judged(table, workbook, decimals) for table in tables]
     findings = diagnosed(judgements, budget)
+    certain = [one for one in findings if one.chance <= CERTAIN]
     sheets = [_sheet(one, language) for one in judgements]
     if len(grids) > 1 or data.startswith(ZIP):
         lacking = (kind for kind in KINDS[workbook] if kind not in {table.kind for table in tables})
         sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking]
-    rubric = rubric_of(judgements, findings)
+    rubric = rubric_of(judgements, certain)
+    notes += [one for grid in grids for one in grid.notes]
+    if (named := NAMED.search(PurePath(name).stem)) and named[1] != workbook.value[-1]:
+        notes.append(note("named_otherwise", named=f"result{named[1]}", workbook=workbook.value))
     return FileAnswer(
         file=name,
         workbook=workbook.value,
         verdict=worst_of(sheet.verdict for sheet in sheets),
-        diagnosis=_found(findings, language),
+        diagnosis=_found(certain, language),
+        possible=_guessed(findings, language),
         sheets=sheets,
         rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=one.said.said(language)) for one in rubric],
         notes=[one.said(language) for one in notes],
@@ -176,16 +210,20 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
         raise InvalidValue(name, "must be more than 0 and less than 1e6", got=Quantity(value, UNITS[name]))
     mantissa = text.lower().partition("e")[0].strip()
     half_unit = 0.5 * 10.0 ** -min(len(mantissa.partition(".")[2]), 12)
-    right, usual = accepted(name, value, half_unit), right_answer(name)
+    graded_to = mantissa[: mantissa.find(".") + 1 + ASKED] if "." in mantissa else mantissa
+    found = graded_number(name, value, half_unit)
     return TypedAnswer(
         answer=name,
-        verdict=Rating.WRONG if right is None else Rating.RIGHT,
+        verdict=found.verdict,
         found=value,
-        expected=usual if right is None else right,
+        expected=right_answer(name),
         unit=UNITS[name],
-        digits=len(mantissa.lstrip("+-").replace(".", "").lstrip("0")),
-        notes=[] if right in (None, usual) else [other_turn(right).said(language)],
-        diagnosis=_found(explained(name, value, half_unit), language),
+        digits=len(
+            (mantissa if found.verdict is Rating.WRONG else graded_to).lstrip("+-").replace(".", "").lstrip("0")
+        ),
+        notes=[one.said(language) for one in found.notes],
+        diagnosis=_found([one for one in found.findings if one.chance <= CERTAIN], language),
+        possible=_guessed(found.findings, language),
     )
 
 
@@ -193,6 +231,20 @@ def _found(findings: Sequence[Finding], language: Language) -> list[DiagnosisAns
     return [
         DiagnosisAnswer(error=one.error, words=one.said.said(language), evidence=one.evidence.said(language))
         for one in findings
+    ]
+
+
+def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswer]:
+    """The findings that are only guesses, with their chances."""
+    return [
+        GuessAnswer(
+            error=one.error,
+            words=say("may_be", language, error=one.said.said(language)),
+            evidence=f"{one.evidence.said(language)} {say('chance', language, count=round(1.0 / one.chance))}",
+            probability=one.chance,
+        )
+        for one in findings
+        if one.chance > CERTAIN
     ]
 
 

@@ -18,6 +18,8 @@ from app.grade.words import Note, note
 
 # Largest difference between the mean speed over a second and the speed at its middle, because handles turn [m/s].
 MEAN_SPEED = 0.1
+# Longest time between two instants that are compared [s], those of the contest.
+SPAN_MOST = 1.0
 # Share of the cells that may differ more, near the ends of the arcs of the turn [1].
 SHARE = 0.99
 GOOD = (Rating.RIGHT, Rating.ROUNDED, Rating.INCOMPLETE)
@@ -53,7 +55,9 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
         yield _criterion("speeds", (contact is not None and contact.verdict in GOOD) or None)
     else:
         yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
-    refined, overhang = (_shown(contact, errors & against) for against in (STEPPED, NO_OVERHANG))
+    # A rounded instant is refined or a step of a search: it does not show which.
+    refined = _shown(None if "rounded_instant" in errors else contact, errors & STEPPED)
+    overhang = _shown(contact, errors & NO_OVERHANG)
     yield _criterion("overhang", overhang)
     yield _criterion("refined", refined)
     turning = placed if placed and placed.workbook is Workbook.RESULT4 else None
@@ -79,8 +83,10 @@ def _share_consistent(position: JudgedSheet, speed: JudgedSheet) -> float | None
         return None
     handles, a, b = np.intersect1d(position.handles, speed.handles, return_indices=True)
     a, b = a[handles < HANDLES], b[handles < HANDLES]
-    ways = np.linalg.norm(np.diff(position.values[p][:, a], axis=0), axis=-1) / np.diff(times)[:, None]
-    told = speed.values[v][:, b, 0]
-    off = np.abs(ways - 0.5 * (told[1:] + told[:-1]))
+    spans = np.diff(times)[:, None]
+    ways = np.linalg.norm(np.diff(position.values[p][:, a], axis=0), axis=-1) / spans
+    speeds = speed.values[v][:, b, 0]
+    # Over more than a second a handle turns by too much: its way is no longer its distance.
+    off = np.where(spans <= SPAN_MOST, np.abs(ways - 0.5 * (speeds[1:] + speeds[:-1])), np.nan)
     known = np.isfinite(off)
     return float((off[known] <= MEAN_SPEED).mean()) if known.any() else None

@@ -34,8 +34,11 @@ UNPACKED_MAX, PARTS_MAX = 100_000_000, 500
 # Most elements of all parts: result1 has 410,000. openpyxl keeps those of a row in memory, 300 bytes for each (measured
 # 2026-11-22).
 ELEMENTS_MAX = 2_000_000
-# Largest sheet of a workbook: result1 has 449 x 302 cells, in either orientation; and the number of sheets.
-ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 2_000, 1_000, 20
+# Largest sheet of a workbook: result1 has 449 x 302 cells, in either orientation, and 67,425 rows as a list; and the
+# number of sheets.
+ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 70_000, 1_000, 20
+# Most cells of all sheets, with the blanks before the last one of each row: a list of result1 has 337,120.
+CELLS_MAX = 2_000_000
 MAIN, MACROS = "xl/workbook.xml", "xl/vbaProject.bin"
 # Names of elements of a sheet; and the beginning of those in Strict Open XML, which openpyxl cannot read.
 CELL, FORMULA, VALUE, MERGED = (
@@ -144,15 +147,20 @@ def _survey(archive: zipfile.ZipFile, part: zipfile.ZipInfo, most: int) -> tuple
 
 
 def _sheets(book: Workbook, budget: Budget) -> list[Grid]:
-    grids = []
+    grids: list[Grid] = []
+    cells = 0
     for sheet in book.worksheets[:SHEETS_MAX]:
         # The cells decide the length of a row, because the stated size of a sheet may be wrong.
         sheet.reset_dimensions()
-        rows = []
+        grid = Grid(sheet.title, [])
         for row in sheet.iter_rows(max_row=ROWS_MAX, values_only=True):
             budget.look()
-            rows.append([_cell(value) for value in row[:COLUMNS_MAX]])
-        grids.append(Grid(sheet.title, rows))
+            cells += min(len(row), COLUMNS_MAX)
+            if cells > CELLS_MAX:
+                grid.notes.append(note("cut", title=sheet.title, rows=f"{len(grid.rows):,}"))
+                break
+            grid.rows.append([_cell(value) for value in row[:COLUMNS_MAX]])
+        grids.append(grid)
     if not grids:
         raise ValueError("no sheets")
     return grids

@@ -111,7 +111,7 @@ const paragraph = (textContent, className = "") => make("p", { textContent, clas
 function boxes({ files, answers }) {
   const typed = answers.map((one) => {
     const { found, expected, unit, verdict, digits, notes } = one;
-    const words = verdict === "right" ? [say("digitsGo", { digits }), ...notes] : [say("rightIs", { value: expected.toFixed(9), unit })];
+    const words = verdict === "right" ? [say("digitsGo", { digits }), ...notes] : [say("rightIs", { value: expected.toFixed(9), unit }), ...notes];
     return box(`${say(`typed_${one.answer}`)}${say("colon")}${found} ${unit}`, verdict, [...words.map((line) => paragraph(line)), ...diagnosis(one)]);
   });
   return [...typed, ...files.map(fileBox)];
@@ -124,7 +124,8 @@ function box(title, verdict, content) {
   return make("div", outcome, make("h3", { textContent: title }), value, ...content);
 }
 
-function diagnosis({ verdict, diagnosis: found }) {
+function diagnosis({ verdict, diagnosis: certain, possible }) {
+  const found = [...certain, ...possible];
   if (!found.length) return verdict === "wrong" ? [paragraph(say("nothingFits"))] : [];
   return found.flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
 }

@@ -103,6 +103,38 @@ def gradient() -> Results:
     return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
 
 
+def is_outside(position: Floats) -> Any:
+    """Handles that are not yet on the spiral."""
+    return np.hypot(position[..., 0], position[..., 1]) > 8.8 + 1e-9
+
+
+def outside(value: float) -> Results:
+    """Handles outside the spiral and their speeds written as this value."""
+    position, speed = spiral()
+    beyond = is_outside(position)
+    return np.where(beyond[..., None], value, position), np.where(beyond, value, speed)
+
+
+def on_line() -> Results:
+    """Handles outside the spiral in a line along its tangent at the beginning, as far apart as chords."""
+    position, speed = spiral()
+    beyond = is_outside(position)
+    back = np.array([math.cos(math.atan(START)), math.sin(math.atan(START))])
+    for t in range(len(position)):
+        first = int(beyond[t].argmax()) if beyond[t].any() else 224
+        start = np.array([8.8, 0.0])
+        for k in range(first, 224):
+            chord = Dragon().chords[k - 1]
+            if k == first:
+                away = start - position[t, k - 1]
+                across = back @ away
+                position[t, k] = start + (-across + math.sqrt(across**2 - away @ away + chord**2)) * back
+            else:
+                position[t, k] = position[t, k - 1] + chord * back
+            speed[t, k] = 1.0
+    return position, speed
+
+
 def bisected(excess: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
     """Place between low and high at which excess changes its sign, for each instant, to 1e-11 of the range."""
     sign = np.sign(excess(low))

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import csv
 import json
+import os
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.files.tables import Language
+from app.grade.numbers import gives
 from app.grade.report import typed
-from app.grade.shortcuts import explained
-from tests.app.command import run
+from app.grade.shortcuts import pitch_grids, shortcuts
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.app.grade.students import CONTACT, contact_workbook, spiral
 
 
@@ -68,6 +71,33 @@ def test_a_file_that_is_missing_is_told_and_the_others_are_graded(class_of_three
     assert [file["verdict"] for file in json.loads(done.stdout)["files"]] == ["unreadable", "right"]
 
 
+@pytest.mark.parametrize("coding", ["utf-8", "gbk", "ascii"])
+def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, coding: str) -> None:
+    """Folders of a ZIP from Chinese Windows, unpacked on Linux, and a name that is text in no encoding."""
+    names = ["李".encode("gbk"), "王".encode(), b"\xff\xfe\x81"]
+    for name in names:
+        folder = os.path.join(os.fsencode(tmp_path), b"class", name)
+        os.makedirs(folder)
+        Path(os.fsdecode(os.path.join(folder, b"result2.xlsx"))).write_bytes(
+            contact_workbook(spiral(np.array([CONTACT])))
+        )
+    summary = tmp_path / "summary.csv"
+
+    def graded_class(*options: str) -> bytes:
+        given = ENVIRONMENT | {"PYTHONIOENCODING": f"{coding}:backslashreplace"}
+        command = [COMMAND, "grade", str(tmp_path / "class"), *options]
+        return subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE, env=given).stdout
+
+    answer = graded_class("--json", "--summary", str(summary))
+    files = json.loads(answer)["files"]
+    assert [Path(file["file"]).parent.name for file in files] == ["王", "李", "\\xff\\xfe\\x81"]
+    assert {file["verdict"] for file in files} == {"right"}
+    assert [len(file["notes"]) for file in files] == [0, 1, 1]
+    with summary.open(encoding="utf-8-sig", newline="") as lines:
+        assert [Path(row["file"]).parent.name for row in csv.DictReader(lines)] == ["王", "李", "\\xff\\xfe\\x81"]
+    assert "\\xff" in graded_class("--language", "zh").decode(coding)
+
+
 def test_an_empty_folder_is_named(tmp_path: Path) -> None:
     done = run("grade", str(tmp_path))
     assert (done.returncode, done.stdout) == (2, "")
@@ -99,53 +129,127 @@ def test_the_turn_that_the_command_writes_is_graded_right(tmp_path: Path, ending
     assert (found["workbook"], found["verdict"]) == ("result4", "right")
 
 
-# Number, as it is typed, and the shortcut that gives it; empty: none is known.
+# Number, as it is typed, and the shortcut that gives it, with digits enough for a diagnosis or only for a guess; empty:
+# none is told.
 TYPED = [
-    ("collision_time", 412.47, 2, ""),
-    ("collision_time", 412.48, 2, "time_steps"),
-    ("collision_time", 406.43, 2, "loose_angle"),
-    ("collision_time", 407.4, 1, "literal_corners"),
-    ("collision_time", 412.8, 1, ""),
-    ("pitch", 0.4202, 4, "pose_on_circle"),
-    ("pitch", 0.4171, 4, "pose_on_circle_head"),
-    ("pitch", 0.4052, 4, "one_corner"),
-    ("pitch", 0.4503, 4, "truncated"),
-    ("pitch", 0.450274, 6, "pitch_time_steps"),
-    ("pitch", 0.450297, 6, "pitch_time_steps"),
-    ("pitch", 0.450333, 6, "pitch_time_steps"),
-    ("pitch", 0.4321, 4, ""),
-    ("turn_length", 12.93, 2, "other_entry"),
-    ("turn_length", 12.99, 2, "other_entry"),
-    ("turn_length", 13.06, 2, "other_entry"),
-    ("turn_length", 13.08, 2, ""),
-    ("turn_length", 13.0, 1, ""),
-    ("turn_length", 13.3, 1, ""),
-    ("turn_length", 13.62, 2, ""),
-    ("speed", 1.2470, 4, "speed_time_steps"),
-    ("speed", 1.4063, 4, "speed_time_steps"),
-    ("speed", 1.247, 3, "speed_time_steps"),
-    ("speed", 1.3194, 4, ""),
-    ("speed", 2.0, 0, ""),
-    ("speed", 1.3, 1, ""),
+    ("collision_time", "412.48000", "", "time_steps"),
+    ("collision_time", "406.43", "", "loose_angle"),
+    ("collision_time", "406.4287", "loose_angle", ""),
+    ("collision_time", "407.4", "", "literal_corners"),
+    ("collision_time", "407.41428", "literal_corners", ""),
+    ("collision_time", "412.46", "", ""),
+    ("collision_time", "412.478", "", ""),
+    ("collision_time", "412.8", "", ""),
+    ("pitch", "0.4202", "", "pose_on_circle"),
+    ("pitch", "0.4202169", "pose_on_circle", ""),
+    ("pitch", "0.4171", "", "pose_on_circle_head"),
+    ("pitch", "0.4052", "", "one_corner"),
+    ("pitch", "0.4052212", "one_corner", ""),
+    ("pitch", "0.4205", "", "pose_on_circle"),
+    ("pitch", "0.41", "", ""),
+    ("pitch", "0.43", "", ""),
+    ("pitch", "0.450274", "", "pitch_time_steps"),
+    ("pitch", "0.450273532", "pitch_time_steps", ""),
+    ("pitch", "0.44818336", "pitch_radius_steps", ""),
+    ("pitch", "0.4503194714", "pitch_angle_steps", ""),
+    ("pitch", "0.450333", "", ""),
+    ("pitch", "0.4321", "", ""),
+    ("turn_length", "14.14", "", "arcs_not_tangent"),
+    ("turn_length", "14.137167", "arcs_not_tangent", ""),
+    ("speed", "1.4063", "", "speed_time_steps"),
+    ("speed", "1.406277", "speed_time_steps", ""),
+    ("speed", "1.2470", "", ""),
+    ("speed", "1.3194", "", ""),
+    ("speed", "2.0", "", ""),
+    ("speed", "1.4", "", ""),
 ]
 
 
-@pytest.mark.parametrize(("name", "value", "decimals", "error"), TYPED)
-def test_a_number_is_traced_to_its_shortcut(name: str, value: float, decimals: int, error: str) -> None:
-    found = explained(name, value, 0.5 * 10.0**-decimals)
-    assert [one.error for one in found][:1] == [error] * bool(error)
+@pytest.mark.parametrize(("name", "text", "certain", "guess"), TYPED)
+def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
+    name: str, text: str, certain: str, guess: str
+) -> None:
+    found = typed(name, text, Language.ENGLISH)
+    assert found.verdict == "wrong"
+    assert [one.error for one in found.diagnosis] == [certain] * bool(certain)
+    assert [one.error for one in found.possible] == [guess] * bool(guess)
+    for one in found.possible:
+        assert one.evidence.endswith(
+            f"One in {round(1.0 / one.probability)} numbers with as many digits fits a known error by chance."
+        )
 
 
 @pytest.mark.parametrize(
-    ("text", "verdict", "expected"),
-    [("13.62", "right", 13.62), ("12.949437944", "right", 12.95), ("13.5", "wrong", 13.62)],
+    ("text", "words"),
+    [
+        # The overlaps were found by scipy's brentq on the gap of the nearest benches.
+        ("0.449610", "from 4.586996 m to 4.559133 m ... more than 27.9 mm apart"),
+        ("0.4503313691", "from 4.573875 m to 4.571339 m ... more than 2.54 mm apart"),
+        ("0.46", ""),
+        ("0.44", ""),
+    ],
 )
-def test_the_shortest_turn_is_a_right_answer_to_question_4_too(text: str, verdict: str, expected: float) -> None:
+def test_a_pitch_that_is_a_little_too_small_is_told_where_benches_overlap(text: str, words: str) -> None:
+    """Many ways to sample the way give such a pitch, so that none of them is told."""
+    found = typed("pitch", text, Language.ENGLISH)
+    assert (found.diagnosis, found.possible) == ([], [])
+    assert all(part in " ".join(found.notes) for part in words.split(" ... "))
+    assert ("overlap" in " ".join(found.notes)) is bool(words)
+
+
+def test_no_pitch_of_two_decimals_has_a_cause() -> None:
+    for hundredths in range(30, 60):
+        found = typed("pitch", f"0.{hundredths}", Language.ENGLISH)
+        assert (found.diagnosis, found.possible) == ([], [])
+
+
+def test_the_stated_chance_is_that_of_random_numbers() -> None:
+    """Of all pitches of four decimals as far from the right one as 0.4202, or nearer, so many fit a known error."""
+    texts = [f"{k / 10000:.4f}" for k in range(4202, 4806)]
+    known = [*shortcuts("pitch"), *pitch_grids()]
+    fits = [text for text in texts if any(gives(one, float(text), 0.5e-4) for one in known)]
+    [guess] = typed("pitch", "0.4202", Language.ENGLISH).possible
+    assert guess.probability == pytest.approx(len(fits) / len(texts), rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "verdict", "words"),
+    [
+        ("collision_time", "412.47", "right", ""),
+        ("collision_time", "412.48", "rounded", "to the nearest digit the right one is 412.47 s"),
+        ("collision_time", "412.473838", "right", ""),
+        ("collision_time", "412.47383765", "right", ""),
+        ("pitch", "0.4503", "rounded", "0.4504 m is the smallest of as many digits"),
+        ("pitch", "0.45033", "rounded", "0.45034 m is the smallest of as many digits"),
+        ("pitch", "0.45", "rounded", "0.46 m is the smallest of as many digits"),
+        ("pitch", "0.4504", "right", "rounded up, as a pitch must be"),
+        ("pitch", "0.46", "right", "rounded up, as a pitch must be"),
+        ("speed", "1.25", "right", ""),
+        ("speed", "1.247", "rounded", "to the nearest digit the right one is 1.246 m/s"),
+    ],
+)
+def test_a_number_right_to_its_last_digit_is_not_accused(name: str, text: str, verdict: str, words: str) -> None:
+    found = typed(name, text, Language.ENGLISH)
+    assert (found.verdict, found.diagnosis, found.possible) == (verdict, [], [])
+    assert words in " ".join(found.notes)
+    assert bool(found.notes) is bool(words)
+
+
+@pytest.mark.parametrize("text", ["8.2271", "9.4153", "11.7915", "11.8105", "11.8336", "12.949437944", "13.06", "13.5"])
+def test_every_turn_that_may_be_possible_is_a_right_answer_to_question_4(text: str) -> None:
     found = typed("turn_length", text, Language.ENGLISH)
-    assert (found.verdict, round(found.expected, 2)) == (verdict, expected)
-    assert bool(found.notes) is (expected == 12.95)
+    assert (found.verdict, found.diagnosis, found.possible) == ("right", [], [])
+    assert "right if both places are stated" in found.notes[0]
 
 
-@pytest.mark.parametrize(("text", "digits"), [("1", 1), ("0.4503374", 7), ("1.250", 4)])
+@pytest.mark.parametrize(
+    ("text", "verdict"), [("13.62", "right"), ("8.1", "wrong"), ("13.8", "wrong"), ("20.5", "wrong")]
+)
+def test_other_turns_are_graded_against_the_one_of_the_contest(text: str, verdict: str) -> None:
+    found = typed("turn_length", text, Language.ENGLISH)
+    assert (found.verdict, found.notes) == (verdict, [])
+
+
+@pytest.mark.parametrize(("text", "digits"), [("1", 1), ("0.4503374", 7), ("1.250", 4), ("1.2462663581", 7)])
 def test_the_digits_that_were_graded_are_told(text: str, digits: int) -> None:
     assert typed("speed", text, Language.ENGLISH).digits == digits

@@ -150,6 +150,111 @@ def test_csv_with_a_line_for_each_handle_and_instant_is_graded() -> None:
     assert [(sheet.holds, sheet.right) for sheet in found.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
 
 
+# Headings of lists with a line for each handle and instant, and the name of a handle in them.
+HEADS = {
+    "time,section,x_position,y_position,velocity": lambda h: h,
+    "t,node,x,y,v": lambda h: h + 1,
+    "time (s),bench,X,Y,speed (m/s)": lambda h: h,
+    "时间,节点编号,横坐标,纵坐标,速度": lambda h: h + 1,
+    "时刻(s),板凳编号,x坐标(m),y坐标(m),速度(m/s)": lambda h: h,
+    "Time [s],Index,pos_x,pos_y,Speed": lambda h: h,
+    "时间,位置,x (m),y (m),速度 (m/s)": lambda h: students.labels("speed")[h].removesuffix(" (m/s)"),
+}
+
+
+@pytest.mark.parametrize("heads", HEADS)
+@pytest.mark.parametrize("title", ["", "问题一的结果,,,,\n"])
+def test_lists_are_recognised_under_other_names(heads: str, title: str) -> None:
+    lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
+    found = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
+    assert [(sheet.holds, sheet.right) for sheet in found.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+
+
+def list_of(instants: int, name: Callable[[int], Any]) -> list[list[Any]]:
+    position, speed = spiral(SPIRAL_TIMES[:instants])
+    lines = [(t, h) for t in range(instants) for h in range(224)]
+    return [[t, name(h), *map(float, position[t, h].round(6)), float(speed[t, h].round(6))] for t, h in lines]
+
+
+def test_a_whole_list_in_a_workbook_is_read() -> None:
+    """It has 67,424 lines."""
+    rows = [["time", "section", "x_position", "y_position", "velocity"], *list_of(301, lambda h: h)]
+    found = grade(by_xlsxwriter({"data": rows}))
+    assert (found.verdict, [sheet.right for sheet in found.sheets]) == ("right", [134_848, 67_424])
+
+
+def test_a_list_of_numbered_handles_at_contact_is_graded() -> None:
+    [[position], [speed]] = spiral(students.np.array([students.CONTACT]))
+    lines = [f"{h},{x:.6f},{y:.6f},{v:.6f}" for h, ((x, y), v) in enumerate(zip(position, speed, strict=True))]
+    found = grade("\n".join(["node,x,y,velocity", *lines]).encode(), "result2.csv")
+    assert (found.workbook, found.verdict) == ("result2", "right")
+
+
+@pytest.mark.parametrize("below", [[], [[None] * 5], [["注：保留六位小数"]]], ids=["nothing", "a blank", "a remark"])
+@pytest.mark.parametrize("labels", [True, False])
+def test_a_sheet_of_speeds_is_no_sheet_of_positions(below: list[list[Any]], labels: bool) -> None:
+    """Its title or its labels say that it holds speeds; below its last handle there may be a line without a label."""
+    rows = few()["速度"]
+    if not labels:
+        rows = [rows[0], *([row[0].removesuffix(" (m/s)"), *row[1:]] for row in rows[1:])]
+    [sheet, *_] = grade(by_xlsxwriter({"速度表": rows + below})).sheets
+    assert (sheet.holds, sheet.right) == ("speed", 4 * 224)
+
+
+def in_angles(rows: list[list[Any]]) -> list[list[Any]]:
+    """The polar angle of every handle instead of its speed."""
+    theta = [[100.0 + 0.3 * k - 0.1 * t for t in range(4)] for k in range(224)]
+    return [rows[0], *([row[0].removesuffix(" (m/s)"), *angles] for row, angles in zip(rows[1:], theta, strict=True))]
+
+
+@pytest.mark.parametrize("title", ["极角", "theta", "角度 (rad)"])
+def test_angles_are_not_graded(title: str) -> None:
+    sheets = few()
+    found = grade(by_xlsxwriter({**sheets, title: in_angles(sheets["速度"])}))
+    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
+    assert found.notes == [f"The sheet {title} holds angles, which the contest does not ask for: it was not graded."]
+
+
+def test_angles_without_a_name_are_no_centimetres() -> None:
+    sheets = few()
+    [sheet] = [
+        one for one in grade(by_xlsxwriter({"Sheet1": in_angles(sheets["速度"])})).sheets if one.holds == "speed"
+    ]
+    assert not any("were converted" in note for note in sheet.notes)
+
+
+@pytest.mark.parametrize("factor", [100.0, 1000.0])
+def test_speeds_in_smaller_units_are_read_as_such(factor: float) -> None:
+    sheets = few()
+    rows = [
+        sheets["速度"][0],
+        *([row[0].replace(" (m/s)", ""), *(factor * v for v in row[1:])] for row in sheets["速度"][1:]),
+    ]
+    found = grade(by_xlsxwriter({"位置": sheets["位置"], "速度": rows}))
+    assert found.sheets[1].right == 4 * 224
+
+
+def test_empty_columns_and_rows_count_as_missing_instants_and_handles() -> None:
+    rows = [line.split(",") for line in wide_csv().splitlines()]
+    for row in rows[1:]:
+        row[202:] = [""] * 100
+    for row in rows[21:23]:
+        row[1:] = [""] * 301
+    [sheet] = grade("\n".join(map(",".join, rows)).encode(), "result1.csv").sheets
+    assert sheet.notes == [f"{100 * 448 + 201 * 2} cells are missing (1 handles and 100 instants without any)."]
+
+
+@pytest.mark.parametrize(
+    ("name", "count"), [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)]
+)
+def test_a_file_with_the_name_of_another_question_is_told(name: str, count: int) -> None:
+    times = students.TURN_TIMES[:4]
+    found = grade(by_xlsxwriter(students.rows_of(students.turn(times), times)), name)
+    assert (found.workbook, [sheet.right for sheet in found.sheets]) == ("result4", [4 * 448, 4 * 224])
+    words = "The name of the file says result1, but its sheets are laid out as result4: it was graded as result4."
+    assert found.notes == [words] * count
+
+
 def wide_csv(decimals: int = 6) -> str:
     """The positions of result1 as CSV."""
     lines = [",".join(["", *(f"{t:g} s" for t in SPIRAL_TIMES)])]

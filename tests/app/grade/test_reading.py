@@ -212,7 +212,7 @@ def test_the_same_workbook_is_read_however_it_is_written(change: Callable[[str, 
 def test_an_invalid_number_is_text() -> None:
     infinite = in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2" t="n"><v>1e999</v></c><c r="Z2"><v>')
     sheet = grade(repacked(small(), infinite)).sheets[0]
-    assert "The number in C2 is stored as text." in sheet.notes
+    assert "C2 should hold a number, but holds the text “inf”." in sheet.notes
     assert sheet.right == 4 * 448 - 1
 
 
@@ -270,9 +270,31 @@ def test_text_in_number_cells_is_told_with_its_place() -> None:
 
     sheet = grade(small(change)).sheets[0]
     assert "C3 should hold a number, but holds the text “—”." in sheet.notes
-    for cell in ("D3", "E3"):
-        assert f"The number in {cell} is stored as text." in sheet.notes
+    assert "Numbers that are stored as text: 2, the first is in D3." in sheet.notes
     assert sheet.right == 4 * 448 - 1
+
+
+@pytest.mark.parametrize("word", ["NaN", "#N/A", "无"])
+def test_text_in_many_cells_is_told_once_with_its_count(word: str) -> None:
+    def change(book: Any) -> None:
+        for row in book["位置"].iter_rows(min_row=404, min_col=2):
+            for cell in row:
+                cell.value = word
+
+    sheet = grade(small(change)).sheets[0]
+    assert sheet.notes[0] == f"184 cells hold the text “{word}” instead of a number, the first is B404."
+    assert len(sheet.notes) == 2
+    assert sheet.right == 4 * 402
+
+
+def test_many_texts_are_counted_and_not_all_quoted() -> None:
+    def change(book: Any) -> None:
+        for k, word in enumerate(("a", "b", "c", "d", "e", "e")):
+            book["位置"].cell(3 + k, 3).value = word
+
+    notes = grade(small(change)).sheets[0].notes
+    assert [note[:2] for note in notes[:3]] == ["C3", "C4", "C5"]
+    assert notes[3] == "Further cells with text: 3."
 
 
 def test_a_date_is_no_number() -> None:
@@ -289,6 +311,24 @@ def test_a_sheet_without_end_is_cut_and_graded() -> None:
         book["位置"].cell(1_048_576, 16_384, 1.0)
 
     assert grade(small(change)).sheets[0].right == 4 * 448
+
+
+def test_wide_rows_without_end_are_cut_and_that_is_told() -> None:
+    """A single cell far to the right in each of many rows stands for as many blanks before it."""
+    book, sink = openpyxl.Workbook(write_only=True), io.BytesIO()
+    for title, rows in few().items():
+        sheet = book.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+        for k in range(3_000 if title == "速度" else 0):
+            sheet.append([None] * 999 + [k])
+    book.save(sink)
+    found = grade(sink.getvalue())
+    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
+    [note] = found.notes
+    assert re.fullmatch(
+        r"Of the sheet 速度 only the first 2,\d{3} rows were read, because the rows are too wide.", note
+    )
 
 
 def test_a_budget_ends_the_reading() -> None:

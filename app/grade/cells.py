@@ -1,0 +1,73 @@
+"""Numbers in cells, and remarks on cells that hold text instead.
+
+Input: cells with their places. Output: numbers, NaN where there is none, and notes. State: `OddCells` counts the texts,
+so that 80,000 cells with the same text give one note.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.files.workbooks import letters_of
+from app.grade.grid import Cell, plain
+from app.grade.words import Note, note
+
+# Most texts that are quoted, and most characters of each.
+TEXTS_MOST, TEXT_LENGTH = 3, 30
+
+
+def cell_name(row: int, column: int) -> str:
+    """Name of a cell in a spreadsheet; row and column are counted from 0.
+
+    >>> cell_name(1, 27)
+    'AB2'
+    """
+    return f"{letters_of(column)}{row + 1}"
+
+
+@dataclass
+class OddCells:
+    """Cells of a table with text in the place of a number.
+
+    turned: True if rows and columns of the sheet were swapped
+    numbers: places of numbers stored as text; texts: places of each other text
+    """
+
+    turned: bool = False
+    numbers: list[str] = field(default_factory=list)
+    texts: dict[str, list[str]] = field(default_factory=dict)
+
+    def value(self, cell: Cell, row: int, column: int) -> float:
+        """Number in a cell, also if it is stored as text, maybe with a decimal comma; NaN for a blank or other text."""
+        if isinstance(cell, float):
+            return cell
+        if cell is None:
+            return float("nan")
+        place, text = cell_name(*((column, row) if self.turned else (row, column))), plain(cell)
+        try:
+            number = float(text.replace(",", "."))
+        except ValueError:
+            number = float("nan")
+        if np.isfinite(number):
+            self.numbers.append(place)
+            return number
+        self.texts.setdefault(text[:TEXT_LENGTH], []).append(place)
+        return float("nan")
+
+    def notes(self) -> list[Note]:
+        """One remark on each text, and one on the numbers that are stored as text."""
+        kinds = [("text", {"text": text}, places) for text, places in self.texts.items()]
+        found = [_counted(*kind) for kind in kinds[:TEXTS_MOST]]
+        if self.numbers:
+            found.append(_counted("text_number", {}, self.numbers))
+        more = sum(len(places) for _, _, places in kinds[TEXTS_MOST:])
+        return [*found, note("more_text", count=more)] if more else found
+
+
+def _counted(code: str, values: dict[str, str], places: list[str]) -> Note:
+    """The remark on one cell, or the one on several with their number and the first."""
+    if len(places) == 1:
+        return note(code, cell=places[0], **values)
+    return note(f"{code}s", cell=places[0], count=f"{len(places):,}", **values)

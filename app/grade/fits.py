@@ -1,0 +1,182 @@
+"""How well a known error explains the numbers of a sheet, and whether their digits decide for it.
+
+Input: the judgement of a sheet, and models. Output: the one model that explains it, or none. State: none. Argument: two
+numbers are told apart by the digits of a third one where they differ by more than twice its tolerance, because it
+agrees with at most one of them. A model counts only where the digits decide between it and the right motion, and
+between it and every other model that explains the sheet as well, the right numbers with a small bias among them; so
+noise, rounding, cut digits and a slightly wrong constant support none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.grade.geometry import Model
+from app.grade.judged import ROUNDED, JudgedSheet
+from app.grade.labels import SPEED
+from app.grade.layout import COMPONENTS, SHEETS, Ints
+from app.grade.shortcuts import Finding
+from app.grade.words import note
+from core import Budget
+from core.values import Floats
+
+# Shares of the wrong cells, and of all cells, that a model must give [1].
+WRONG_SHARE, ALL_SHARE = 0.9, 0.95
+# Fewest cells that must decide between two models: noise of several tolerances agrees with a model in one cell of five,
+# so with nine of ten cells in one of 10^5 models.
+DECISIVE_LEAST = 10
+# Share of the numbers that agree with exact arithmetic to their last digit [1].
+EXACT_SHARE = 0.99
+# Least size of a number that shows by which part a student's numbers are too large [m, m/s]; and largest bias [m, m/s,
+# 1].
+LARGE, BIAS_MOST = 0.5, 1e-3
+# Instants at which a model is tried first, and share of their cells that it must give to be tried at all instants [1].
+LOOKS, LOOK_SHARE = 12, 0.75
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Fit of a model to a sheet.
+
+    numbers: (T, H, C) of the model, NaN where the sheet has none; wrong, all: shares of the wrong cells and of all
+    cells that it gives; off: mean distance from the others; count: of wrong cells; is_decided: True if digits decide
+    for it against the right motion
+    """
+
+    model: Model
+    numbers: Floats
+    wrong: float
+    all: float
+    off: float
+    count: int
+    is_decided: bool
+
+    @property
+    def explains(self) -> bool:
+        return self.wrong >= WRONG_SHARE and self.all >= ALL_SHARE and self.is_decided
+
+
+def fit(one: JudgedSheet, model: Model, at: Ints | slice = slice(None)) -> Fit:
+    """Fit of a model to a sheet, or to its instants in `at`."""
+    motion = model.motion(one.times[at])
+    known = one.handles < motion.shape[1]
+    numbers = np.full(one.values[at].shape, np.nan)
+    numbers[:, known] = motion[:, one.handles[known]][..., list(COMPONENTS[one.table.kind])]
+    off = np.abs(one.values[at] - numbers)
+    present, fits = np.isfinite(off), off <= one.tolerance
+    wrong = present & (one.off[at] > one.tolerance)
+    if not present.any():
+        return Fit(model, numbers, 0.0, 0.0, np.inf, 0, False)
+    share, count = float(fits[wrong].mean()) if wrong.any() else 0.0, int(wrong.sum())
+    decided = _decided(one.values[at], numbers, one.wanted[at], one.tolerance)
+    return Fit(model, numbers, share, float(fits[present].mean()), float(np.median(off[present])), count, decided)
+
+
+def is_given_by(one: JudgedSheet, model: Model) -> bool:
+    """True if a sheet holds the numbers of a model, whether or not they differ from the right ones."""
+    return fit(one, model).all >= ALL_SHARE
+
+
+def _decided(values: Floats, given: Floats, other: Floats, tolerance: float) -> bool:
+    """True if the digits of the values decide for the numbers given by a model, against other ones."""
+    apart = np.isfinite(values) & (np.abs(given - other) > 2.0 * tolerance)
+    agrees = np.abs(values - given)[apart] <= tolerance
+    return agrees.size >= DECISIVE_LEAST and float(agrees.mean()) >= WRONG_SHARE
+
+
+def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit | None:
+    """The model that explains a sheet; None if none does, or if another error explains it as well.
+
+    Of models that the digits do not tell apart, a plain one wins, because each other one has a further error that does
+    not show; difference quotients are named together.
+    """
+    found: list[Fit] = []
+    some = np.unique(np.linspace(0, one.times.size - 1, LOOKS).astype(np.int64))
+    for model in models:
+        budget.look()
+        # Most models are already far off at a few instants.
+        is_near = fit(one, model, some).all >= LOOK_SHARE
+        if is_near and (whole := fit(one, model)).explains:
+            found.append(whole)
+    if not found:
+        return None
+    best = max(found, key=lambda one: (round(one.all, 3), -one.off))
+    if any(_gives(one, numbers) and not _is_better(one, best.numbers, numbers) for numbers in _biased(one)):
+        return None
+    alike = [each for each in found if not _is_better(one, best.numbers, each.numbers)]
+    if len(plain := [each for each in alike if each.model.is_plain]) == 1:
+        return plain[0]
+    if len({each.model.error for each in alike}) == 1:
+        return replace(best, model=replace(best.model, values=_together([each.model for each in alike])))
+    spans = [each.model.values.get("span") for each in alike]
+    if None in spans:
+        return None
+    every: dict[str, object] = {"span": "; ".join(dict.fromkeys(map(str, spans)))}
+    return replace(best, model=replace(best.model, error="difference_quotient", values=every))
+
+
+def _biased(one: JudgedSheet) -> Iterator[Floats]:
+    """The right numbers with the student's own bias: each component moved, or scaled, by the same amount everywhere.
+
+    A small bias has many causes, and it can be as large as what a difference quotient adds to every speed.
+    """
+    off, large = one.values - one.wanted, np.abs(one.wanted) > LARGE
+    part = off / np.where(large, one.wanted, 1.0)
+    moved, scaled = one.wanted.copy(), one.wanted.copy()
+    for c in range(off.shape[-1]):
+        known = np.isfinite(off[..., c])
+        moved[..., c] += _small(off[..., c][known])
+        scaled[..., c] *= 1.0 + _small(part[..., c][known & large[..., c]])
+    yield from (moved, scaled)
+
+
+def _small(biases: Floats) -> float:
+    """The middle one of some biases, or the largest that counts as one."""
+    return float(np.clip(np.median(biases), -BIAS_MOST, BIAS_MOST)) if biases.size else 0.0
+
+
+def _gives(one: JudgedSheet, numbers: Floats) -> bool:
+    """True if nearly all numbers of a sheet agree with these (T, H, C)."""
+    known = np.isfinite(one.values) & np.isfinite(numbers)
+    return bool(known.any() and (np.abs(one.values - numbers)[known] <= one.tolerance).mean() >= ALL_SHARE)
+
+
+def _is_better(one: JudgedSheet, best: Floats, other: Floats) -> bool:
+    """True if digits decide between the numbers (T, H, C) of two models that both explain a sheet.
+
+    Two models may be nearer than a student's arithmetic is exact. Then one is better if nearly all numbers agree with
+    it to the last digit that is written, and not with the other.
+    """
+    if _decided(one.values, best, other, one.tolerance):
+        return True
+    rounding = ROUNDED * 10.0**-one.written
+    apart = np.isfinite(one.values) & (np.abs(best - other) > 0.5 * rounding)
+    if apart.sum() < DECISIVE_LEAST:
+        return False
+    exact, less = (float((np.abs(one.values - each)[apart] <= rounding).mean()) for each in (best, other))
+    return exact >= EXACT_SHARE and less < WRONG_SHARE
+
+
+def _together(models: list[Model]) -> dict[str, object]:
+    """The values in the words of one error, with all those that give the same digits."""
+    names = models[0].values
+    return {name: " / ".join(dict.fromkeys(str(model.values[name]) for model in models)) for name in names}
+
+
+def finding(found: Fit, one: JudgedSheet) -> Finding:
+    """The model that explains a sheet, with the numbers that support it."""
+    worst = one.worst()
+    assert worst is not None
+    values = {
+        "sheet": one.table.title or note(SHEETS[one.table.kind]),
+        "share": f"{100 * found.wrong:.1f}",
+        "count": found.count,
+        "tolerance": f"{one.tolerance:.1e}",
+        "worst": f"{one.off[worst]:.6g}",
+        "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
+    }
+    model = found.model
+    return Finding(model.error, note(f"error_{model.error}", **model.values), note("evidence", **values))

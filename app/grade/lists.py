@@ -1,0 +1,133 @@
+"""Lists with a line for each handle and instant: time, handle, x, y, speed, in any order and under many names.
+
+Input: a grid of cells. Output: tables of positions and speeds, or none. State: none.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from app.grade.cells import OddCells
+from app.grade.grid import Cell, Grid, plain
+from app.grade.labels import HANDLE_WORD, TIME_WORD, instant_of, label_of
+from app.grade.layout import BENCHES, COMPONENTS, LABELS_LEAST, MARGIN, Ints, Table, TableKind
+from core.values import Floats
+
+# Lines whose labels are looked at.
+LOOK = 20
+NUMBER = re.compile(r"\d+")
+
+
+def lists_of(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
+    """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is no list.
+
+    cells: of the grid, as a rectangle
+    """
+    for head, row in enumerate(cells[:MARGIN]):
+        columns = _columns(row)
+        if "time" in columns and len(columns) > 1 and "handle" not in columns:
+            columns |= _labelled(cells[head + 1 :], columns)
+        if {"time", "handle"} <= columns.keys() and len(columns) > len(("time", "handle")):
+            return _over_time(grid, cells, head, columns)
+        if {"handle", "x", "y"} <= columns.keys() and _is_numbered(cells[head + 1 :], columns["handle"]):
+            return _at_contact(grid, cells, head, columns)
+    return []
+
+
+def _columns(heads: list[Cell]) -> dict[str, int]:
+    """Columns of the time, the handle, x, y and v; the first of each."""
+    columns: dict[str, int] = {}
+    for k, cell in enumerate(heads):
+        name, label = plain(cell) if isinstance(cell, str) else "", label_of(cell)
+        if TIME_WORD.search(name):
+            columns.setdefault("time", k)
+        elif label and label.component is not None and label.component < len("xyv"):
+            columns.setdefault("xyv"[label.component], k)
+        elif HANDLE_WORD.search(name):
+            columns.setdefault("handle", k)
+    return columns
+
+
+def _handle_of(cell: Cell) -> int | None:
+    """Number of a handle in a cell: a number, a label, or a text with a number."""
+    if isinstance(cell, float):
+        return int(cell) if cell.is_integer() else None
+    if not isinstance(cell, str):
+        return None
+    if (label := label_of(cell)) and label.handle is not None:
+        return label.handle
+    number = NUMBER.search(plain(cell))
+    return int(number[0]) if number else None
+
+
+def _labelled(rows: list[list[Cell]], columns: dict[str, int]) -> dict[str, int]:
+    """The column with labels of handles, where no heading names one."""
+    for k in range(len(rows[0]) if rows else 0):
+        labels = [label_of(row[k]) for row in rows[:LOOK]]
+        if k not in columns.values() and labels and all(label and label.handle is not None for label in labels):
+            return {"handle": k}
+    return {}
+
+
+def _is_numbered(rows: list[list[Cell]], k: int) -> bool:
+    """True if a column numbers the handles instead of naming them, each once."""
+    numbers = [row[k] for row in rows if isinstance(row[k], float)]
+    return 2 * len(numbers) > len(rows) and len(set(numbers)) == len(numbers)
+
+
+def _numbered(named: list[int]) -> tuple[Ints, Ints]:
+    """The handles in their order, and the place of each line among them; the tail follows the last body bench."""
+    last = max([BENCHES - 2, *named])
+    handles, places = np.unique([one if one >= 0 else last - one for one in named], return_inverse=True)
+    return handles, places
+
+
+def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[Table]:
+    """Tables of a list with a line for each handle and instant."""
+    placed = [(instant_of(row[columns["time"]]), _handle_of(row[columns["handle"]])) for row in cells]
+    lines = [n for n, (time, handle) in enumerate(placed) if n > head and time is not None and handle is not None]
+    if not lines:
+        return []
+    handles, h = _numbered([placed[n][1] or 0 for n in lines])
+    times, t = np.unique(np.array([placed[n][0] for n in lines], dtype=np.float64), return_inverse=True)
+    kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if _axes(kind) <= columns.keys()]
+    return [_filled(grid, cells, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
+
+
+def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[Table]:
+    """The table of a list with a line for each handle at one instant."""
+    lines = [n for n in range(head + 1, len(cells)) if _handle_of(cells[n][columns["handle"]]) is not None]
+    if len(lines) < LABELS_LEAST:
+        return []
+    handles, h = _numbered([_handle_of(cells[n][columns["handle"]]) or 0 for n in lines])
+    once = (np.array([np.nan]), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
+    return [_filled(grid, cells, head, columns, TableKind.CONTACT, once)]
+
+
+def _axes(kind: TableKind) -> set[str]:
+    return {"xyv"[component] for component in COMPONENTS[kind]}
+
+
+def _filled(
+    grid: Grid,
+    cells: list[list[Cell]],
+    head: int,
+    columns: dict[str, int],
+    kind: TableKind,
+    places: tuple[Floats, Ints, Ints, Ints, list[int]],
+) -> Table:
+    """The table of one kind. places: the times and the handles, each with its place by line; and the lines"""
+    times, t, handles, h, lines = places
+    components, odd = COMPONENTS[kind], OddCells()
+    shape = (times.size, handles.size, len(components))
+    values, rows, column = np.full(shape, np.nan), np.zeros(shape, dtype=np.int64), np.zeros(shape, dtype=np.int64)
+    for c, component in enumerate(components):
+        if (k := columns.get("xyv"[component])) is None:
+            continue
+        label = label_of(cells[head][k])
+        unit = label.unit if label else 1.0
+        values[t, h, c] = [odd.value(cells[n][k], n, k) * unit for n in lines]
+        rows[t, h, c], column[..., c] = lines, k
+    return Table(grid.title, kind, times, handles, np.arange(handles.size), values, rows, column, odd.notes())

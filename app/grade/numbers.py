@@ -1,0 +1,136 @@
+"""Typed answers to the contest's questions: whether they are right to their digits, and which known shortcut fits.
+
+Input: the name of a number, its value and its rounding. Output: a verdict, remarks and findings. State: none.
+
+A shortcut is only a guess as long as numbers of as many digits fit one by chance. Within the distance d of a number
+from the right value, on both sides of it, there are 2 d / u numbers with a last digit of size u, and some of them, f,
+fit a shortcut. Someone who errs by up to d may type any of them, so that f u / (2 d) is the chance of a fit. Findings
+carry it: at most CERTAIN for a diagnosis, at most POSSIBLE for a guess; beyond that nothing is reported.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from app.grade.contacts import PITCH_RANGE, longest_overlap
+from app.grade.judged import Rating
+from app.grade.shortcuts import UNITS, Finding, Shortcut, pitch_grids, right_answer, shortcuts
+from app.grade.words import Note, note
+
+# Half units of the last digit within which a number agrees: 2 % more for numbers that were rounded twice.
+HALF = 1.02
+# Half of the last decimal that the contest asks for: a number is graded to six decimals, if it has more.
+HALF_ASKED = 0.5e-6
+# A pitch that is too small by more than this counts as rounded down, which is infeasible [m].
+INFEASIBLE = 1e-5
+# Largest half of the last digit, relative to the number, at which a shortcut is reported [1]: 1.3 has too few digits.
+DIGITS_SHARE = 2e-3
+# Largest chance of a fit at which a shortcut is a diagnosis, and at which it is reported as a guess [1].
+CERTAIN, POSSIBLE = 2e-4, 0.1
+# Shortcuts that students hand in exactly must agree to this, in the unit of the number; or to its digits.
+EXACTLY = 1e-6
+# Longest overlap on the way to the circle that a check of it in steps may miss [m].
+OVERLAP_MOST = 0.1
+# Most decimals of a rounded number.
+DECIMALS_MOST = 4
+# Shortest turn that counts as possible [m]. Question 4 leaves open where the dance enters the circle and leaves it. The
+# shortest turns found so far that all benches follow without contact are 8.2271 m over all ratios of the arcs (ratio 1)
+# and 11.8105 m at ratio 2, on a grid of 2 mm, so that slightly shorter ones may exist; no lower bound is proven yet.
+TURN_LENGTH_LEAST = 8.2
+
+
+@dataclass(frozen=True)
+class Graded:
+    """Grade of a typed number. notes: remarks in words; findings: shortcuts that give it, with the chance of each"""
+
+    verdict: Rating
+    notes: list[Note]
+    findings: list[Finding]
+
+
+def graded_number(name: str, value: float, half_unit: float) -> Graded:
+    """The grade of one of UNITS. value: in its unit; half_unit: half of its last digit
+
+    A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
+    the other way, and nothing else follows from that. A pitch is rounded up, because a smaller one is infeasible.
+    """
+    right, asked = right_answer(name), max(half_unit, HALF_ASKED)
+    digits = _decimals_of(asked)
+    is_nearest, is_near = abs(value - right) <= HALF * asked, abs(value - right) < 2.0 * asked
+    words = {"nearest": f"{right:.{digits}f}", "unit": UNITS[name]}
+    if name == "pitch" and value < right and is_near and not (is_nearest and right - value <= INFEASIBLE):
+        up = math.ceil(right * 10.0**digits) / 10.0**digits
+        return Graded(Rating.ROUNDED, [note("pitch_rounded_down", up=f"{up:.{digits}f}")], [])
+    if is_nearest:
+        return Graded(Rating.RIGHT, [], [])
+    if is_near:
+        if name == "pitch":
+            return Graded(Rating.RIGHT, [note("pitch_rounded_up", **words)], [])
+        return Graded(Rating.ROUNDED, [note("rounded_otherwise", **words)], [])
+    if name == "turn_length" and TURN_LENGTH_LEAST - half_unit <= value < right:
+        return Graded(Rating.RIGHT, [note("possible_turn", length=f"{right:.7f}")], [])
+    notes = _overlap_of(value) if name == "pitch" and value < right else []
+    return Graded(Rating.WRONG, notes, explained(name, value, half_unit))
+
+
+def _overlap_of(pitch: float) -> list[Note]:
+    """Where benches overlap at a pitch that is a little too small, which shows how finely the way must be checked."""
+    if pitch <= PITCH_RANGE[0] or (found := longest_overlap(pitch)) is None:
+        return []
+    way = found[0] - found[1]
+    if way > OVERLAP_MOST:
+        return []
+    values = {"first": f"{found[0]:.6f}", "last": f"{found[1]:.6f}", "way": f"{1000.0 * way:.3g}"}
+    return [note("pitch_overlap", **values)]
+
+
+def _decimals_of(half_unit: float) -> int:
+    return max(0, round(-math.log10(2.0 * half_unit)))
+
+
+def rounded_right(name: str, value: float, off: float) -> int | None:
+    """Decimals to which a value known within `off` is the right one, rounded to the nearest; None if it is not."""
+    right = right_answer(name)
+    return next((k for k in range(DECIMALS_MOST + 1) if abs(round(right, k) - value) <= off), None)
+
+
+def explained(name: str, value: float, half_unit: float) -> list[Finding]:
+    """The known error that gives a wrong number; none if several errors give it, or if its digits are too few.
+
+    value: one of UNITS, in its unit; half_unit: half of its last digit, or the distance within which it is known
+    """
+    known = [*shortcuts(name), *(pitch_grids() if name == "pitch" else ())]
+    fits = [one for one in known if gives(one, value, half_unit)]
+    if not fits or half_unit > DIGITS_SHARE * value or len({one.error for one in fits}) > 1:
+        return []
+    chance = chance_of(name, value, half_unit, known)
+    if chance > POSSIBLE:
+        return []
+    one = _together(fits)
+    words = "gives_on_grid" if "grid" in one.values else "gives"
+    numbers = {"unit": UNITS[name], "right": f"{right_answer(name):.9g}", "value": f"{value:.9g}"}
+    given = f"{one.values.get('source', one.value):.9g}"
+    evidence = note(words, gives=given, **numbers, **one.values)
+    return [Finding(one.error, note(f"error_{one.error}", **one.values), evidence, chance)]
+
+
+def gives(one: Shortcut, value: float, half_unit: float) -> bool:
+    """True if a shortcut gives a number to its digits."""
+    return abs(one.value - value) <= (min(half_unit, EXACTLY) if one.exact else HALF * half_unit)
+
+
+def chance_of(name: str, value: float, half_unit: float, known: Sequence[Shortcut]) -> float:
+    """Share of the numbers with as many decimals, as far from the right one as this or nearer, that fit a shortcut."""
+    right, unit = right_answer(name), 2.0 * half_unit
+    far = abs(value - right) + half_unit
+    near = {round(one.value / unit) for one in known if abs(one.value - right) <= far}
+    return min(1.0, max(len(near), 1) * unit / (2.0 * far))
+
+
+def _together(fits: list[Shortcut]) -> Shortcut:
+    """One of the shortcuts of the same error, with all steps that give the number."""
+    steps = sorted({str(one.values["step"]) for one in fits if "step" in one.values}, key=float)
+    plain = next((one for one in fits if "grid" not in one.values), fits[0])
+    return replace(plain, values=plain.values | ({"step": " / ".join(steps)} if steps else {}))

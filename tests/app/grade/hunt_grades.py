@@ -1,0 +1,189 @@
+"""Right students whom the grader might accuse: python -m tests.app.grade.hunt_grades [seed] [seconds]
+
+Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off,
+from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the
+benches or come from a solver, or with a small bias. None has a known error, so that each diagnosis is a fault; so is a
+verdict "wrong" on a number that is right to its digits.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import cache
+from time import monotonic
+from typing import Any
+
+import numpy as np
+
+from app.files.tables import Language
+from app.grade.diagnosis import diagnosed
+from app.grade.expected import Workbook, dance_of, of_dance, times_of
+from app.grade.judged import judged
+from app.grade.layout import COMPONENTS, HANDLES, Table, TableKind
+from app.grade.report import typed
+from app.grade.shortcuts import UNITS, right_answer
+from core import Budget
+
+Floats = np.ndarray[Any, np.dtype[np.float64]]
+Random = np.random.Generator
+SECONDS = 120.0
+# Share of typed numbers among the cases, and of sheets with all of their instants: others have every 25th.
+TYPED, WHOLE, THINNED = 0.5, 0.02, 25
+# Decimals of sheets, and of typed numbers.
+SHEET_DECIMALS, TYPED_DECIMALS = (2, 9), (1, 11)
+
+
+@cache
+def right(workbook: Workbook) -> Floats:
+    """Right numbers (T, HANDLES, 3) of a workbook."""
+    return of_dance(dance_of(workbook))(times_of(workbook))
+
+
+def rounded(values: Floats, decimals: int, random: Random) -> Floats:
+    """Numbers rounded to the nearest, cut off, or rounded down."""
+    scaled = values * 10.0**decimals
+    return [np.round, np.trunc, np.floor][random.integers(3)](scaled) / 10.0**decimals
+
+
+def single_precision(values: Floats, random: Random) -> Floats:
+    return values.astype(np.float32).astype(np.float64)
+
+
+def noise(values: Floats, random: Random) -> Floats:
+    return values + random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), values.shape)
+
+
+def noise_of_one_kind(values: Floats, random: Random) -> Floats:
+    """Noise in the positions alone, or in the speeds alone."""
+    found, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
+    found[..., which] += random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), found[..., which].shape)
+    return found
+
+
+def along_benches(values: Floats, random: Random) -> Floats:
+    """Errors that add up from bench to bench."""
+    steps = random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0), values.shape)
+    return values + np.cumsum(steps, axis=1)
+
+
+def of_solver(values: Floats, random: Random) -> Floats:
+    """Smooth errors over handles and instants, as from a solver that stops early, the same in x, y and speed or not."""
+    waves = random.uniform(0.0, 0.5, 2)
+    t, h = np.meshgrid(*(np.arange(size) for size in values.shape[:2]), indexing="ij")
+    shape = np.sin(waves[0] * t + waves[1] * h + random.uniform(0.0, 6.0))
+    return values + 10.0 ** -random.uniform(4.0, 8.0) * shape[..., None] * random.uniform(-1.0, 1.0, 3)
+
+
+def biased(values: Floats, random: Random) -> Floats:
+    """All speeds, or all places, too small or too large by the same part."""
+    found, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
+    found[..., which] *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
+    return found
+
+
+def last_digit(values: Floats, random: Random) -> Floats:
+    """Some cells off by one in the sixth decimal."""
+    return np.round(values, 6) + 1e-6 * random.integers(-1, 2, values.shape) * (random.random(values.shape) < 0.1)
+
+
+def few_cells(values: Floats, random: Random) -> Floats:
+    """Some cells with another sign, a misplaced point or another number."""
+    found = values.copy()
+    for _ in range(random.integers(1, 30)):
+        at = tuple(random.integers(size) for size in values.shape)
+        found[at] = [-found[at], 10.0 * found[at], found[at] + random.normal()][random.integers(3)]
+    return found
+
+
+def exchanged(values: Floats, random: Random) -> Floats:
+    """Two handles exchanged, at all instants."""
+    found = values.copy()
+    a, b = random.integers(HANDLES, size=2)
+    found[:, [a, b]] = found[:, [b, a]]
+    return found
+
+
+def missing(values: Floats, random: Random) -> Floats:
+    found = values.copy()
+    found[random.random(values.shape) < random.uniform(0.0, 0.5)] = np.nan
+    return found
+
+
+CHANGES: list[Callable[[Floats, Random], Floats]] = [
+    single_precision, noise, noise_of_one_kind, along_benches, of_solver, biased, last_digit, few_cells, exchanged,
+    missing,
+]  # fmt: skip
+
+
+def sheet_fault(random: Random) -> str:
+    """What the grader finds in a workbook that is nearly right; empty for nothing."""
+    workbook = list(Workbook)[random.integers(3)]
+    values, times = right(workbook), times_of(workbook)
+    if workbook is not Workbook.RESULT2 and random.random() > WHOLE:
+        values, times = values[::THINNED], times[::THINNED]
+    changes = [CHANGES[k] for k in random.integers(len(CHANGES), size=random.integers(3))]
+    for change in changes:
+        values = change(values, random)
+    decimals = int(random.integers(*SHEET_DECIMALS))
+    values = rounded(values, decimals, random)
+    kinds = [TableKind.CONTACT] if workbook is Workbook.RESULT2 else [TableKind.POSITION, TableKind.SPEED]
+    judgements = [judged(table_of(kind, times, values), workbook, decimals) for kind in kinds]
+    findings = diagnosed(judgements, Budget())
+    if not findings:
+        return ""
+    named = ", ".join(change.__name__ for change in changes)
+    return f"{workbook.value}, {named or 'rounded'}, {decimals} decimals: {', '.join(one.error for one in findings)}"
+
+
+def table_of(kind: TableKind, times: Floats, values: Floats) -> Table:
+    """A sheet with these numbers (T, HANDLES, 3)."""
+    some, handles = values[..., list(COMPONENTS[kind])], np.arange(HANDLES)
+    places = np.zeros(some.shape, dtype=np.int64)
+    instants = np.array([np.nan]) if kind is TableKind.CONTACT else times
+    return Table("", kind, instants, handles, handles, some, places, places)
+
+
+def typed_fault(random: Random) -> str:
+    """What the grader finds in a number that is right to its digits, nearly right, or random; empty for nothing."""
+    name = list(UNITS)[random.integers(len(UNITS))]
+    exact, decimals = right_answer(name), int(random.integers(*TYPED_DECIMALS))
+    way = random.integers(3)
+    value = exact
+    if way == 1:
+        value *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(2.0, 9.0))
+    elif way == 2:
+        value *= random.uniform(0.8, 1.2)
+    text = f"{float(rounded(np.array(value), decimals, random)) if random.random() < 0.5 else value:.{decimals}f}"
+    if float(text) <= 0.0:
+        return ""
+    found = typed(name, text, Language.ENGLISH)
+    is_wrong = way == 0 and found.verdict == "wrong"
+    is_guessed = way == 0 and found.possible
+    if found.diagnosis or is_wrong or is_guessed:
+        return f"{name} {text}: {found.verdict.value}, {', '.join(one.error for one in found.diagnosis)}"
+    return ""
+
+
+def hunt(seed: int, seconds: float = SECONDS, cases: int | None = None) -> tuple[int, list[str]]:
+    """Number of random cases, and the faults found. cases: number of them, instead of the seconds"""
+    random, started, done, faults = np.random.default_rng(seed), monotonic(), 0, []
+    while done < cases if cases is not None else monotonic() - started < seconds:
+        fault = (typed_fault if random.random() < TYPED else sheet_fault)(random)
+        faults += [fault] if fault else []
+        done += 1
+    return done, faults
+
+
+def main() -> None:
+    seed, seconds = int(sys.argv[1]) if len(sys.argv) > 1 else 1, float(sys.argv[2]) if len(sys.argv) > 2 else SECONDS
+    done, faults = hunt(seed, seconds)
+    for fault in faults:
+        print(fault)
+    print(f"{done:,} sheets and typed numbers that are nearly right, seed {seed}: {len(faults)} accused")
+    if faults:
+        raise SystemExit(1)
+
+
+if __name__ == "__main__":
+    main()
