@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test machines deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
+.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -22,6 +22,7 @@ help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
 	@echo 'make test     the tests (ARGS= for pytest)'
 	@echo 'make machines  make serve and make test on other Debians, ten minutes each (as root; SUITES=, PACKAGES=, OWNER=)'
+	@echo 'make hunt     random campaigns against slow oracles, 20 minutes (SECONDS=, SEED=; the seed is printed)'
 	@echo 'make deep     the tests with all cases and samples, of which make test runs some of each kind'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make libreoffice  grades the three workbooks as saved by LibreOffice (needs libreoffice-calc; ARGS=--renew: the small ones)'
@@ -90,6 +91,9 @@ test: test-setup
 # Not with the settings of this make, which are for this machine.
 machines:
 	@env -u MAKEFLAGS -u MAKELEVEL bash .ci/machines $(SUITES)
+
+hunt: test-setup
+	@$(BIN)/python -m tests.hunt $(or $(SECONDS),1200) $(SEED)
 
 deep: setup
 	@DEEP=1 $(MAKE) --no-print-directory test
