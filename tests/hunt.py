@@ -1,7 +1,7 @@
 """All random campaigns against slow oracles: python -m tests.hunt [SECONDS [SEED]]; exit code 1 for any false answer.
 
-Each campaign is a module with `hunt(seed, seconds)`, which returns the number of cases and the false ones (a number or a
-list of sentences); it prints what it finds. The time is shared out among them.
+Each campaign is a module with `hunt(seed, seconds)`, which returns the number of cases and the false ones, as a number
+or a list of sentences. The time is shared out among them.
 """
 
 from __future__ import annotations
