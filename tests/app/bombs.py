@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import io
+import os
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import NoReturn
 
-# A file of this kind, its call, and its type.
 Bomb = Callable[[], bytes]
 MAPS: dict[str, Bomb] = {}
 GRADES: dict[str, Bomb] = {}
@@ -36,6 +39,7 @@ def zipped(parts: dict[str, bytes], method: int) -> bytes:
     return sink.getvalue()
 
 
+@cache
 def zeros(name: str, length: int, method: int) -> bytes:
     """An archive with one part of zeros, written in pieces."""
     sink = io.BytesIO()
@@ -60,18 +64,18 @@ def lying(data: bytes, name: str, length: int, content: bytes) -> bytes:
 
 @of_map
 def bzip2() -> bytes:
-    """700 bytes that become 800 MB."""
-    return zeros("doc.kml", 800_000_000, zipfile.ZIP_BZIP2)
+    """700 bytes that become 300 MB."""
+    return zeros("doc.kml", 300_000_000, zipfile.ZIP_BZIP2)
 
 
 @of_map
 def lzma() -> bytes:
-    return zeros("doc.kml", 300_000_000, zipfile.ZIP_LZMA)
+    return zeros("doc.kml", 100_000_000, zipfile.ZIP_LZMA)
 
 
 @of_map
 def deflated() -> bytes:
-    return zeros("doc.kml", 800_000_000, zipfile.ZIP_DEFLATED)
+    return zeros("doc.kml", 300_000_000, zipfile.ZIP_DEFLATED)
 
 
 @of_map
@@ -170,9 +174,10 @@ def arcs_of_dxf() -> bytes:
 def array_of_dxf() -> bytes:
     """A block that is inserted a thousand million times."""
     block = "0\nBLOCK\n2\nTREE\n70\n0\n10\n0\n20\n0\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\n0\nENDBLK"
-    blocks = f"0\nSECTION\n2\nBLOCKS\n{block}\n0\nENDSEC\n"
     inserted = "0\nINSERT\n2\nTREE\n10\n0\n20\n0\n70\n32000\n71\n32000\n44\n5\n45\n5"
-    return blocks.encode() + drawn(inserted)
+    return (
+        f"0\nSECTION\n2\nBLOCKS\n{block}\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{inserted}\n0\nENDSEC\n0\nEOF\n".encode()
+    )
 
 
 @of_map
@@ -181,17 +186,19 @@ def entities_of_dxf() -> bytes:
 
 
 def drawn(entities: str) -> bytes:
-    return f"0\nSECTION\n2\nENTITIES\n{entities}\n0\nENDSEC\n0\nEOF\n".encode()
+    """A drawing of the version of the year 2000."""
+    header = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC"
+    return f"{header}\n0\nSECTION\n2\nENTITIES\n{entities}\n0\nENDSEC\n0\nEOF\n".encode()
 
 
 @of_grade
 def bzip2_of_a_workbook() -> bytes:
-    return zeros("xl/workbook.xml", 800_000_000, zipfile.ZIP_BZIP2)
+    return zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_BZIP2)
 
 
 @of_grade
 def workbook_that_lies() -> bytes:
-    return lying(zeros("xl/workbook.xml", 800_000_000, zipfile.ZIP_DEFLATED), "xl/workbook.xml", 90, bytes(90))
+    return lying(zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_DEFLATED), "xl/workbook.xml", 90, bytes(90))
 
 
 def workbook(sheet: bytes) -> bytes:
@@ -224,7 +231,16 @@ def styles() -> bytes:
     return workbook(MAIN + b"<row><c><v>" + b"1" * 90_000_000)
 
 
-def bombs() -> Iterator[tuple[str, str, bytes]]:
-    """Call, name and content of every one."""
-    for call, some in (("places", MAPS), ("grade", GRADES)):
-        yield from ((call, name, made()) for name, made in some.items())
+def end(file: Path, budget: object) -> NoReturn:
+    """What a fault in a library of C does to the process that reads a file. file: gets a line"""
+    with file.open("a") as log:
+        log.write("ended\n")
+    os._exit(11)
+
+
+def take_memory(data: bytes, budget: object) -> int:
+    return len(data * 10_000)
+
+
+def fail(data: bytes, budget: object) -> NoReturn:
+    raise ZeroDivisionError(f"near {data!r}")
