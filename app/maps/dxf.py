@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import logging
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib import import_module
 from itertools import islice
 from typing import Any
@@ -33,6 +33,8 @@ RECORDS_MAX = 200_000
 RECORD_BEGIN = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 # Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
 LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}
+# Words of ezdxf for an entity that it has left out, with its kind in group 1.
+DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z][A-Z0-9_]+)\(#")
 # Record for values that no entity can hold: the path as a request describes it, the origin, and names by handle. A
 # string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
@@ -52,7 +54,8 @@ def read(data: bytes) -> Drawing:
     # Its messages may hold parts of the file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
-        return _drawing(import_module("ezdxf.recover").read(io.BytesIO(data))[0])
+        document, audit = import_module("ezdxf.recover").read(io.BytesIO(data))
+        return _drawing(document, [str(fix.message) for fix in audit.fixes])
     except InvalidValue:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
@@ -71,10 +74,14 @@ def _refuse_many_records(data: bytes) -> None:
         raise InvalidValue("file", rule, got="more", most=RECORDS_MAX)
 
 
-def _drawing(document: Any) -> Drawing:
+def _drawing(document: Any, fixes: Iterable[str]) -> Drawing:
+    """fixes: what ezdxf says of faults that it has mended"""
     code = int(document.header.get("$INSUNITS", 0))
     told = _told(document)
     entities = Entities(document, UNITS.get(code, 1.0), told)
+    for fix in fixes:
+        if deleted := DELETED.search(fix):
+            entities.counted.leave_out(f"damaged {deleted[1]}")
     features, counted = tuple(entities.named()), entities.counted
     if code not in UNITS:
         _refuse_wide(counted.features)

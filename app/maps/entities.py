@@ -21,7 +21,7 @@ from app.maps.features import (
     round_area,
 )
 from app.maps.joined import APART, joined
-from app.maps.labels import Label, label_of, names_of
+from app.maps.labels import Label, are_too_many, label_of, names_of
 from core import InvalidValue
 from core.values import Point
 
@@ -33,6 +33,8 @@ TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 MARKS, OF_BLOCK = "MARKS", "0"
 # Meshes and surfaces that DXF stores as polylines, by the name under which they are left out.
 MESHES = (("is_polygon_mesh", "POLYMESH"), ("is_poly_face_mesh", "POLYFACE"))
+# Flags of a block that stands in another file.
+EXTERNAL = 4 | 8
 # Points nearer to one another are one [m].
 SAME = 1e-9
 # The middle column and line of the nine places of an MTEXT, from 1 at the upper left.
@@ -73,6 +75,10 @@ class Entities:
         def skipped(entity: Any, reason: str) -> None:
             self.counted.leave_out(entity.dxftype())
 
+        block = insert.block()
+        if block is None or block.block.dxf.flags & EXTERNAL:
+            self.counted.leave_out("missing block" if block is None else "block of another drawing")
+            return
         copies = max(1, int(insert.mcount))
         if copies > 1:
             self._count(copies)
@@ -163,6 +169,9 @@ class Entities:
     def named(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
         features = list(_with_holes(joined(self.counted.features)))
+        if are_too_many(features, self.labels):
+            self.counted.left_out["text"] = len(self.labels)
+            self.labels = []
         words = names_of(features, self.labels)
         for k, feature in enumerate(features):
             name, layer = feature.name or words.get(k), _layer_of(feature)

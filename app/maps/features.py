@@ -193,6 +193,18 @@ def holds(rings: tuple[Ring, ...], point: tuple[float, float]) -> bool:
     return sum(x > point[0] for x in _crossings(rings, point[1])) % 2 == 1
 
 
+def holds_any(rings: tuple[Ring, ...], points: Ring) -> bool:
+    """True if one of the points is inside a polygon and outside its holes, as holds() has it; for many points."""
+    if holds(rings, points[0]):
+        return True
+    x, y = np.array(points).T
+    inside = np.zeros(len(points), dtype=bool)
+    for (ax, ay), (bx, by) in (side for ring in rings for side in pairwise(ring)):
+        if ay != by:
+            inside ^= ((ay > y) != (by > y)) & (ax + (y - ay) / (by - ay) * (bx - ax) > x)
+    return bool(inside.any())
+
+
 def _crossings(rings: tuple[Ring, ...], level: float) -> Iterator[float]:
     """x of every crossing of rings with a level y."""
     for a, b in (side for ring in rings for side in pairwise(ring)):

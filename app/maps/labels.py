@@ -12,8 +12,8 @@ from core.values import Point
 
 # A text that is at most this many of its heights from a thing stands beside it [1]; a letter is 0.6 heights wide.
 BESIDE, LETTER = 1.5, 0.6
-# Most pairs of a text and a side of a thing that are compared; beyond it a text names only what it stands in.
-PAIRS_MAX = 2_000_000
+# Most pairs of a text and a side of a thing that are compared: some seconds of work. Texts of more name nothing.
+PAIRS_MAX = 3_000_000
 
 
 @dataclass(frozen=True)
@@ -34,18 +34,21 @@ def label_of(text: str, at: Point, height: float, turned: float, align: float) -
     return Label(text, tuple(places), height)
 
 
+def are_too_many(features: Sequence[MapFeature], labels: Sequence[Label]) -> bool:
+    """True if the texts are not compared with the things."""
+    return sum(len(ring) for one in features for ring in one.rings) * len(labels) > PAIRS_MAX
+
+
 def names_of(features: Sequence[MapFeature], labels: Sequence[Label]) -> dict[int, str]:
     """Names of things by their places in the list.
 
     A text names the smallest thing that it stands in; but if that holds other things too, the nearest one beside it.
     """
     found: dict[int, str] = {}
-    sides = sum(len(ring) for one in features for ring in one.rings)
-    beside = sides * len(labels) <= PAIRS_MAX
     for label in labels:
         around = [k for k, one in enumerate(features) if _is_in(one, label.places[0])]
         own = min(around, key=lambda k: area_of(features[k]), default=None)
-        near = _nearest(features, label, own) if beside else None
+        near = _nearest(features, label, own)
         if (named := own if near is None else near) is not None:
             found.setdefault(named, label.text)
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 from unicodedata import category
@@ -12,7 +12,7 @@ import numpy as np
 
 from app.files.words import Say
 from app.maps import geojson
-from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds, round_area
+from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
@@ -68,12 +68,19 @@ def _told(one: MapFeature) -> dict[str, Any]:
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
+def refuse_many_edges_of(things: Iterable[MapFeature]) -> None:
+    """raises: InvalidValue at the field `file` for more edges than a venue may have"""
+    try:
+        refuse_many_edges(ring for one in things for ring in one.rings)
+    except InvalidValue as error:
+        raise error.named("file") from error
+
+
 def _checked(things: list[MapFeature]) -> Venue:
     """The venue of features, checked like a request, so that a request can use them."""
     told = {"type": "FeatureCollection", "features": [_told(one) for one in things]}
+    refuse_many_edges_of(things)
     try:
-        # Before the outlines of walls are made, which takes the time of the square of their number.
-        refuse_many_edges(ring for one in things for ring in one.rings)
         return venue_of(outlined(read_things(told)))
     except InvalidValue as error:
         raise error.named("file") from error
@@ -98,6 +105,8 @@ class Reading:
             self._note(f"Left out, because hidden: {counted(count, kind)}.", f"未读取（已隐藏）：{kind}，{count} 个。")
 
     def found(self) -> DanceParts:
+        # Before anything is compared with every edge.
+        refuse_many_edges_of(one for one in self.features if one.shape == "polygon")
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
         told = [one for one in lines if one.role == PATH]
@@ -233,7 +242,7 @@ class Reading:
         largest = max(free, key=area_of)
         # The edge of a wide outline lies on the outline itself.
         others = (one for one in self.features if one.rings[0] != largest.rings[0])
-        return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
+        return largest if all(holds_any(largest.rings, one.rings[0]) for one in others) else None
 
     def _things(self, square: MapFeature | None, others: list[MapFeature]) -> list[MapFeature]:
         """The square and the obstacles."""

@@ -45,7 +45,7 @@ class Places(Answer):
     path: dict[str, Any] | None = Field(description="Path in the form of a request; null: the file has none")
     venue: dict[str, Any] | None = Field(
         description="Square and obstacles in the form of a request: GeoJSON in metres, the square first; its member "
-        "`origin` is the place of x = y = 0, if it is known; null: the file has none"
+        "`origin` is the place of x = y = 0, and `grid` the same on a survey grid, if known; null: the file has none"
     )
     dance: dict[str, Any] | None = Field(
         description="Other fields of a file that describes a dance, unchanged; null: the file is a map"

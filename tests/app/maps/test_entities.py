@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -377,12 +378,70 @@ def test_a_map_that_is_too_wide_for_a_dance_is_refused() -> None:
         read(draw, square=False)
 
 
-def test_many_edges_are_refused_before_their_outlines_are_made() -> None:
+@pytest.mark.parametrize("square", [True, False])
+def test_many_edges_are_refused_before_they_are_compared(square: bool) -> None:
     def draw(document: Any) -> None:
         angles = np.linspace(0.0, 2 * np.pi, 16_000, endpoint=False)
-        for radius in (20.0, 45.0):
-            points = radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        for place in (0.0, 200.0):
+            points = 20.0 * np.stack([np.cos(angles), np.sin(angles)], axis=-1) + place
             document.modelspace().add_lwpolyline(points.tolist(), close=True)
 
-    with pytest.raises(InvalidValue, match="must have at most 2000 edges, got 32004"):
-        read(draw)
+    begun = time.process_time()
+    with pytest.raises(InvalidValue, match=f"file must have at most 2000 edges, got {32_000 + 4 * square}"):
+        read(draw, square=square)
+    assert time.process_time() - begun < 10.0  # It took 20 s.
+
+
+def test_a_long_path_beside_the_square_is_compared_at_once() -> None:
+    def draw(document: Any) -> None:
+        angles = np.linspace(0.0, 2 * np.pi, 1_900, endpoint=False)
+        outline = 20.0 * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        document.modelspace().add_lwpolyline(outline.tolist(), close=True)
+        line = [(300.0 + 0.001 * k, 300.0) for k in range(60_000)]
+        document.modelspace().add_lwpolyline(line, dxfattribs={"layer": "PATH"})
+
+    begun = time.process_time()
+    found = read(draw, square=False)
+    assert found.path is not None
+    assert any("No polygon is the square" in note for note in found.notes)
+    assert time.process_time() - begun < 15.0
+
+
+def test_blocks_that_are_not_in_the_file_are_left_out_and_said() -> None:
+    def draw(document: Any) -> None:
+        document.modelspace().add_blockref("LOST", (3, 3))
+        document.add_xref_def("other.dwg", "OTHER")
+        document.modelspace().add_blockref("OTHER", (5, 5))
+        document.modelspace().add_circle((10, 5), 1.0)
+
+    found = read(draw)
+    assert len(things(found)) == 1
+    assert {"Left out: 1 damaged INSERT.", "Left out: 1 block of another drawing."} <= set(found.notes)
+
+
+@pytest.mark.parametrize("version", ["R2000", "R2010"])
+def test_names_of_a_chinese_drawing_are_read(version: str) -> None:
+    document = ezdxf.new(version)
+    document.header["$INSUNITS"] = 6
+    if version == "R2000":
+        document.encoding = "gbk"
+    document.layers.add("障碍")
+    document.modelspace().add_circle((3, 4), 1.0, dxfattribs={"layer": "障碍"})
+    document.modelspace().add_text("樟树", height=0.5, dxfattribs={"insert": (3, 4)})
+    sink = io.StringIO()
+    document.write(sink)
+    found = places_of(sink.getvalue().encode(document.output_encoding), None, Say(Language.ENGLISH))
+    assert [name for name, *_ in things(found)] == ["樟树"]
+
+
+def test_more_texts_than_can_be_compared_name_nothing_and_are_said() -> None:
+    def draw(document: Any) -> None:
+        for k in range(3_000):
+            document.modelspace().add_text("x", height=0.1, dxfattribs={"insert": (0, 0.01 * k)})
+        line = [(300.0 + 0.1 * k, 300.0) for k in range(1_500)]
+        document.modelspace().add_lwpolyline(line, dxfattribs={"layer": "PATH"})
+
+    found = read(draw)
+    assert "Left out: 3000 texts." in found.notes
+    assert found.venue is not None
+    assert found.venue.square.name == "square"
