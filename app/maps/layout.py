@@ -28,6 +28,8 @@ from core.venue import refuse_many_edges
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
 # Largest number of things that a note names; a list of more ends in dots.
 NAMED = 5
+# Reason of a refusal of numbers that were taken for degrees.
+GUESSED = "its numbers look like degrees; if they are metres, give the units metres"
 # Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
 # A map narrower than the longest bench is in degrees, if its numbers allow it: 350 km in degrees, only 3 m in metres. A
@@ -142,9 +144,10 @@ class Reading:
         if not np.isfinite(points).all():
             raise InvalidValue("file", "must have finite coordinates")
         unit = self.drawing.unit
+        guessed = units is None and unit is Unit.UNKNOWN
         if units is not None:
             unit = Unit.DEGREES if units == "degrees" else Unit.METRES
-        elif unit is Unit.UNKNOWN:
+        elif guessed:
             unit = Unit.DEGREES if _look_like_degrees(points) else Unit.METRES
         if unit is not Unit.DEGREES:
             if unit is Unit.ASSUMED_METRES:
@@ -163,7 +166,10 @@ class Reading:
         middle = next((one.rings for one in self.features if one.role == SQUARE), None)
         rings = [ring for one in self.features for ring in one.rings]
         self.origin = self.origin or middle_of(list(middle[:1]) if middle else rings)
-        refuse_wide("file", rings, self.origin)
+        try:
+            refuse_wide("file", rings, self.origin)
+        except InvalidValue as error:
+            raise error.because(GUESSED) if guessed else error from None
         plane = Plane(self.origin)
         if abs(self.origin.longitude) > 180.0:
             self.origin = Origin((self.origin.longitude + 180.0) % 360.0 - 180.0, self.origin.latitude)

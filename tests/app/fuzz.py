@@ -134,7 +134,8 @@ def main() -> None:
         print("files:", ask_files(service.url, files, seed, Path(tempfile.gettempdir())), flush=True)
         print("readers over their limit:", readers_over(httpx.get(f"{service.url}/metrics").text, 1e9), flush=True)
         print(ask_mutants(service.url, int(sys.argv[2]), seed), flush=True)
-        print(ask_described(service.url, int(sys.argv[1])))
+        if cases := int(sys.argv[1]):
+            print(ask_described(service.url, cases))
 
 
 if __name__ == "__main__":

@@ -356,7 +356,9 @@ def test_places_and_check_agree_about_degrees(client: httpx.Client, across: floa
     checked = client.post("/check", json={"dragon": {"benches": 2}, "venue": square})
     taken_for_degrees = "looks like longitude and latitude" in checked.text
     if across in (0.3, 3.0):
-        with pytest.raises(InvalidValue, match="file must be at most 20 km across"):
+        with pytest.raises(
+            InvalidValue, match=r"file must be at most 20 km across.*if they are metres, give the units metres"
+        ):
             read(json.dumps(square).encode())
         assert taken_for_degrees
         return
