@@ -91,12 +91,12 @@ def _declared(data: bytes) -> str:
     declared = DECLARED.match(data[:400])
     if declared is None:
         return "utf-8"
-    given = declared[1].decode("ascii", "replace")
+    stated = declared[1].decode("ascii", "replace")
     try:
-        name = codecs.lookup(given).name
+        name = codecs.lookup(stated).name
     except LookupError:
         name = ""
     if not ENCODINGS.fullmatch(name):
-        raise InvalidValue("file", "must be text in a usual encoding: save it as UTF-8", got=Given(given, given))
+        raise InvalidValue("file", "must be text in a usual encoding: save it as UTF-8", got=Given(stated, stated))
     # UTF-16 without a mark would have been recognised by its first bytes, so a declaration of it is wrong.
     return "utf-8" if name.startswith("utf-16") else WIDER.get(name, name)

@@ -32,8 +32,8 @@ def limit_memory(most: int) -> None:
 def peak_memory() -> int:
     """Largest resident memory of this process so far [bytes]; 0 where the system does not say it."""
     with contextlib.suppress(OSError):  # getrusage() of Linux also counts the process that started this one.
-        found = PEAK.search(STATUS.read_bytes())
-        return int(found[1]) * 1024 if found else 0
+        line = PEAK.search(STATUS.read_bytes())
+        return int(line[1]) * 1024 if line else 0
     if not find_spec("resource"):
         return 0
     resource = import_module("resource")

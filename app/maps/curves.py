@@ -56,8 +56,8 @@ def points_of(entity: Any, factor: float) -> Floats:
             places = _polyline(entity, factor)
     if not np.isfinite(places).all():
         raise Damaged
-    found: Floats = places * factor
-    return found
+    metres: Floats = places * factor
+    return metres
 
 
 def _plain(point: Any) -> Floats:
@@ -132,8 +132,8 @@ def _polyline(entity: Any, factor: float) -> Floats:
         parts.append(_side(a, b, bulge, factor))
         room += len(parts[-1])
         _checked_count(room)
-    found = np.concatenate(parts)
-    return _in_world(entity, found, height) if flat else found
+    places = np.concatenate(parts)
+    return _in_world(entity, places, height) if flat else places
 
 
 def _side(a: Floats, b: Floats, bulge: float, factor: float) -> Floats:
@@ -192,16 +192,16 @@ def _spline(entity: Any, sag: float) -> Floats:
 
 def _second(control: Floats, knots: Floats, degree: int) -> Floats:
     """Length of each control point of the second derivative, as long as the control points; 0 beyond."""
-    points, found = control[:, :2], np.zeros(len(control))
+    points, lengths = control[:, :2], np.zeros(len(control))
     for k in range(2):
         p = degree - k
         if p < 1:
-            return found
+            return lengths
         apart = np.array([knots[i + p + 1 + k] - knots[i + 1 + k] for i in range(len(points) - 1)])
         steps = p * np.diff(points, axis=0) / np.where(apart > 0.0, apart, 1.0)[:, None]
         points = np.where(apart[:, None] > 0.0, steps, 0.0)
-    found[: len(points)] = np.hypot(*points.T)
-    return found
+    lengths[: len(points)] = np.hypot(*points.T)
+    return lengths
 
 
 def _on_span(control: Floats, knots: Floats, degree: int, span: int, t: Floats) -> Floats:
@@ -212,5 +212,5 @@ def _on_span(control: Floats, knots: Floats, degree: int, span: int, t: Floats) 
             low, high = knots[j + span - degree], knots[j + 1 + span - level]
             share = ((t - low) / (high - low))[:, None]
             points[j] = (1.0 - share) * points[j - 1] + share * points[j]
-    found: Floats = points[degree, :, :2] / points[degree, :, 2:]
-    return found
+    places: Floats = points[degree, :, :2] / points[degree, :, 2:]
+    return places

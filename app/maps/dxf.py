@@ -28,8 +28,8 @@ UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0
 # Largest width of a drawing without a unit, which is taken as metres: 2 km. The same number in millimetres would be a
 # square of 2 m, too small for a dance [1].
 ACROSS_MAX = 2_000.0
-# Most records of a file, counted before ezdxf reads it, which takes 30 us for each (measured 2026-11-26).
-RECORDS_MAX = 200_000
+# Most records of a file, counted before ezdxf reads it, which takes 50 us for each (measured 2026-11-26).
+RECORDS_MAX = 100_000
 RECORD_BEGIN = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 # Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
 LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}

@@ -44,10 +44,10 @@ COLUMNS = 3
 class Entities:
     """Collects the features of a drawing, in metres."""
 
-    def __init__(self, document: Any, factor: float, told: Mapping[str, Any]) -> None:
-        """factor: metres in a unit; told: by this program; names, and radii of walls [m], by handle"""
-        self.factor, self.names = factor, _mapping(told.get("names"))
-        self.radii = {handle: one for handle, one in _mapping(told.get("radii")).items() if isinstance(one, float)}
+    def __init__(self, document: Any, factor: float, record: Mapping[str, Any]) -> None:
+        """factor: metres in a unit; record: of this program; names, and radii of walls [m], by handle"""
+        self.factor, self.names = factor, _mapping(record.get("names"))
+        self.radii = {handle: one for handle, one in _mapping(record.get("radii")).items() if isinstance(one, float)}
         self.counted, self.labels = Counted(), list[Label]()
         self.layers = document.layers
         self.seen = 0
@@ -97,8 +97,8 @@ class Entities:
         """Whether a layer is off, and whether it is frozen."""
         if not self.layers.has_entry(layer):
             return False, False
-        found = self.layers.get(layer)
-        return bool(found.is_off()), bool(found.is_frozen())
+        entry = self.layers.get(layer)
+        return bool(entry.is_off()), bool(entry.is_frozen())
 
     def _take(self, entity: Any, layer: str) -> None:
         kind, handle = entity.dxftype(), str(entity.dxf.get("handle"))
@@ -134,11 +134,11 @@ class Entities:
 
     def _add_curve(self, entity: Any, feature: MapFeature) -> None:
         try:
-            found = [(x, y) for x, y in points_of(entity, self.factor).tolist()]
+            places = [(x, y) for x, y in points_of(entity, self.factor).tolist()]
         except Damaged:
             self.counted.leave_out(f"damaged {entity.dxftype()}")
             return
-        points = tuple(b for a, b in zip((None, *found), found, strict=False) if a is None or dist(a, b) > SAME)
+        points = tuple(b for a, b in zip((None, *places), places, strict=False) if a is None or dist(a, b) > SAME)
         if len(points) < 2:
             self.counted.leave_out(f"{entity.dxftype()} of one point")
             return
@@ -179,8 +179,8 @@ class Entities:
             yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
 
 
-def _mapping(told: object) -> Mapping[str, Any]:
-    return told if isinstance(told, Mapping) else {}
+def _mapping(value: object) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
 
 
 def _width(entity: Any) -> float:

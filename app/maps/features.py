@@ -97,19 +97,19 @@ class Drawing:
     grid: Point | None = None
 
 
-def origin_of(told: object) -> Origin | None:
+def origin_of(stated: object) -> Origin | None:
     """The place of x = y = 0 in a file's own words; None if it gives none."""
-    values = _numbers(told, ("longitude", "latitude"), (180.0, 90.0))
+    values = _numbers(stated, ("longitude", "latitude"), (180.0, 90.0))
     return None if values is None else Origin(*values)
 
 
-def grid_of(told: object) -> Point | None:
+def grid_of(stated: object) -> Point | None:
     """The place of x = y = 0 on a survey grid, in a file's own words; None if it gives none."""
-    return _numbers(told, ("x", "y"), (GRID_MAX, GRID_MAX))
+    return _numbers(stated, ("x", "y"), (GRID_MAX, GRID_MAX))
 
 
-def _numbers(told: object, names: tuple[str, str], most: tuple[float, float]) -> tuple[float, float] | None:
-    values = [told.get(name) for name in names] if isinstance(told, Mapping) else [None]
+def _numbers(stated: object, names: tuple[str, str], most: tuple[float, float]) -> tuple[float, float] | None:
+    values = [stated.get(name) for name in names] if isinstance(stated, Mapping) else [None]
     if not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
         return None
     x, y = map(float, values)  # type: ignore[arg-type]

@@ -44,14 +44,14 @@ def names_of(features: Sequence[MapFeature], labels: Sequence[Label]) -> dict[in
 
     A text names the smallest thing that it stands in; but if that holds other things too, the nearest one beside it.
     """
-    found: dict[int, str] = {}
+    names: dict[int, str] = {}
     for label in labels:
         around = [k for k, one in enumerate(features) if _is_in(one, label.places[0])]
         own = min(around, key=lambda k: area_of(features[k]), default=None)
         near = _nearest(features, label, own)
         if (named := own if near is None else near) is not None:
-            found.setdefault(named, label.text)
-    return found
+            names.setdefault(named, label.text)
+    return names
 
 
 def _nearest(features: Sequence[MapFeature], label: Label, own: int | None) -> int | None:
