@@ -28,8 +28,8 @@ UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0
 # Largest width of a drawing without a unit, which is taken as metres: 2 km. The same number in millimetres would be a
 # square of 2 m, too small for a dance [1].
 ACROSS_MAX = 2_000.0
-# Most records of a file, counted before ezdxf reads it, which takes 50 us for each (measured 2026-11-26).
-RECORDS_MAX = 100_000
+# Most lines and most records of a file, counted before ezdxf reads it: it takes 50 us for a record (2026-11-26).
+LINES_MAX, RECORDS_MAX = 2_000_000, 100_000
 RECORD_BEGIN = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 # Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
 LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}
@@ -49,7 +49,7 @@ def read(data: bytes) -> Drawing:
         raise InvalidValue("file", "must be DXF as text: save it as ASCII DXF", got="binary DXF")
     if data.startswith(b"AC10"):
         raise InvalidValue("file", "must be DXF: save it as DXF", got="DWG")
-    _refuse_many_records(data)
+    _refuse_many(data)
     errors = import_module("ezdxf.lldxf.const")
     # Its messages may hold parts of the file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
@@ -67,11 +67,12 @@ def read(data: bytes) -> Drawing:
         raise InvalidValue("file", rule, why=why) from error
 
 
-def _refuse_many_records(data: bytes) -> None:
-    count = sum(1 for _ in islice(RECORD_BEGIN.finditer(data), RECORDS_MAX + 1))
-    if count > RECORDS_MAX:
-        rule = f"must have at most {{most}} records: {LEAVE_OUT}"
-        raise InvalidValue("file", rule, got="more", most=RECORDS_MAX)
+def _refuse_many(data: bytes) -> None:
+    """Refuse a file that takes long to read, before it is read."""
+    lines, records = data.count(b"\n"), sum(1 for _ in islice(RECORD_BEGIN.finditer(data), RECORDS_MAX + 1))
+    if lines > LINES_MAX or records > RECORDS_MAX:
+        rule = f"must have at most {{lines}} lines and {{records}} records: {LEAVE_OUT}"
+        raise InvalidValue("file", rule, got="more", lines=LINES_MAX, records=RECORDS_MAX)
 
 
 def _drawing(document: Any, fixes: Iterable[str]) -> Drawing:

@@ -185,6 +185,12 @@ def entities_of_dxf() -> bytes:
     return drawn("\n".join(["0\nPOINT\n10\n0\n20\n0"] * 900_000))
 
 
+@of_map
+def vertices_of_dxf() -> bytes:
+    corners = "10\n0\n20\n1\n" * 1_000_000
+    return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n1000000\n70\n0\n{corners}".rstrip())
+
+
 def drawn(entities: str) -> bytes:
     """A drawing of the version of the year 2000."""
     header = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC"
