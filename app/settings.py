@@ -93,6 +93,12 @@ class Settings(BaseModel):
     grade_seconds: float = Field(60.0, gt=0, description="Longest grading of one file [s]")
     places_bytes_max: int = Field(20_000_000, ge=1, description="Longest map in POST /places [bytes]")
     places_seconds: float = Field(20.0, gt=0, description="Longest reading of one map [s]")
+    readers_max: int = Field(
+        2, ge=1, description="Files of /grade and /places read at once by one process; further ones get 503"
+    )
+    reader_memory_max: int = Field(
+        1_000_000_000, ge=2**29, description="Address space of a process that reads a file [bytes]"
+    )
     benches_max: int = Field(100_000, ge=1, description="Longest dragon [benches]")
     scanned_benches_max: int = Field(10_000, ge=1, description="Longest dragon whose pitches are scanned [benches]")
     checked_benches_max: int = Field(

@@ -58,6 +58,16 @@ def test_the_cluster_is_of_its_profile_and_nothing_is_written_but_in_the_volume(
     assert "BENCH_DRAGON_DATA=/data" in dockerfile
 
 
+def test_memory_holds_what_files_and_jobs_may_take_on_two_cores() -> None:
+    gigabytes = int(SERVICES["service"]["mem_limit"].removesuffix("g"))
+    settings, workers = Settings(), 2
+    files = workers * settings.readers_max * settings.reader_memory_max
+    assert files + workers * settings.bodies_bytes_max + workers * 0.3e9 < gigabytes * 1e9
+    assert all(one["pids_limit"] == 512 for one in SERVICES.values())
+    words = (ROOT / "docs" / "operations.md").read_text(encoding="utf-8")
+    assert f"gives the container {gigabytes} GB and 512 processes" in words
+
+
 def test_its_settings_are_settings() -> None:
     known = {f"BENCH_DRAGON_{name.upper()}" for name in Settings.model_fields}
     assert set(SERVICES["service"]["environment"]) <= known

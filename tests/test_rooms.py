@@ -34,7 +34,7 @@ TOGETHER = {
     "jobs/test_store.py": "files/flush jobs/job",
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
-    " maps/marks maps/places questions/maps",
+    " maps/lines maps/marks maps/places questions/maps",
     "plan/test_plan.py": "files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
     "questions/test_envelope.py": "command/envelope files/outlines",
     "questions/test_paper.py": "grade/paper",

@@ -15,6 +15,7 @@ from rich.text import Text
 from app.command import show
 from app.command.options import Json
 from app.files.disk import checked_output, write_whole
+from app.files.memory import READING_MAX, reading
 from app.files.tables import Language
 from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
@@ -29,7 +30,7 @@ from app.grade.report import (
     unreadable,
 )
 from app.grade.words import note, say
-from core import Budget, InvalidValue
+from core import Budget, InvalidValue, TooMuchWork
 
 # Endings of the files that are graded in a folder.
 ENDINGS = (".xlsx", ".xlsm", ".xls", ".csv")
@@ -71,7 +72,7 @@ def grade(
                 refused.append(error)
                 found.append(unreadable(str(file), note("not_opened", why=error.strerror), language))
             else:
-                found.append(graded(str(file), data, language, Budget()))
+                found.append(_graded(str(file), data, language))
             progress("grading", (k + 1) / len(named))
     if refused and len(refused) == len(named) and not answers:
         raise refused[0]
@@ -79,6 +80,15 @@ def grade(
     if summary:
         write_whole(summary, _summary(found).encode("utf-8-sig"))
     show.print_found(answer, json, _parts(answer, language))
+
+
+def _graded(name: str, data: bytes, language: Language) -> FileAnswer:
+    """The grade of one file; one that needs too much memory does not stop the grading of the others."""
+    try:
+        with reading():
+            return graded(name, data, language, Budget())
+    except TooMuchWork:
+        return unreadable(name, note("memory", most=f"{READING_MAX / 1e6:.0f}"), language)
 
 
 def _named(files: list[Path]) -> Iterator[Path]:

@@ -14,7 +14,7 @@ from typing import Any
 from app.files.flush import new_file
 from app.wire.messages import OBJECT
 from app.wire.question import shown
-from app.wire.texts import Unreadable, json_of, text_of, toml_of
+from app.wire.texts import Unreadable, json_of, table_of, toml_of
 from core import InvalidValue
 from core.errors import Given, Parameter
 
@@ -129,12 +129,15 @@ def read_dance(file: Path) -> dict[str, Any]:
     if isinstance(asked.get("dragon"), str):
         place = file.parent / asked["dragon"]
         try:
-            asked["dragon"] = {"csv": text_of(place.read_bytes())}
+            text, is_chinese = table_of(place.read_bytes())
         except OSError as error:
             told = {"file": str(file), "table": str(place), "why": str(error.strerror)}
             raise InvalidValue("dragon", "of {file}: {table}: {why}", **told) from error
         except Unreadable as error:
             raise error.of("dragon", str(place)) from error
+        if is_chinese:
+            print(f"{place} is not in UTF-8; it was read as GB 18030.", file=sys.stderr)
+        asked["dragon"] = {"csv": text}
     if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
         asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked

@@ -145,7 +145,7 @@ def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAn
         return unreadable(name, error.said, language)
     except Halted as error:
         raise too_long(data, budget) from error
-    except (MissingPackage, TooMuchWork):
+    except (MissingPackage, TooMuchWork, MemoryError):
         raise
     except Exception as error:  # An error of ours in one file must not stop the grading of the others.
         return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]), language)

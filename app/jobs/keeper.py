@@ -102,12 +102,12 @@ class Keeper:
         self._clear_at = now + max(CLEAR_SECONDS, (now - begun) / CLEAR_SHARE)
 
 
-def start(module: str, *arguments: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
+def start(module: str, *arguments: str, stdout: int | None = None, **more: str) -> subprocess.Popen[bytes]:
     """A process that ends when its standard input closes, so also when its parent is killed.
 
-    It runs in a new session, so signals from the service's terminal do not reach it.
+    It runs in a new session, so signals from the service's terminal do not reach it. more: variables of its environment
     """
-    environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS}
+    environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS} | more
     command = [sys.executable, "-m", "app.start", module, *arguments]
     return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, start_new_session=True, stdout=stdout)
 

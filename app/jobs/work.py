@@ -19,13 +19,12 @@ import sqlite3
 import sys
 from collections.abc import Iterator
 from contextlib import closing
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
 
 from app.files.flush import new_file
+from app.files.memory import limit_memory, peak_memory
 from app.jobs.job import SWEEP
 from app.jobs.reports import Reports
 from app.jobs.runner import end_group
@@ -43,20 +42,9 @@ NICENESS = 10
 SMALL = 256_000_000
 
 
-def limit_memory(most: int) -> None:
-    """Limit the memory of this process [bytes], if the system supports it."""
-    if find_spec("resource"):
-        resource = import_module("resource")
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))
-
-
 def is_small() -> bool:
     """True if this process never needed much memory, so that the next job finds what it would find in a new one."""
-    if not find_spec("resource"):
-        return False
-    resource = import_module("resource")
-    peak: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak * (1 if sys.platform == "darwin" else 1024) < SMALL
+    return 0 < peak_memory() < SMALL
 
 
 def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> bytes | Path | Problem:

@@ -3,35 +3,38 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
+import logging
+import re
+from collections.abc import Iterable, Mapping
 from importlib import import_module
-from math import dist
+from itertools import islice
 from typing import Any
 
 import orjson
 
 from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
-from app.maps.features import LEAVE_OUT, Counted, Drawing, MapFeature, area_of, drawn_as, holds, inner_point, role_of
-from app.wire.degrees import Origin
+from app.maps.entities import MARKS, Entities
+from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, grid_of, inner_point, origin_of
 from core import InvalidValue
 from core.errors import Quantity
 from core.venue import Ring
 
-# Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, yard, decimetre.
-UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 10: 0.9144, 14: 0.1}
+# Metres in the units of $INSUNITS: inch, foot, mile, millimetre, centimetre, metre, kilometre, microinch, mil, yard,
+# micrometre (13), decimetre, decametre, hectometre, and foot, inch, yard and mile of surveyors in the US (21 to 24).
+UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0, 8: 2.54e-8, 9: 2.54e-5, 10: 0.9144,
+         13: 1e-6, 14: 0.1, 15: 10.0, 16: 100.0, 21: 1200 / 3937, 22: 100 / 3937, 23: 3600 / 3937,
+         24: 6336000 / 3937}  # fmt: skip
 # Largest width of a drawing without a unit, which is taken as metres: 2 km. The same number in millimetres would be a
 # square of 2 m, too small for a dance [1].
 ACROSS_MAX = 2_000.0
-# Largest distance of a curve from the straight lines that replace it [m].
-FLATTENED = 0.005
-# Deepest nesting of blocks, and most entities of a drawing; those of a block count each time it is used.
-DEPTH_MAX, ENTITIES_MAX = 4, 20_000
-CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE")
-TEXTS = ("TEXT", "MTEXT")
+# Most lines and most records of a file, counted before ezdxf reads it: it takes 50 us for a record (2026-11-26).
+LINES_MAX, RECORDS_MAX = 2_000_000, 100_000
+RECORD_BEGIN = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
 # Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
-LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": ("MARKS", 1)}
+LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}
+# Words of ezdxf for an entity that it has left out, with its kind in group 1.
+DELETED = re.compile(r"(?:[Dd]elet|[Rr]emov)\w*[^#]*?\b([A-Z][A-Z0-9_]+)\(#")
 # Record for values that no entity can hold: the path as a request describes it, the origin, and names by handle. A
 # string of a record has at most 2,049 characters.
 RECORD, CHUNK = "BENCH_DRAGON", 2_000
@@ -46,9 +49,13 @@ def read(data: bytes) -> Drawing:
         raise InvalidValue("file", "must be DXF as text: save it as ASCII DXF", got="binary DXF")
     if data.startswith(b"AC10"):
         raise InvalidValue("file", "must be DXF: save it as DXF", got="DWG")
+    _refuse_many(data)
     errors = import_module("ezdxf.lldxf.const")
+    # Its messages may hold parts of the file.
+    logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
-        return _drawing(import_module("ezdxf.recover").read(io.BytesIO(data))[0])
+        document, audit = import_module("ezdxf.recover").read(io.BytesIO(data))
+        return _drawing(document, [str(fix.message) for fix in audit.fixes])
     except InvalidValue:
         raise
     # Other errors that ezdxf raises for a faulty drawing.
@@ -60,22 +67,34 @@ def read(data: bytes) -> Drawing:
         raise InvalidValue("file", rule, why=why) from error
 
 
-def _drawing(document: Any) -> Drawing:
+def _refuse_many(data: bytes) -> None:
+    """Refuse a file that takes long to read, before it is read."""
+    lines, records = data.count(b"\n"), sum(1 for _ in islice(RECORD_BEGIN.finditer(data), RECORDS_MAX + 1))
+    if lines > LINES_MAX or records > RECORDS_MAX:
+        rule = f"must have at most {{lines}} lines and {{records}} records: {LEAVE_OUT}"
+        raise InvalidValue("file", rule, got="more", lines=LINES_MAX, records=RECORDS_MAX)
+
+
+def _drawing(document: Any, fixes: Iterable[str]) -> Drawing:
+    """fixes: what ezdxf says of faults that it has mended"""
     code = int(document.header.get("$INSUNITS", 0))
-    factor = UNITS.get(code, 1.0)
     told = _told(document)
-    reader = _Reader(factor, told)
-    for entity in reader.entities(document.modelspace()):
-        reader.take(entity)
+    entities = Entities(document, UNITS.get(code, 1.0), told)
+    for fix in fixes:
+        if deleted := DELETED.search(fix):
+            entities.counted.leave_out(f"damaged {deleted[1]}")
+    features, counted = tuple(entities.named()), entities.counted
     if code not in UNITS:
-        _refuse_wide(reader.counted.features)
-    origin, path = told.get("origin"), told.get("path")
+        _refuse_wide(counted.features)
+    path = told.get("path")
     return Drawing(
-        tuple(reader.named()),
-        False if code in UNITS else None,
-        Origin(origin["longitude"], origin["latitude"]) if isinstance(origin, dict) else None,
+        features,
+        Unit.METRES if code in UNITS else Unit.ASSUMED_METRES,
+        origin_of(told.get("origin")),
         path if isinstance(path, dict) else None,
-        reader.counted.left_out,
+        counted.left_out,
+        counted.hidden,
+        grid_of(told.get("grid")),
     )
 
 
@@ -97,98 +116,6 @@ def _told(document: Any) -> Mapping[str, Any]:
     except (AttributeError, orjson.JSONDecodeError, TypeError):
         return {}
     return told if isinstance(told, dict) else {}
-
-
-class _Reader:
-    """Collects the features of a drawing, in metres."""
-
-    def __init__(self, factor: float, told: Mapping[str, Any]) -> None:
-        """told: by this program; names, and radii of walls [m], by handle"""
-        self.factor, self.names = factor, told.get("names", {})
-        self.radii = {handle: one for handle, one in told.get("radii", {}).items() if isinstance(one, float)}
-        self.counted, self.texts = Counted(), list[tuple[str, tuple[float, float]]]()
-        self.flat = import_module("ezdxf.path")
-        self.seen = 0
-
-    def entities(self, some: Any, depth: int = 0) -> Iterator[Any]:
-        """Every entity; those of a block where the block is inserted."""
-        for entity in some:
-            self.seen += 1
-            if self.seen > ENTITIES_MAX:
-                rule = f"must draw at most {{most}} entities, counting a block at each use: {LEAVE_OUT}"
-                raise InvalidValue("file", rule, got="more", most=ENTITIES_MAX)
-            if entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
-                yield from self.entities(entity.virtual_entities(), depth + 1)
-            else:
-                yield entity
-
-    def take(self, entity: Any) -> None:
-        kind, layer = entity.dxftype(), str(entity.dxf.get("layer", ""))
-        handle = str(entity.dxf.get("handle"))
-        name, radius = self.names.get(handle), self.radii.get(handle)
-        feature = MapFeature("point", (), name, role_of(layer, name), radius, properties={"layer": layer})
-        if kind in TEXTS:
-            words = entity.plain_text() if kind == "MTEXT" else str(entity.dxf.text)
-            self.texts.append((words.strip(), self._place(entity.dxf.insert)))
-        elif kind == "POINT":
-            self.counted.add(replace(feature, rings=((self._place(entity.dxf.location),),)))
-        elif kind == "CIRCLE":
-            centre = self._place(entity.ocs().to_wcs(entity.dxf.center))
-            self.counted.add(replace(feature, rings=((centre,),), radius=float(entity.dxf.radius) * self.factor))
-        elif kind in CURVES:
-            self._add_curve(entity, feature)
-        elif entity.dxf.get("layer") != LAYERS["mark"][0]:
-            self.counted.leave_out(kind)
-
-    def _add_curve(self, entity: Any, feature: MapFeature) -> None:
-        made = self.flat.make_path(entity)
-        points = tuple(self._place(point) for point in made.flattening(FLATTENED / self.factor, segments=4))
-        points = tuple(b for a, b in zip((None, *points), points, strict=False) if a != b)
-        if len(points) < 2:
-            return
-        if getattr(entity, "is_closed", False) and points[0] != points[-1]:
-            points = (*points, points[0])
-        # A closing point that a program adds may differ from the first one in the last digits.
-        if len(points) > 3 and dist(points[0], points[-1]) < FLATTENED:
-            points = (*points[:-1], points[0])
-        self.counted.add(drawn_as(replace(feature, rings=(points,))))
-
-    def _place(self, point: Any) -> tuple[float, float]:
-        return float(point[0]) * self.factor, float(point[1]) * self.factor
-
-    def named(self) -> Iterator[MapFeature]:
-        """The features, with holes in their polygons; each thing is named by the text inside it."""
-        features = list(_with_holes(self.counted.features))
-        words: dict[int, str] = {}
-        for text, place in self.texts:
-            around = [k for k, one in enumerate(features) if _is_in(one, place)]
-            if text and around:  # Text inside a well is inside the court around it too.
-                words.setdefault(min(around, key=lambda k: area_of(features[k])), text)
-        for k, feature in enumerate(features):
-            name, layer = feature.name or words.get(k), _layer_of(feature)
-            own = layer if layer not in ("", "0") and role_of(layer) is None else None
-            yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
-
-
-def _is_in(feature: MapFeature, place: tuple[float, float]) -> bool:
-    if feature.shape == "polygon":
-        return holds(feature.rings, place)
-    return feature.shape == "point" and dist(feature.rings[0][0], place) <= (feature.radius or 0.0)
-
-
-def _with_holes(features: list[MapFeature]) -> Iterator[MapFeature]:
-    """The features; a ring on a layer of holes becomes a hole of the polygon around it."""
-    holes = [one for one in features if _layer_of(one).endswith("_HOLES")]
-    for feature in features:
-        if feature in holes:
-            continue
-        near = [one for one in holes if feature.shape == "polygon" and holds(feature.rings[:1], one.rings[0][0])]
-        own = (one.rings[0] for one in near if _layer_of(one).removesuffix("_HOLES") == _layer_of(feature))
-        yield replace(feature, rings=(*feature.rings, *own))
-
-
-def _layer_of(feature: MapFeature) -> str:
-    return str(feature.properties.get("layer", ""))
 
 
 def written(drawing: Drawing) -> bytes:
@@ -216,6 +143,8 @@ def written(drawing: Drawing) -> bytes:
             told["path"] = feature.properties["path"]
     if drawing.origin is not None:
         told["origin"] = drawing.origin
+    if drawing.grid is not None:
+        told["grid"] = dict(zip("xy", drawing.grid, strict=True))
     text = orjson.dumps(told | {"names": names, "radii": radii}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from enum import Enum, auto
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 
-from app.wire.degrees import Origin
+from app.wire.degrees import GRID_MAX, Origin
 from app.wire.geojson import Thing
 from core import InvalidValue
-from core.values import Floats
+from core.values import Floats, Point
 from core.venue import Ring
 
 Shape = Literal["point", "line", "polygon"]
@@ -29,6 +30,8 @@ WORDS = {
 ROLES = {word: role for role, words in WORDS.items() for word in words}
 # Most points and most features of one map; a plan of a square has fewer.
 POINTS_MAX, FEATURES_MAX = 100_000, 10_000
+# Largest distance of a round square from the polygon in its place, and its largest radius [m].
+ROUND, ROUND_MAX = 0.005, 1e5
 # Advice for a map that is too large.
 LEAVE_OUT = "leave out everything that does not belong to the square"
 
@@ -63,22 +66,54 @@ class MapFeature:
         return replace(self, rings=tuple(tuple(map(tuple, move(np.array(ring)).tolist())) for ring in self.rings))
 
 
+class Unit(Enum):
+    """Unit of the coordinates in a file."""
+
+    METRES = auto()
+    DEGREES = auto()
+    # The file does not say it, and its form has no degrees.
+    ASSUMED_METRES = auto()
+    # The file does not say it: the numbers may.
+    UNKNOWN = auto()
+
+
 @dataclass(frozen=True, slots=True)
 class Drawing:
     """A map as it stands in its file.
 
-    degrees: True for longitude and latitude; None: the file does not say, and points are unchanged
+    unit: of its coordinates, which are unchanged unless the file says the unit
     origin: place of x = y = 0, if the file gives it
     path: the path as a request describes it, if this program wrote the file
-    left_out: kinds of things that were not read, and their numbers
+    left_out, hidden: kinds of things that were not read, or that cannot be seen, and their numbers
+    grid: coordinates in the file of what is x = y = 0 in `path` [m]
     """
 
     features: tuple[MapFeature, ...]
-    degrees: bool | None
+    unit: Unit
     origin: Origin | None = None
     path: Mapping[str, object] | None = None
     left_out: Mapping[str, int] = field(default_factory=dict)
-    notes: tuple[tuple[str, str], ...] = ()
+    hidden: Mapping[str, int] = field(default_factory=dict)
+    grid: Point | None = None
+
+
+def origin_of(stated: object) -> Origin | None:
+    """The place of x = y = 0 in a file's own words; None if it gives none."""
+    values = _numbers(stated, ("longitude", "latitude"), (180.0, 90.0))
+    return None if values is None else Origin(*values)
+
+
+def grid_of(stated: object) -> Point | None:
+    """The place of x = y = 0 on a survey grid, in a file's own words; None if it gives none."""
+    return _numbers(stated, ("x", "y"), (GRID_MAX, GRID_MAX))
+
+
+def _numbers(stated: object, names: tuple[str, str], most: tuple[float, float]) -> tuple[float, float] | None:
+    values = [stated.get(name) for name in names] if isinstance(stated, Mapping) else [None]
+    if not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
+        return None
+    x, y = map(float, values)  # type: ignore[arg-type]
+    return (x, y) if abs(x) <= most[0] and abs(y) <= most[1] else None
 
 
 class Counted:
@@ -87,6 +122,7 @@ class Counted:
     def __init__(self) -> None:
         self.features: list[MapFeature] = []
         self.left_out: dict[str, int] = {}
+        self.hidden: dict[str, int] = {}
         self._points = 0
 
     def add(self, feature: MapFeature) -> None:
@@ -100,12 +136,27 @@ class Counted:
     def leave_out(self, kind: str) -> None:
         self.left_out[kind] = self.left_out.get(kind, 0) + 1
 
+    def hide(self, kind: str) -> None:
+        self.hidden[kind] = self.hidden.get(kind, 0) + 1
+
 
 def drawn_as(line: MapFeature) -> MapFeature:
     """The feature of a line; if it ends at its beginning, the polygon inside it, unless it is a path or has a width."""
     (points,) = line.rings
     closed = len(points) > 3 and points[0] == points[-1] and line.role != PATH and line.radius is None
     return replace(line, shape="polygon" if closed else "line")
+
+
+def round_area(circle: MapFeature) -> MapFeature:
+    """The polygon in a circle: its corners are on the circle, and its sides at most ROUND inside of it."""
+    radius = circle.radius or 0.0
+    if not 0.0 < radius <= ROUND_MAX:
+        return circle
+    count = max(12, math.ceil(2.0 * math.pi * math.sqrt(radius / (8.0 * ROUND))))
+    ((x, y),) = circle.rings[0]
+    angles = (2.0 * math.pi * k / count for k in range(count))
+    ring = tuple((x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles)
+    return replace(circle, shape="polygon", rings=((*ring, ring[0]),), radius=None)
 
 
 def features_of(things: Sequence[Thing]) -> list[MapFeature]:
@@ -140,6 +191,18 @@ def holds(rings: tuple[Ring, ...], point: tuple[float, float]) -> bool:
     True
     """
     return sum(x > point[0] for x in _crossings(rings, point[1])) % 2 == 1
+
+
+def holds_any(rings: tuple[Ring, ...], points: Ring) -> bool:
+    """True if one of the points is inside a polygon and outside its holes, as holds() has it; for many points."""
+    if holds(rings, points[0]):
+        return True
+    x, y = np.array(points).T
+    inside = np.zeros(len(points), dtype=bool)
+    for (ax, ay), (bx, by) in (side for ring in rings for side in pairwise(ring)):
+        if ay != by:
+            inside ^= ((ay > y) != (by > y)) & (ax + (y - ay) / (by - ay) * (bx - ax) > x)
+    return bool(inside.any())
 
 
 def _crossings(rings: tuple[Ring, ...], level: float) -> Iterator[float]:

@@ -11,8 +11,8 @@ from typing import Any, TypeGuard
 
 import orjson
 
-from app.maps.features import Counted, Drawing, MapFeature, Shape, drawn_as, role_of
-from app.wire.degrees import GEOGRAPHIC, Origin, named_system
+from app.maps.features import PATH, Counted, Drawing, MapFeature, Shape, Unit, drawn_as, grid_of, origin_of, role_of
+from app.wire.degrees import GEOGRAPHIC, named_system
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
 from core.errors import Given
@@ -33,17 +33,20 @@ COLLECTIONS = {"FeatureCollection": "features", "GeometryCollection": "geometrie
 def read(told: Mapping[str, Any]) -> Drawing:
     """The map in a GeoJSON object. raises: InvalidValue at the member at fault"""
     counted = Counted()
-    for feature in _features("file", told, MapFeature("point", ())):
+    for feature in _features("file", told, MapFeature("point", ()), counted):
         counted.add(feature)
     system = named_system(told)
-    path = next((one.properties["path"] for one in counted.features if "path" in one.properties), None)
+    geographic = system is not None and GEOGRAPHIC.search(system) is not None
+    line: Mapping[str, object] = next((one.properties for one in counted.features if "path" in one.properties), {})
+    path = line.get("path")
     return Drawing(
         tuple(counted.features),
+        Unit.UNKNOWN if system is None else Unit.DEGREES if geographic else Unit.METRES,
         # A map in metres has an origin only if this program wrote it.
-        None if system is None else GEOGRAPHIC.search(system) is not None,
-        _origin(told.get("origin")),
+        origin_of(told.get("origin")),
         path if isinstance(path, Mapping) else None,
         counted.left_out,
+        grid=grid_of(line.get("grid")),
     )
 
 
@@ -56,21 +59,17 @@ def is_of_polygons(told: object) -> bool:
     return not isinstance(told, list) or all(map(is_of_polygons, told))
 
 
-def _origin(told: object) -> Origin | None:
-    values = [told.get(name) for name in ("longitude", "latitude")] if isinstance(told, Mapping) else [None]
-    return Origin(*map(float, values)) if all(map(_is_number, values)) else None  # type: ignore[arg-type]
-
-
 def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _features(field: str, told: object, like: MapFeature, depth: int = 0) -> Iterator[MapFeature]:
+def _features(field: str, told: object, like: MapFeature, counted: Counted, depth: int = 0) -> Iterator[MapFeature]:
     """Every feature of a GeoJSON object in its order; `like` has the name and the role of the object around it."""
     if depth > DEPTH_MAX:
         raise InvalidValue(field, "must not nest objects deeper than {most}", most=DEPTH_MAX)
     if told is None and depth:
-        return  # A feature may have no geometry.
+        counted.leave_out("feature without geometry")
+        return
     kind = told.get("type") if isinstance(told, Mapping) else None
     if not isinstance(told, Mapping) or not isinstance(kind, str):
         raise InvalidValue(field, "must be a GeoJSON object with a type", got=Given(told))
@@ -80,11 +79,11 @@ def _features(field: str, told: object, like: MapFeature, depth: int = 0) -> Ite
         name, radius = properties.get("name"), properties.get("radius")
         own, role = name if isinstance(name, str) and name else None, role_of(properties.get("role"), name)
         around = MapFeature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
-        yield from _features(f"{field}.geometry", told.get("geometry"), around, depth + 1)
+        yield from _features(f"{field}.geometry", told.get("geometry"), around, counted, depth + 1)
     elif kind in COLLECTIONS:
         member = COLLECTIONS[kind]
         for k, one in enumerate(_listed(f"{field}.{member}", told.get(member))):
-            yield from _features(f"{field}.{member}.{k}", one, like, depth + 1)
+            yield from _features(f"{field}.{member}.{k}", one, like, counted, depth + 1)
     elif kind in GEOMETRIES:
         shape, deep = GEOMETRIES[kind]
         for rings in _parts(f"{field}.coordinates", told.get("coordinates"), shape, deep):
@@ -128,8 +127,14 @@ def _listed(field: str, value: object) -> list[Any]:
 
 def written(drawing: Drawing) -> bytes:
     """A feature collection; the properties of the path's line hold the path as a request describes it."""
+    grid = {} if drawing.grid is None else {"grid": dict(zip("xy", drawing.grid, strict=True))}
     features = [
-        {"type": "Feature", "properties": _properties(one), "geometry": geometry_of(one)} for one in drawing.features
+        {
+            "type": "Feature",
+            "properties": _properties(one) | (grid if one.role == PATH else {}),
+            "geometry": geometry_of(one),
+        }
+        for one in drawing.features
     ]
     origin = {} if drawing.origin is None else {"origin": drawing.origin}
     return orjson.dumps({"type": "FeatureCollection", **origin, "features": features})

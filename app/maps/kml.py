@@ -6,7 +6,6 @@ cannot grow in memory by them.
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -15,14 +14,23 @@ from xml.parsers import expat
 
 import orjson
 
-from app.maps.features import POINTS_MAX, Counted, Drawing, MapFeature, Shape, drawn_as, role_of
-from app.wire.degrees import Origin
+from app.files.archives import BadArchive, opened, pieces_of
+from app.files.markup import TAG_MAX, LongTag, as_utf8, in_pieces, new_parser, parse
+from app.maps.features import POINTS_MAX, Counted, Drawing, MapFeature, Shape, Unit, drawn_as, origin_of, role_of
 from core import InvalidValue
 from core.errors import Given
 from core.venue import Ring
 
-# Deepest nesting of elements, and the largest document in a KMZ file [bytes].
-DEPTH_MAX, UNPACKED_MAX = 60, 20_000_000
+# Deepest nesting of elements, the largest document in a KMZ file [bytes], and most parts of it, such as pictures.
+DEPTH_MAX, UNPACKED_MAX, PARTS_MAX = 60, 20_000_000, 1_000
+# Rules for KMZ files, by the codes of BadArchive.
+REFUSED = {
+    "broken": "must be a KMZ file that can be unpacked: {why}",
+    "encrypted": "must be a KMZ file without a password",
+    "method": "must be a KMZ file that can be unpacked: its parts must be stored or deflated",
+    "parts": "must be a KMZ file of at most {parts} parts",
+    "bomb": "must unpack to at most {most} bytes, got more",
+}
 SHAPES: dict[str, Shape] = {"Point": "point", "LineString": "line", "Polygon": "polygon", "LinearRing": "line"}
 # Elements with geometry that this program does not use.
 OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model", "Track", "MultiTrack")
@@ -33,49 +41,52 @@ FORBIDDEN = "file must not have a document type or entities: save it again as pl
 
 def unpacked(data: bytes) -> bytes:
     """The document in a KMZ file. raises: InvalidValue"""
-    import lzma
-    import zipfile
-    import zlib
-
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            name = next((one for one in archive.namelist() if one.lower().endswith(".kml")), None)
-            if name is None:
+        with opened(data, PARTS_MAX) as archive:
+            documents = [one for one in archive.infolist() if one.filename.lower().endswith(".kml")]
+            if not documents:
                 raise InvalidValue("file", "must be a KMZ file with a .kml document", got="an archive without one")
-            with archive.open(name) as source:
-                document = source.read(UNPACKED_MAX + 1)
-    except (zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, OSError, RuntimeError, ValueError) as error:
-        raise InvalidValue("file", "must be a KMZ file that can be unpacked: {why}", why=str(error)) from error
-    if len(document) > UNPACKED_MAX:
-        raise InvalidValue("file", "must unpack to at most {most} bytes", got="more", most=UNPACKED_MAX)
-    return document
+            return b"".join(pieces_of(archive, documents[0], UNPACKED_MAX))
+    except BadArchive as error:
+        words, told = REFUSED[error.code], {"most": UNPACKED_MAX, "parts": PARTS_MAX}
+        raise InvalidValue("file", words, why=error.why, **told) from error
 
 
 def read(data: bytes) -> Drawing:
     """The map in a KML document, always in degrees. raises: InvalidValue with the line at fault"""
     reader = _Reader()
-    parser = expat.ParserCreate(namespace_separator=" ")
+    parser = new_parser(_refuse, " ", "utf-8")
     parser.buffer_text = True
-    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = _refuse
     parser.StartElementHandler, parser.EndElementHandler = reader.start, reader.end
     parser.CharacterDataHandler = reader.take
     try:
-        parser.Parse(data, True)
+        parse(parser, in_pieces(as_utf8(data)))
+    except LongTag as error:
+        raise InvalidValue("file", "must not have a tag of more than {most} bytes", got="more", most=TAG_MAX) from error
     except expat.ExpatError as error:
         rule, fault = "must be KML, got {fault} in line {line}", expat.ErrorString(error.code)
         raise InvalidValue("file", rule, fault=fault, line=error.lineno) from error
     if not reader.is_kml:
         raise InvalidValue("file", "must be KML", got="XML of another kind")
     told, counted = reader.told, reader.counted
-    return Drawing(tuple(counted.features), True, told.get("origin"), told.get("path"), counted.left_out)  # type: ignore[arg-type]
+    path = told.get("path")
+    return Drawing(
+        tuple(counted.features),
+        Unit.DEGREES,
+        origin_of(told.get("origin")),
+        path if isinstance(path, dict) else None,
+        counted.left_out,
+        counted.hidden,
+    )
 
 
 def _refuse(*declared: object) -> None:
     raise InvalidValue.in_words("file", FORBIDDEN)
 
 
-# State:  `stack`, the names of the open elements; `folders`, the names of the open folders; `feature`, name, role and
-#         radius of the open placemark; `rings` of the open polygon; `text` of the open element.
+# State:  `stack`, the names of the open elements; `folders`, the names of the open folders, and whether they are shown;
+#         `name`, `data`, `visible` and `shapes` of the open placemark; `rings` of the open polygon; `text` of the open
+#         element.
 class _Reader:
     """Collects the features of a document while expat reads it."""
 
@@ -83,6 +94,8 @@ class _Reader:
         self.counted, self.told = Counted(), dict[str, object]()
         self.stack: list[str] = []
         self.folders: list[str] = []
+        self.shown: list[bool] = []
+        self.name, self.visible = "", True
         self.data: dict[str, str] = {}
         self.shapes: list[tuple[Shape, tuple[Ring, ...]]] = []
         self.rings: list[Ring] = []
@@ -97,8 +110,9 @@ class _Reader:
         self.text = []
         if local in ("Folder", "Document"):
             self.folders.append("")
+            self.shown.append(True)
         elif local == "Placemark":
-            self.data, self.shapes = {}, []
+            self.name, self.data, self.shapes, self.visible = "", {}, [], True
         elif local in ("Data", "SimpleData"):
             self.key = attributes.get("name", "")
         elif local == "Polygon":
@@ -113,9 +127,14 @@ class _Reader:
         local, text = self.stack.pop(), "".join(self.text).strip()
         around = self.stack[-1] if self.stack else ""
         if local == "name" and around == "Placemark":
-            self.data.setdefault("name", text)
+            self.name = text
         elif local == "name" and self.folders and around in ("Folder", "Document"):
             self.folders[-1] = text
+        elif local == "visibility" and text == "0":
+            if around == "Placemark":
+                self.visible = False
+            elif self.shown and around in ("Folder", "Document"):
+                self.shown[-1] = False
         elif (local == "value" and around == "Data") or local == "SimpleData":
             self.data[self.key] = text
         elif local == "coordinates":
@@ -127,24 +146,31 @@ class _Reader:
             self._finish()
         elif local in ("Folder", "Document"):
             self.folders.pop()
+            self.shown.pop()
         self.text = []
 
     def _place(self, points: Ring) -> None:
-        if "Polygon" in self.stack:
+        around = next((one for one in reversed(self.stack) if one in SHAPES and one != "LinearRing"), self.stack[-1])
+        if not points:
+            self.counted.leave_out(f"empty {around}")
+        elif "Polygon" in self.stack:
             self.rings.append(points)
-        elif points and self.stack[-1] in SHAPES:
+        elif self.stack[-1] in SHAPES:
             shape = SHAPES[self.stack[-1]]
             self.shapes.append((shape, (points[:1] if shape == "point" else points,)))
 
     def _finish(self) -> None:
         told = self.data
-        if path := _json(told.get("path", "")):
-            self.told["path"] = path
-        if origin := _json(told.get("origin", "")):
-            self.told["origin"] = _origin(origin)
-        role = role_of(told.get("role"), told.get("name"), *reversed(self.folders))
-        feature = MapFeature("point", (), told.get("name") or None, role, _number(told.get("radius", "")))
+        for key in ("path", "origin"):
+            if value := _json(told.get(key, "")):
+                self.told[key] = value
+        name = self.name or told.get("name") or None
+        role = role_of(told.get("role"), name, *reversed(self.folders))
+        feature = MapFeature("point", (), name, role, _number(told.get("radius", "")))
         for shape, rings in self.shapes:
+            if not (self.visible and all(self.shown)):
+                self.counted.hide(shape)
+                continue
             one = replace(feature, shape=shape, rings=rings)
             self.counted.add(drawn_as(one) if shape == "line" else one)
 
@@ -156,6 +182,9 @@ def _points(text: str) -> Ring:
         raise InvalidValue("file", "must draw no line of more than {most} points", most=POINTS_MAX)
     for word in text.split():
         parts = word.split(",")
+        if len(parts) > 3:
+            rule = "must have a space between two points, as in 120.1,30.2 120.3,30.4: here commas join more than three"
+            raise InvalidValue("file", f"{rule} numbers", got=Given(word))
         numbers = [_number(part) for part in parts[:2]]
         if len(numbers) < 2 or None in numbers:
             raise InvalidValue("file", "must have coordinates such as 120.1,30.2 in degrees", got=Given(word))
@@ -176,11 +205,6 @@ def _json(text: str) -> Mapping[str, object] | None:
     except orjson.JSONDecodeError:
         return None
     return found if isinstance(found, dict) else None
-
-
-def _origin(told: Mapping[str, object]) -> Origin | None:
-    values = [told.get(name) for name in ("longitude", "latitude")]
-    return Origin(*values) if all(isinstance(value, float) for value in values) else None  # type: ignore[arg-type]
 
 
 def written(drawing: Drawing) -> bytes:

@@ -3,50 +3,46 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from itertools import pairwise
 from typing import Any
 from unicodedata import category
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
 
 from app.files.words import Say
 from app.maps import geojson
-from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, area_of, holds
-from app.maps.marks import line_of
-from app.wire.degrees import Origin, Plane, middle_of, refuse_wide, unwrapped
+from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
+from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
+from app.wire.degrees import ACROSS_MAX, GRID_MAX, Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
-from app.wire.messages import fault_of
-from app.wire.paths import POINTS_MAX, AnyPath
 from app.wire.question import Coordinates
-from core import InvalidValue, Route, Spiral, Venue
-from core.errors import Parameter, Quantity
+from core import Dragon, InvalidValue, Venue
+from core.errors import COORDINATE_MAX, Quantity, quantities
 from core.names import NAME_MAX, NOT_PLAIN
 from core.shown import counted
-from core.values import Floats
+from core.values import Floats, Point
+from core.venue import refuse_many_edges
 
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
 # Largest number of things that a note names; a list of more ends in dots.
 NAMED = 5
+# Reason of a refusal of numbers that were taken for degrees.
+GUESSED = "its numbers look like degrees; if they are metres, give the units metres"
 # Free ground around everything drawn, if no polygon is the square [m].
 AROUND = 20.0
-# A map narrower than this is in degrees, if its numbers allow it: 22 km in degrees, only 0.2 m in metres [degrees].
-DEGREES_ACROSS = 0.2
-# Least distance between two points of a path [m]; and largest distance of a line from its stored path, beyond which the
-# line was moved [m].
-POINTS_APART, MOVED = 0.05, 0.01
-# Approximate number of points of that line to compare [1].
-TRIED = 200
+# A map narrower than the longest bench is in degrees, if its numbers allow it: 350 km in degrees, only 3 m in metres. A
+# request refuses metres by the same rule.
+DEGREES_ACROSS = float(Dragon().lengths.max())
 
 
 @dataclass(frozen=True)
 class DanceParts:
     """The parts of a dance in a file.
 
-    path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0
+    path: in the form of a request; venue: in metres, the square first; origin: place of x = y = 0; grid: the same on a
+        survey grid [m]
     things: features of the venue, where trees and walls have a radius
     dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
     """
@@ -57,6 +53,7 @@ class DanceParts:
     dance: Mapping[str, Any] | None = None
     notes: Sequence[str] = ()
     things: Sequence[MapFeature] = ()
+    grid: Point | None = None
 
     @property
     def geometry(self) -> dict[str, Any] | None:
@@ -64,7 +61,8 @@ class DanceParts:
         if self.venue is None:
             return None
         origin = {} if self.origin is None else {"origin": asdict(self.origin)}
-        return {"type": "FeatureCollection", **origin, "features": [_told(one) for one in self.things]}
+        grid = {} if self.grid is None else {"grid": dict(zip("xy", self.grid, strict=True))}
+        return {"type": "FeatureCollection", **origin, **grid, "features": [_told(one) for one in self.things]}
 
 
 def _told(one: MapFeature) -> dict[str, Any]:
@@ -72,26 +70,22 @@ def _told(one: MapFeature) -> dict[str, Any]:
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
 
-def _checked(things: list[MapFeature]) -> Venue:
-    """The venue of features, checked like a request, so that a request can use them."""
-    told = {"type": "FeatureCollection", "features": [_told(one) for one in things]}
+def refuse_many_edges_of(things: Iterable[MapFeature]) -> None:
+    """raises: InvalidValue at the field `file` for more edges than a venue may have"""
     try:
-        return venue_of(outlined(read_things(told)))
+        refuse_many_edges(ring for one in things for ring in one.rings)
     except InvalidValue as error:
         raise error.named("file") from error
 
 
-def checked_path(path: object) -> Spiral | Route:
-    """The path of core that a request describes. raises: InvalidValue"""
+def _checked(things: list[MapFeature]) -> Venue:
+    """The venue of features, checked like a request, so that a request can use them."""
+    told = {"type": "FeatureCollection", "features": [_told(one) for one in things]}
+    refuse_many_edges_of(things)
     try:
-        found: Spiral | Route = TypeAdapter[Any](AnyPath).validate_python(path).to_path()
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        fault = fault_of({**first, "loc": ("file", "path", *first["loc"])}, None)
-        told = {**fault.values, "file": Parameter("file")}
-        why = f"{fault.template}: {fault.reason}".removesuffix(": ")
-        raise InvalidValue.in_words("file", "{file} must describe a path", got=fault.got, reason=why, **told) from error
-    return found
+        return venue_of(outlined(read_things(told)))
+    except InvalidValue as error:
+        raise error.named("file") from error
 
 
 # State:  `drawing`, in degrees or metres; from it `features`, in metres and without marks, and `origin`.
@@ -101,25 +95,39 @@ class Reading:
     def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say) -> None:
         self.drawing, self.say, self.notes = drawing, say, list[str]()
         self.assumed = dict[float, list[str]]()
-        self.features = [_closed(one) for one in drawing.features if one.role != MARK]
+        self.features = [_closed(one) for one in drawing.features if one.role != MARK and any(one.rings)]
         if not self.features:
             raise InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
-        self.origin = drawing.origin
+        self.origin, self.grid = drawing.origin, drawing.grid
         self._lay_out(units)
+        self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
-            self.notes.append(say(f"Left out: {counted(count, kind)}.", f"未读取：{kind}，{count} 个。"))
+            self._note(f"Left out: {counted(count, kind)}.", f"未读取：{kind}，{count} 个。")
+        for kind, count in drawing.hidden.items():
+            self._note(f"Left out, because hidden: {counted(count, kind)}.", f"未读取（已隐藏）：{kind}，{count} 个。")
 
     def found(self) -> DanceParts:
+        # Before anything is compared with every edge.
+        refuse_many_edges_of(one for one in self.features if one.shape == "polygon")
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
         told = [one for one in lines if one.role == PATH]
         # If no line has the role of the path, it is the longest line without a width.
         free = [one for one in lines if one.role is None and one.radius is None]
-        danced = told[:1] or ([max(free, key=_length)] if free and not self._walls(free) else [])
+        danced = told[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
-        others = [one for one in self.features if one is not square and one not in danced]
+        if more := told[1:]:
+            self._note(
+                f"{len(told)} lines are called path; the first is the path, and the others are left out.",
+                f"有 {len(told)} 条线名为路径：取第一条，其余未读取。",
+            )
+        taken = [*danced, *more]
+        others = [one for one in self.features if one is not square and not any(one is line for line in taken)]
         things = self._things(square, others)
-        return DanceParts(path, _checked(things) if things else None, self.origin, None, self.notes, things)
+        venue = _checked(things) if things else None
+        if venue is not None:
+            self._warn_of_small(np.array(venue.square.rings[0]))
+        return DanceParts(path, venue, self.origin, None, self.notes, things, self.grid)
 
     def _walls(self, free: list[MapFeature]) -> bool:
         """True if lines without a role are walls: there are several, so none of them is clearly the path."""
@@ -135,11 +143,18 @@ class Reading:
         points = np.array([point for one in self.features for ring in one.rings for point in ring])
         if not np.isfinite(points).all():
             raise InvalidValue("file", "must have finite coordinates")
-        degrees = self.drawing.degrees if units is None else units == "degrees"
-        if degrees is None:
-            degrees = bool(np.ptp(points, axis=0).max() < DEGREES_ACROSS and (np.abs(points) <= 180.0).all())
-        if not degrees:
-            self._note("Coordinates are in metres.", "坐标以米为单位。")
+        unit = self.drawing.unit
+        guessed = units is None and unit is Unit.UNKNOWN
+        if units is not None:
+            unit = Unit.DEGREES if units == "degrees" else Unit.METRES
+        elif guessed:
+            unit = Unit.DEGREES if _look_like_degrees(points) else Unit.METRES
+        if unit is not Unit.DEGREES:
+            if unit is Unit.ASSUMED_METRES:
+                self._note("The file states no unit: its numbers are metres.", "文件没有说明单位，按米读取。")
+            else:
+                self._note("Coordinates are in metres.", "坐标以米为单位。")
+            self._leave_grid(points)
             return
         if (np.abs(points) > (180.0, 90.0)).any():
             seems = ": longitude and latitude seem to be swapped" if (np.abs(points[:, 0]) <= 90.0).all() else ""
@@ -151,8 +166,13 @@ class Reading:
         middle = next((one.rings for one in self.features if one.role == SQUARE), None)
         rings = [ring for one in self.features for ring in one.rings]
         self.origin = self.origin or middle_of(list(middle[:1]) if middle else rings)
-        refuse_wide("file", rings, self.origin)
+        try:
+            refuse_wide("file", rings, self.origin)
+        except InvalidValue as error:
+            raise error.because(GUESSED) if guessed else error from None
         plane = Plane(self.origin)
+        if abs(self.origin.longitude) > 180.0:
+            self.origin = Origin((self.origin.longitude + 180.0) % 360.0 - 180.0, self.origin.latitude)
         self.features = [one.moved(plane.metres) for one in self.features]
         east, north = self.origin.longitude, self.origin.latitude
         self._note(
@@ -161,19 +181,74 @@ class Reading:
             f"经纬度以 {east:.6f}, {north:.6f} 为原点换算为米：x 向东，y 向北。",
         )
 
+    def _warn_of_small(self, square: Floats) -> None:
+        """Note a square that a request refuses, because its numbers may be degrees."""
+        width, height = np.ptp(square, axis=0).tolist()
+        if max(width, height) < DEGREES_ACROSS and np.abs(square).max() <= 180.0:
+            longest = f"{DEGREES_ACROSS:g} m"
+            self._note(
+                f"The square is {width:.3g} m by {height:.3g} m, narrower than a bench of {longest}: check refuses it.",
+                f"广场只有 {width:.3g} m × {height:.3g} m，比 {longest} 的板凳还窄：check 会拒绝。",
+            )
+
+    def _leave_grid(self, points: Floats) -> None:
+        """Move a map with the coordinates of a survey grid to x = y = 0."""
+        if self.drawing.grid is None:
+            if np.abs(points).max() <= COORDINATE_MAX:
+                return
+            middle = next((np.array(one.rings[0]) for one in self.features if one.role == SQUARE), points)
+            x, y = np.round(0.5 * (middle.min(axis=0) + middle.max(axis=0))).tolist()
+            if max(abs(x), abs(y)) > GRID_MAX:
+                got, most = Quantity(max(abs(x), abs(y)), "m", 6), Quantity(GRID_MAX, "m")
+                raise InvalidValue("file", "must have coordinates of at most {most}", got=got, most=most)
+            self.grid = (x, y)
+        assert self.grid is not None
+        x, y = self.grid
+        across = float(np.ptp(points, axis=0).max())
+        if across > ACROSS_MAX:
+            told = quantities("km", 6, most=ACROSS_MAX / 1000.0) | quantities("km", 4, across=across / 1000.0)
+            raise InvalidValue("file", "must be at most {most} across, got about {across}", **told)
+        moved = np.array(self.grid)
+        self.features = [one.moved(lambda places: places - moved) for one in self.features]
+        self._note(
+            f"The coordinates are those of a survey grid; x = y = 0 is its x {x:.10g} m, y {y:.10g} m.",
+            f"坐标属于测量坐标系；这里的 x = y = 0 是其中的 x {x:.10g} m，y {y:.10g} m。",
+        )
+
+    def _whole(self, one: MapFeature) -> MapFeature:
+        """The same feature; a square that is a circle, or a line that is not closed, is a polygon."""
+        if one.role != SQUARE or one.shape == "polygon":
+            return one
+        if one.shape == "point":
+            return round_area(one)
+        if one.radius is not None or len(one.rings[0]) < 3:
+            return one
+        self._note(
+            "The line of the square does not end where it begins, so it was closed by a straight side.",
+            "广场的线没有闭合，已用直边闭合。",
+        )
+        return replace(one, shape="polygon", rings=((*one.rings[0], one.rings[0][0]),))
+
     def _note(self, english: str, chinese: str) -> None:
         self.notes.append(self.say(english, chinese))
 
     def _square(self) -> MapFeature | None:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
         polygons = [one for one in self.features if one.shape == "polygon"]
-        told = next((one for one in polygons if one.role == SQUARE), None)
+        named = [one for one in polygons if one.role == SQUARE]
+        told = next(iter(named), None)
+        if len(named) > 1:
+            self._note(
+                f"{len(named)} areas are called square; the first is the square, and the others are obstacles.",
+                f"有 {len(named)} 个区域名为广场：取第一个，其余作为障碍。",
+            )
         free = [one for one in polygons if one.role is None]
         if told or not free:
             return told
         largest = max(free, key=area_of)
-        others = (one for one in self.features if one is not largest)
-        return largest if all(any(holds(largest.rings, point) for point in one.rings[0]) for one in others) else None
+        # The edge of a wide outline lies on the outline itself.
+        others = (one for one in self.features if one.rings[0] != largest.rings[0])
+        return largest if all(holds_any(largest.rings, one.rings[0]) for one in others) else None
 
     def _things(self, square: MapFeature | None, others: list[MapFeature]) -> list[MapFeature]:
         """The square and the obstacles."""
@@ -213,13 +288,13 @@ class Reading:
         points = np.array(line.rings[0])
         told = self.drawing.path
         if told is not None:
-            if _is_along(told, points):
+            if is_along(told, points):
                 return told
             self._note(
                 "The line of the path was edited, so the new path goes through the points of the line.",
                 "路径的线已被移动，因此路径改为通过其各点。",
             )
-        kept, name = _thinned(points), line.name or self.say("a line without a name", "未命名的线")
+        kept, name = thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
             apart = Quantity(POINTS_APART, "m")
             raise InvalidValue("file", "must hold a path with at least two points {apart} apart", apart=apart)
@@ -230,6 +305,14 @@ class Reading:
         path = {"kind": "waypoints", "points": kept.tolist()}
         checked_path(path)
         return path
+
+
+def _look_like_degrees(points: Floats) -> bool:
+    """True if coordinates are within the limits of degrees and too near to one another for metres."""
+    if (np.abs(points) > 180.0).any() or (np.abs(points) > 90.0).all(axis=1).any():
+        return False
+    near = np.array(unwrapped(tuple(map(tuple, points.tolist())), float(points[0, 0])))
+    return bool(np.ptp(near, axis=0).max() < DEGREES_ACROSS)
 
 
 class _Names:
@@ -253,35 +336,3 @@ def _closed(feature: MapFeature) -> MapFeature:
         return feature
     rings = tuple(ring if ring[0] == ring[-1] else (*ring, ring[0]) for ring in feature.rings if ring)
     return replace(feature, rings=rings)
-
-
-def _length(line: MapFeature) -> float:
-    return sum(math.dist(a, b) for a, b in pairwise(line.rings[0]))
-
-
-def _thinned(points: Floats) -> Floats:
-    """Points that are far enough apart, evenly along the line, and at most as many as a path may have."""
-    kept = [points[0]]
-    for point in points[1:]:
-        if np.hypot(*(point - kept[-1])) >= POINTS_APART:
-            kept.append(point)
-    if len(kept) <= POINTS_MAX:
-        return np.array(kept)
-    few: Floats = np.array(kept)[np.linspace(0, len(kept) - 1, POINTS_MAX).round().astype(int)]
-    return few
-
-
-def _is_along(told: Mapping[str, Any], points: Floats) -> bool:
-    """True if the line still follows the path that is stored with it."""
-    try:
-        path = checked_path(told)
-    except InvalidValue:
-        return False
-    drawn = line_of(path, path.drawn_begin(points), path.end)
-    begins, along = drawn[:-1], np.diff(drawn, axis=0)
-    ends = np.hypot(*(points[[0, -1]] - drawn[[0, -1]]).T)
-    for point in points[:: len(points) // TRIED + 1]:
-        share = np.clip(((point - begins) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
-        if np.hypot(*(begins + share[:, None] * along - point).T).min() > MOVED:
-            return False
-    return bool(ends.max() <= MOVED)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.maps.features import Drawing, MapFeature, features_of
-from app.wire.degrees import Origin, Plane
-from app.wire.geojson import Thing
+from app.maps.features import Drawing, MapFeature, Unit, features_of
+from app.wire.degrees import Origin, Place, Plane
 from app.wire.question import check_limit
 from core import Dance
 from core.motion.places import handle_places
@@ -70,11 +69,9 @@ def line_of(path: Path, low: float, high: float) -> Floats:
     return points
 
 
-def drawing_of(
-    dance: Dance, things: Sequence[Thing], marks: Marks, told: Mapping[str, object], origin: Origin | None
-) -> Drawing:
-    """The dance as a map in metres. things: of the venue; told: the path as a request describes it"""
-    features = features_of(things)
+def drawing_of(dance: Dance, place: Place, marks: Marks, told: Mapping[str, object], origin: Origin | None) -> Drawing:
+    """The dance as a map in metres. place: the venue; told: the path as a request describes it"""
+    features = features_of(place.things)
     path = dance.path
     low, high = path.drawn_between(min(float(marks.s[0]), path.begin), path.end)
     line = tuple(map(tuple, line_of(path, low, high).tolist()))
@@ -82,11 +79,19 @@ def drawing_of(
     for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
         properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4)}
         features.append(MapFeature("point", (((point[0], point[1]),),), name, "mark", properties=properties))
-    return Drawing(tuple(features), False, origin)
+    return Drawing(tuple(features), Unit.METRES, origin, grid=place.grid)
 
 
 def in_degrees(drawing: Drawing) -> Drawing:
     """The map in longitude and latitude. It must be in metres and have an origin."""
     assert drawing.origin is not None
     plane = Plane(drawing.origin)
-    return Drawing(tuple(one.moved(plane.degrees) for one in drawing.features), True, drawing.origin)
+    return Drawing(tuple(one.moved(plane.degrees) for one in drawing.features), Unit.DEGREES, drawing.origin)
+
+
+def on_grid(drawing: Drawing) -> Drawing:
+    """The map in metres with the coordinates of its survey grid, if it came from one."""
+    if drawing.grid is None:
+        return drawing
+    grid = np.array(drawing.grid)
+    return replace(drawing, features=tuple(one.moved(lambda points: points + grid) for one in drawing.features))

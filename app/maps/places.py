@@ -2,26 +2,41 @@
 
 from __future__ import annotations
 
+import codecs
+import re
 from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
 
 import orjson
 from pydantic import Field
 
+from app.files.memory import reading
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, kml
-from app.maps.features import features_of
-from app.maps.layout import DanceParts, Reading, checked_path
+from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, features_of
+from app.maps.layout import DanceParts, Reading
+from app.maps.lines import checked_path
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
-from app.wire.texts import Unreadable, toml_of
+from app.wire.texts import CHINESE, Unreadable, toml_of
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 from core.errors import Given, Parameter
 
 # Longest file [bytes].
 FILE_MAX = 20_000_000
+# Longest file that describes a dance [bytes], the default length of a request. Each table of TOML takes 120 bytes for
+# one in the file (measured 2026-11-26).
+DANCE_MAX = 4_000_000
+# Most objects and lists of GeoJSON, TOML or JSON: twice those of the largest map.
+PARTS_MAX = 2 * (POINTS_MAX + 3 * FEATURES_MAX)
+# A name in TOML with more parts than this, as in a.b.c; the time to read one grows with the square of their number.
+KEY_PARTS_MAX = 20
+LONG_KEY = re.compile(rb"(?<![\w-])(?:[\w-]{1,40}[ \t]*\.[ \t]*){20}")
+MARKS_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class Places(Answer):
@@ -30,7 +45,7 @@ class Places(Answer):
     path: dict[str, Any] | None = Field(description="Path in the form of a request; null: the file has none")
     venue: dict[str, Any] | None = Field(
         description="Square and obstacles in the form of a request: GeoJSON in metres, the square first; its member "
-        "`origin` is the place of x = y = 0, if it is known; null: the file has none"
+        "`origin` is the place of x = y = 0, and `grid` the same on a survey grid, if known; null: the file has none"
     )
     dance: dict[str, Any] | None = Field(
         description="Other fields of a file that describes a dance, unchanged; null: the file is a map"
@@ -61,11 +76,46 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     if not data.strip():
         words = "{field} must hold a map: GeoJSON, KML, DXF, or a dance as TOML or JSON"
         raise InvalidValue.in_words("file", words, got="nothing", field=Parameter("file"))
+    if data.startswith(MARKS_16):
+        data = _encoded(data, "utf-16")
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
     if start.startswith(b"PK"):
         return Reading(kml.read(kml.unpacked(data)), units, say).found()
-    if start.startswith(b"<"):
+    if start.startswith((b"<", b"\0<")):
         return Reading(kml.read(start), units, say).found()
+    if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
+        return Reading(dxf.read(data), units, say).found()
+    start, notes = _in_utf8(start, say)
+    found = _of_text(start, units, say)
+    return replace(found, notes=[*notes, *found.notes])
+
+
+def _in_utf8(data: bytes, say: Say) -> tuple[bytes, list[str]]:
+    """Text in UTF-8, also of a file in GB 18030, and a note on that."""
+    try:
+        data.decode()
+    except UnicodeDecodeError:
+        with suppress(UnicodeDecodeError):
+            text = data.decode(CHINESE)
+            return text.encode(), [
+                say("The file is not in UTF-8; it was read as GB 18030.", "文件不是 UTF-8，按 GB 18030 读取。")
+            ]
+    return data, []
+
+
+def _encoded(data: bytes, coding: str) -> bytes:
+    try:
+        return data.decode(coding).encode()
+    except UnicodeError as error:
+        raise InvalidValue("file", "must be text in UTF-16, as its first bytes say: save it as UTF-8") from error
+
+
+def _of_text(start: bytes, units: Coordinates | None, say: Say) -> DanceParts:
+    """GeoJSON, or a dance as JSON or TOML, whose objects and lists are counted before any is made."""
+    parts = start.count(b"[") + start.count(b"{")
+    if parts > PARTS_MAX:
+        rule = f"must hold at most {{most}} objects and lists: {LEAVE_OUT}"
+        raise InvalidValue("file", rule, got=parts, most=PARTS_MAX)
     if start.startswith(b"{"):
         try:
             told = orjson.loads(start)
@@ -73,15 +123,23 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
             raise InvalidValue("file", "must be JSON without a fault: {why}", why=str(error)) from error
         if "type" in told:
             return Reading(geojson.read(told), units, say).found()
+        _refuse_long(start)
         return _of_dance(told, say)
-    if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
-        return Reading(dxf.read(data), units, say).found()
+    _refuse_long(start)
+    if LONG_KEY.search(start):
+        raise InvalidValue("file", "must not have a name of more than {most} parts", most=KEY_PARTS_MAX)
     try:
-        return _of_dance(toml_of(data), say)
+        return _of_dance(toml_of(start), say)
     except Unreadable as error:
         told = error.of("file", "it")
         rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {told.template}: {told.reason}"
         raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **told.values) from error
+
+
+def _refuse_long(data: bytes) -> None:
+    """Refuse a dance that is longer than a request may be, before it is read."""
+    if len(data) > DANCE_MAX:
+        raise InvalidValue("file", "must have at most {most} bytes if it is no map", got=len(data), most=DANCE_MAX)
 
 
 def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
@@ -98,14 +156,15 @@ def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
     elif venue is not None:
         place = place_of(venue, told.get("coordinates"), Dragon())
     place = place or Place()
-    return DanceParts(path, place.venue, place.origin, others, notes, features_of(place.things))
+    return DanceParts(path, place.venue, place.origin, others, notes, features_of(place.things), place.grid)
 
 
 def read_map(file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH) -> DanceParts:
-    """The square and the path in a map. raises: InvalidValue, OSError"""
+    """The square and the path in a map. raises: InvalidValue, TooMuchWork, OSError"""
     with file.open("rb") as source:
         data = source.read(FILE_MAX + 1)
     if len(data) > FILE_MAX:
         words = "{file} must have at most {most} bytes"
         raise InvalidValue.in_words("file", words, got="more", file=str(file), most=FILE_MAX)
-    return places_of(data, units, Say(language))
+    with reading():
+        return places_of(data, units, Say(language))

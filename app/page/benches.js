@@ -17,12 +17,36 @@ function cellsOf(line, separator) {
   return cells.map((cell, k) => cell.slice(k && 1).trim().replace(QUOTED, (_, inner) => inner.replaceAll('""', '"')).trim());
 }
 
+/** First bytes of text in UTF-16, and of workbooks: .xlsx and .ods, which are archives, and .xls. */
+const WIDE = { "255,254": "utf-16le", "254,255": "utf-16be" };
+const WORKBOOKS = ["80,75", "208,207"];
+
+/** The text of a table in a file: UTF-8 or UTF-16, otherwise GB 18030, as Chinese versions of Excel write it; null for a workbook. */
+export async function tableText(file) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const mark = bytes.slice(0, 2).join();
+  if (WORKBOOKS.includes(mark)) return null;
+  try {
+    return new TextDecoder(WIDE[mark] ?? "utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder("gb18030").decode(bytes);
+  }
+}
+
+/** True for the cells of a bench in a table without names of columns: three numbers, alone or after a name. */
+const holdsSizes = (cells) => [3, 4].includes(cells.length) && cells.slice(-3).every((cell) => cell && Number.isFinite(Number(cell.replace(",", "."))));
+
 /** The benches of a table that the service accepts: {names, lengths, widths, overhangs}, head first [m]. */
 export function benchesOf(text) {
-  const [first = "", ...lines] = text.split(/\r?\n|\r/).filter((line) => line.trim());
-  const separator = ["\t", ";"].find((mark) => first.includes(mark)) ?? ",";
-  const heads = cellsOf(first, separator);
-  const rows = lines.map((line) => cellsOf(line, separator)).filter((row) => row.some(Boolean));
+  let lines = text.split(/\r?\n|\r/).filter((line) => line.trim());
+  const stated = /^ *sep=([\t;,]) *$/.exec(lines[0] ?? "")?.[1];
+  if (stated) lines = lines.slice(1);
+  const first = lines[0] ?? "";
+  const separator = stated ?? ["\t", ";"].find((mark) => first.includes(mark)) ?? ",";
+  const own = cellsOf(first, separator);
+  const isBench = holdsSizes(own);
+  const heads = isBench ? ["name", "length", "width", "overhang"].slice(-own.length) : own;
+  const rows = lines.slice(isBench ? 0 : 1).map((line) => cellsOf(line, separator)).filter((row) => row.some(Boolean));
   const column = (pattern) => {
     const at = heads.findIndex((head) => pattern.test(head));
     return rows.map((row) => row[at] ?? "");
@@ -51,7 +75,7 @@ export class BenchTable {
     this.title = make("summary");
     const described = { "aria-describedby": "csv-help csv-error" };
     this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "csv", ...described });
-    this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt", "data-label": "csvOpen", hidden: true });
+    this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt,.xlsx", "data-label": "csvOpen", hidden: true });
     this.error = make("p", { id: "csv-error", className: "error", hidden: true });
     this.note = make("p", { className: "hint" });
     const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => state.set({ csv: "" }) };
@@ -71,7 +95,7 @@ export class BenchTable {
       this.#take(this.text.value);
     });
     this.file.addEventListener("change", async () => {
-      if (this.file.files[0]) this.#take(await this.file.files[0].text());
+      if (this.file.files[0]) await this.#open(this.file.files[0]);
       this.file.value = "";
     });
     this.box.addEventListener("dragover", (event) => event.preventDefault());
@@ -79,9 +103,15 @@ export class BenchTable {
       const file = event.dataTransfer.files[0];
       if (!file) return;
       event.preventDefault();
-      this.#take(await file.text());
+      await this.#open(file);
     });
     this.state.listen((names) => (names.has("csv") || names.has("path")) && this.show());
+  }
+
+  async #open(file) {
+    const text = await tableText(file);
+    if (text !== null) return this.#take(text);
+    Object.assign(this.error, { hidden: false, textContent: say("csvWorkbook", { name: file.name }) });
   }
 
   #take(text) {

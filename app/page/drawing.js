@@ -4,11 +4,12 @@
  * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
  * the head at time 0 [m]; limit: of every speed [m/s] or null; path: one from a file that is no list of points, or null
  * things: [{kind, name, points, radius, holes}]: one area to stay in, blocks, circles, walls; origin: of a map, or null
+ * grid: {x, y}, the place of x = y = 0 on the survey grid of a map [m], or null
  */
 
-export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, things: [], origin: null };
+export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, things: [], origin: null, grid: null };
 /** Names of the parts of a drawing in an address. */
-export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "origin"];
+export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "origin", "grid"];
 /** Half a side of the ground without a drawn area [m]. */
 const PLAIN = 90_000;
 const DECIMALS = 4;
@@ -43,14 +44,14 @@ function featureOf(thing) {
 }
 
 /** The venue in the service's format; null without one. Obstacles without an area stand on an endless plain. */
-export function venueOf({ things, origin }) {
+export function venueOf({ things, origin, grid }) {
   const whole = things.filter(isWhole);
   if (!whole.length) return null;
   const isArea = ({ kind }) => kind === "area";
   const corners = [[-PLAIN, -PLAIN], [PLAIN, -PLAIN], [PLAIN, PLAIN], [-PLAIN, PLAIN]];
   const ground = whole.find(isArea) ?? { kind: "area", name: freeName(things, "plain"), points: corners };
   const features = [ground, ...whole.filter((thing) => thing !== ground)].map(featureOf);
-  return { type: "FeatureCollection", ...(origin && { origin }), features };
+  return { type: "FeatureCollection", ...(origin && { origin }), ...(grid && { grid }), features };
 }
 
 /** Path, venue and speeds of the dance: the fields of /check that are not null. */
@@ -89,7 +90,8 @@ function thingsOf(venue) {
 
 /** The drawing of a dance from a request of /check, or from an answer of /places. */
 export function drawingOf({ path, venue, speed_limit: limit }) {
-  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin: venue?.origin ?? null };
+  const { origin = null, grid = null } = venue ?? {};
+  const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin, grid };
   if (!path) return drawing;
   return { ...drawing, ...(legsOf(path) ?? { path, points: [] }) };
 }
@@ -124,7 +126,7 @@ const unescaped = (name) => decodeURIComponent(name.replaceAll("-", "%"));
 
 /** Parts of an address: name -> text. */
 export function toAddress(drawing) {
-  const { points, straight, radius, begin, limit, things, path, origin } = drawing;
+  const { points, straight, radius, begin, limit, things, path, origin, grid } = drawing;
   const legs = points.map(([x, y], k) => `${straight.includes(k) ? "*" : ""}${x},${y}`).join("_");
   const texts = things.map(({ kind, name, points: own, radius: wide = "", holes = [] }) =>
     [kind[0], escaped(name), ...[String(wide), ...[own, ...holes].map(plainText)].map((part) => part.replaceAll(".", "!"))].join("."),
@@ -137,6 +139,7 @@ export function toAddress(drawing) {
     things: texts.join("~"),
     raw: path ? JSON.stringify(path) : "",
     origin: origin ? `${origin.longitude},${origin.latitude}` : "",
+    grid: grid ? `${grid.x},${grid.y}` : "",
   };
   return Object.entries(told).filter(([, text]) => text !== "");
 }
@@ -160,6 +163,8 @@ export function fromAddress(given) {
     if (given.has("raw")) drawing.path = JSON.parse(given.get("raw"));
     const [longitude, latitude] = (given.get("origin") ?? "").split(",").map(Number);
     if (given.has("origin")) drawing.origin = { longitude, latitude };
+    const [x, y] = (given.get("grid") ?? "").split(",").map(Number);
+    if (given.has("grid") && finite([[x, y]])) drawing.grid = { x, y };
   } catch {
     // An address that was cut off still opens with its readable part.
   }

@@ -1,6 +1,6 @@
 /** Files of a drawn dance: opened, dropped on the picture, and saved. */
 
-import { tableOf } from "./benches.js";
+import { tableOf, tableText } from "./benches.js";
 import { drawingOf } from "./drawing.js";
 import { $, download, make, worded } from "./elements.js";
 import { bearer } from "./jobs.js";
@@ -8,7 +8,7 @@ import { announce, announceRefusal } from "./overlays.js";
 import { passagesText } from "./pace.js";
 import { language, say } from "./text.js";
 
-const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv";
+const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv,.tsv,.xlsx";
 /** Fields of a dance's file that are numbers of the page too. */
 const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
@@ -44,8 +44,10 @@ export class Files {
   /** Open a dance, or a map with a venue and a path. */
   async open(file) {
     try {
-      if (/\.(csv|tsv)$/i.test(file.name)) {
-        this.state.set({ csv: await file.text() });
+      if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
+        const csv = await tableText(file);
+        if (csv === null) return announce(() => say("csvWorkbook", { name: file.name }), true);
+        this.state.set({ csv });
         return announce(() => say("opened", { name: file.name }));
       }
       announce(() => say("opening", { name: file.name }));
@@ -68,9 +70,9 @@ export class Files {
     if (this.state.get("path") !== "route") this.state.choosePath("route");
     const opened = drawingOf({ ...found, venue: typeof venue === "object" ? venue : null });
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
-    const { points, straight, radius, begin, path: given, things, origin } = this.state.get("drawing");
+    const { points, straight, radius, begin, path: given, things, origin, grid } = this.state.get("drawing");
     if (!path) Object.assign(opened, { points, straight, radius, begin, path: given });
-    if (!venue && !("dragon" in found)) Object.assign(opened, { things, origin });
+    if (!venue && !("dragon" in found)) Object.assign(opened, { things, origin, grid });
     const told = {
       ...("dragon" in found && { csv: tableOf(dragon) }),
       ...("passages" in found && { passages: passagesText(found.passages) }),

@@ -115,7 +115,7 @@ export class RouteForm {
 
   /** Begin with a preset; a person's own square stays, unless the preset has one. */
   beginWith(name) {
-    const { things, origin, limit } = this.#drawing;
+    const { things, origin, grid, limit } = this.#drawing;
     const shapes = (some) => JSON.stringify(some.map(({ name: _, ...shape }) => shape));
     const isOwn = Object.values(PRESETS).every((one) => shapes(one.things) !== shapes(things));
     this.preset.value = "";
@@ -123,7 +123,7 @@ export class RouteForm {
     this.state.set({ view: null, time: null });
     const preset = PRESETS[name] ?? EMPTY;
     const named = preset.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) }));
-    this.steps.take({ ...preset, ...(isOwn && !named.length ? { things, origin, limit } : { things: named }) });
+    this.steps.take({ ...preset, ...(isOwn && !named.length ? { things, origin, grid, limit } : { things: named }) });
   }
 
   /** Show the drawing; rows are made again only if their number changes. */

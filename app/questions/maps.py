@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from pydantic import Field
 
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.maps import dxf, geojson, kml
-from app.maps.marks import drawing_of, in_degrees, marks_of
+from app.maps.marks import drawing_of, in_degrees, marks_of, on_grid
 from app.questions.check import CheckRequest
 from app.wire import degrees
 from app.wire.question import FileFormat, Question, Terms, Wire, measure
@@ -62,11 +60,11 @@ def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
     place = asked.to_place(dance.dragon)
     origin = asked.told_origin(place)
     marks = marks_of(dance, *dance.span(asked.start, asked.stop), asked.spacing)
-    drawing = drawing_of(dance, place.things, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
+    drawing = drawing_of(dance, place, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
     if form == DXF_TYPE:
-        return dxf.written(drawing)
+        return dxf.written(on_grid(drawing))
     if form == GEOJSON_TYPE:
-        return geojson.written(in_degrees(drawing) if origin else replace(drawing, degrees=False))
+        return geojson.written(in_degrees(drawing) if origin else on_grid(drawing))
     if origin is None:
         words = "give the place of x = y = 0 as longitude and latitude, or a venue in degrees"
         raise InvalidValue("origin", f"must be known for KML, which is in degrees: {words}")

@@ -16,7 +16,7 @@ from contextlib import asynccontextmanager, closing
 from typing import Any
 
 from fastapi import Depends, FastAPI, Request, Response
-from prometheus_client import CollectorRegistry, generate_latest
+from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram, generate_latest
 from prometheus_client.exposition import CONTENT_TYPE_LATEST
 from prometheus_client.multiprocess import MultiProcessCollector
 from pydantic import Field
@@ -69,6 +69,8 @@ TAGS = {
 KNOWN_CONTACT = 412.47383768211466
 KNOWN_X = 8.363823851392647
 KNOWN_TOLERANCE = 1e-9
+# Borders of the classes in which memory of readers is counted [bytes].
+READER_BYTES = (1e8, 2e8, 3e8, 5e8, 7e8, 1e9, 2e9, 4e9)
 
 
 def fault() -> str:
@@ -101,8 +103,17 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         getattr(core, name)
     app.state.fault = fault()
     build()
-    with kept(app.state.settings) as app.state.jobs, closing(Graders()) as app.state.graders:
+    with kept(app.state.settings) as app.state.jobs, closing(readers(app)) as app.state.graders:
         yield
+
+
+def readers(app: FastAPI) -> Graders:
+    """The processes that read files, within the limit of their memory; what they need is in the metrics."""
+    memory: Histogram = app.state.reader_memory
+    ended: Counter = app.state.readers_ended
+    return Graders(
+        app.state.settings.reader_memory_max, lambda peak: ended.inc() if peak is None else memory.observe(peak)
+    )
 
 
 # Longest time for which a thread that runs Python code holds Python's lock while others wait for it [s]. With the
@@ -154,6 +165,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     sys.setswitchinterval(SWITCH_SECONDS)
     return_memory()
     app.state.registry = registry
+    _add_reader_metrics(app, settings, registry)
     registry.register(JobMetrics(lambda: app.state.jobs))
     app.openapi = lambda: _openapi(app)  # type: ignore[method-assign]
     problems.install(app)
@@ -166,6 +178,21 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     _add_health(app)
     add_pages(app)
     return app
+
+
+def _add_reader_metrics(app: FastAPI, settings: Settings, registry: CollectorRegistry) -> None:
+    given: dict[str, Any] = {"registry": registry}
+    app.state.reader_memory = Histogram(
+        "bench_dragon_reader_memory_bytes", "Memory of the process of each file", buckets=READER_BYTES, **given
+    )
+    app.state.readers_ended = Counter("bench_dragon_readers_ended", "Processes that a file ended", **given)
+    limit = Gauge(
+        "bench_dragon_readers_memory_limit_bytes",
+        "Most memory of all processes that read files at once",
+        multiprocess_mode="livesum",
+        **given,
+    )
+    limit.set(settings.readers_max * settings.reader_memory_max)
 
 
 def _openapi(app: FastAPI) -> dict[str, Any]:

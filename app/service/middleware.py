@@ -356,6 +356,7 @@ class Lanes:
         self._cheap = lane("cheap", settings.cheap_max, settings.cheap_max)
         self._heavy = lane("heavy", settings.heavy_max, settings.heavy_client_max)
         self._workbook = lane("workbook", settings.workbooks_max, settings.workbooks_max)
+        self.files = lane("file", settings.readers_max, settings.readers_max)
         self.large_bodies = lane("large body", settings.large_bodies_max, settings.large_bodies_max)
 
     def of(self, cost: float, media_type: str) -> Lane:

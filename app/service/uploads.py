@@ -130,7 +130,7 @@ def told(name: str, model: type[BaseModel], *, required: bool) -> dict[str, Any]
 def in_lane(request: Request) -> AbstractContextManager[None]:
     """A place among the computations for one file. raises: Refused (429, 503)"""
     lanes: Lanes = request.app.state.lanes
-    return lanes.of(COST, JSON).taken(COST, client_of(request))
+    return lanes.files.taken(COST, client_of(request))
 
 
 def reply_of(answer: Answer) -> Response:
@@ -158,6 +158,8 @@ def grade(
             files = [graders.asked(budget, graded, wanted.name, data, wanted.language)] if data else []
         except Halted:
             raise too_long(data, budget) from None
+        except BenchDragonError as error:
+            raise error.named("name") from error
     return reply_of(GradeAnswer(files=files, answers=answers))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable
 from functools import cached_property
 from typing import Annotated, Any, NamedTuple
@@ -24,6 +25,7 @@ WORDS = {
     "width": ("width", "宽度", "宽"),
     "overhang": ("overhang", "孔心距板头", "孔距", "端距"),
 }
+STATED = re.compile(r"sep=([\t;,])")
 SIZES = {"length": LENGTHS, "width": WIDTHS, "overhang": OVERHANGS}
 
 
@@ -49,7 +51,8 @@ def bench_table(text: str) -> BenchTable:
     """A table with the columns name (which may be missing), length, width and overhang [m], in any order.
 
     Columns are separated by tabs, semicolons or commas; with semicolons or tabs a decimal comma is read too. Empty
-    lines are left out.
+    lines are left out. Without names of columns, the columns are length, width and overhang, after the name if there
+    are four.
     raises: InvalidValue, whose message begins with the number of the line
 
     >>> bench_table("name,length,width,overhang\\nZhou,3.41,0.3,0.275\\n").lengths
@@ -59,10 +62,16 @@ def bench_table(text: str) -> BenchTable:
     first = next((k for k, line in enumerate(lines) if line.strip()), None)
     if first is None:
         raise _refused(1, "must be the names of columns name,length,width,overhang", got="nothing")
-    separator = next((mark for mark in SEPARATORS if mark in lines[first]), ",")
-    columns = _columns(_cells(lines[first], separator), first + 1)
+    if stated := STATED.fullmatch(lines[first].strip(" ")):  # Excel states the separator in a line of its own.
+        following = (k for k in range(first + 1, len(lines)) if lines[k].strip())
+        first = next(following, first)
+    separator = stated[1] if stated else next((mark for mark in SEPARATORS if mark in lines[first]), ",")
+    heads = _cells(lines[first], separator)
+    is_bench = _holds_sizes(heads, separator != ",")
+    columns = [*WORDS][-len(heads) :] if is_bench else _columns(heads, first + 1)
+    begin = first if is_bench else first + 1
     table = BenchTable([], [], [], [], [])
-    for number, line in enumerate(lines[first + 1 :], start=first + 2):
+    for number, line in enumerate(lines[begin:], start=begin + 1):
         cells = _cells(line, separator)
         if not any(cells):
             continue
@@ -79,6 +88,18 @@ def bench_table(text: str) -> BenchTable:
     if not table.lines:
         raise _refused(first + 2, "must be the first bench, the head", got="nothing")
     return table
+
+
+def _holds_sizes(cells: list[str], comma: bool) -> bool:
+    """True for the cells of a bench in a table without names of columns: three numbers, alone or after a name."""
+    return len(cells) in (3, 4) and all(_number(cell, comma) is not None for cell in cells[-3:])
+
+
+def _number(word: str, comma: bool) -> float | None:
+    try:
+        return float(word.replace(",", ".") if comma else word)
+    except ValueError:
+        return None
 
 
 def _cells(line: str, separator: str) -> list[str]:
@@ -105,12 +126,9 @@ def _columns(words: Iterable[str], number: int) -> list[str]:
 
 def _size(column: str, word: str, number: int, comma: bool) -> float:
     """An entry as a size in metres."""
-    try:
-        size = float(word.replace(",", ".") if comma else word)
-    except ValueError as error:
-        raise _refused(
-            number, "{field} must be a number in metres", got=Given(word), field=Parameter(column)
-        ) from error
+    size = _number(word, comma)
+    if size is None:
+        raise _refused(number, "{field} must be a number in metres", got=Given(word), field=Parameter(column))
     low, high = SIZES[column]
     if low <= size <= high:
         return size

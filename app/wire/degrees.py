@@ -16,7 +16,7 @@ from app.wire.geojson import Polygon, Scale, Thing, outlined, read_things, venue
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.errors import Given, Parameter, checked_number, quantities
-from core.values import Floats
+from core.values import Floats, Point
 from core.venue import Ring
 
 # The ellipsoid of WGS 84: half of its long axis [m], and its flattening [1]. CGCS2000 differs by 0.1 mm.
@@ -24,6 +24,8 @@ AXIS = 6_378_137.0
 FLATTENING = 1 / 298.257223563
 # Largest extent of a venue in degrees [m]: 10 km from its middle the plane shortens lengths by one part in a million.
 ACROSS_MAX = 20_000.0
+# Largest coordinate on a survey grid [m]: with its zone in front, an easting of CGCS2000 has eight digits.
+GRID_MAX = 1e8
 # Names of coordinate systems whose coordinates are longitude and latitude: CRS84, and by their EPSG numbers WGS 84,
 # CGCS2000, ETRS89 and NAD83.
 GEOGRAPHIC = re.compile(r"CRS:?84|\bEPSG:+[\d.]*:*(?:4326|4979|4490|4258|4269)$", re.IGNORECASE)
@@ -79,11 +81,14 @@ class Plane:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A venue in metres; the place of its origin on earth, if it is known; and the things it was made of."""
+    """A venue in metres; the place of its origin on earth, and on a survey grid [m], if they are known; and the things
+    it was made of.
+    """
 
     venue: Venue | None = None
     origin: Origin | None = None
     things: Sequence[Thing] = ()
+    grid: Point | None = None
 
 
 def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dragon: Dragon) -> Place:
@@ -109,7 +114,7 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
     things = read_things(geometry)
     polygons = outlined(things)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
-    return Place(venue_of(polygons), _told_origin(geometry.get("origin")), things)
+    return Place(venue_of(polygons), _told_origin(geometry.get("origin")), things, _told_grid(geometry.get("grid")))
 
 
 def _told_origin(told: object) -> Origin | None:
@@ -121,6 +126,16 @@ def _told_origin(told: object) -> Origin | None:
     limits = {"longitude": DEGREES[1], "latitude": DEGREES[2]}
     places = (checked_number(f"venue.origin.{name}", told[name], "degrees", -m, m) for name, m in limits.items())
     return Origin(*places)
+
+
+def _told_grid(told: object) -> Point | None:
+    """Place of x = y = 0 on a survey grid [m], from the member `grid` of a venue in metres. raises: InvalidValue"""
+    if told is None:
+        return None
+    if not isinstance(told, Mapping) or set(told) != {"x", "y"}:
+        raise InvalidValue("venue.grid", "must have x and y in metres, or be left out")
+    x, y = (checked_number(f"venue.grid.{name}", told[name], "m", -GRID_MAX, GRID_MAX) for name in "xy")
+    return x, y
 
 
 def named_system(geometry: Mapping[str, object]) -> str | None:

@@ -9,7 +9,7 @@ import sys
 import tomllib
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, Self
 
 from app.wire.question import shown
@@ -18,6 +18,10 @@ from core.errors import Given, Value
 
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(r"\\u(?:0000|[dD][89a-fA-F])")
+# First bytes of workbooks: .xlsx and .ods, which are archives, and .xls.
+WORKBOOKS = (b"PK", bytes.fromhex("d0cf11e0a1b11ae1"))
+# Encoding of Chinese versions of Excel.
+CHINESE = "gb18030"
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
 
 
@@ -47,6 +51,23 @@ def text_of(data: bytes) -> str:
         byte, place = f"{data[error.start]:#04x}", error.start
         reason = "byte {byte} at position {place}"
         raise Unreadable.told("is not text in UTF-8", reason, byte=byte, place=place) from error
+
+
+def table_of(data: bytes) -> tuple[str, bool]:
+    """Text of a table as spreadsheets save it: as text_of(), otherwise in GB 18030, and whether it is that.
+
+    raises: Unreadable, also for a workbook
+    """
+    if data.startswith(WORKBOOKS):
+        raise Unreadable.told("is a workbook", "save its sheet as CSV")
+    try:
+        return text_of(data), False
+    except Unreadable as error:
+        with suppress(UnicodeDecodeError):
+            text = data.decode(CHINESE)
+            if not NO_TEXT.search(text):
+                return text, True
+        raise error
 
 
 def json_of(data: bytes) -> Any:

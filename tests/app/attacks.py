@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from urllib.parse import urlencode, urlsplit
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
+from tests.app.bombs import GRADES, MAPS
 
 Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
 ATTACKS: dict[str, Attack] = {}
@@ -181,6 +182,17 @@ def files_to_grade(url: str, seconds: float) -> None:
     text = b"word " * 3_999_000
     kind = "application/octet-stream"
     at_once([lambda: ask(url, "POST", "/grade", text, timeout=60.0, kind=kind)] * 4)
+
+
+@attack
+def files_that_unfold(url: str, seconds: float) -> None:
+    """Archives, drawings and texts of a few bytes to 20 MB that would take gigabytes, or minutes."""
+    kind = "application/octet-stream"
+    some = [("/places", MAPS[name]) for name in ("bzip2", "deflated_that_lies", "arc_of_dxf", "brackets_of_json")]
+    some += [("/grade", GRADES[name]) for name in ("workbook_that_lies", "attributes")]
+    at_once(
+        [lambda path=path, made=made: ask(url, "POST", path, made(), timeout=60.0, kind=kind) for path, made in some]
+    )
 
 
 @attack

@@ -1,6 +1,7 @@
 """Odd requests: valid and invalid ones made from the description of every call, and examples with odd values.
 
-`make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED] asks a service this many of each, and prints its answers.
+`make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED [FILES]] asks a service this many of each, sends it
+damaged files (5,000 by default), and prints its answers.
 """
 
 from __future__ import annotations
@@ -124,7 +125,18 @@ def ask_described(url: str, count: int) -> Tally:
     return tally
 
 
-if __name__ == "__main__":
+def main() -> None:
+    from tests.app.fuzz_files import ask_files, readers_over
+
+    seed = int(sys.argv[3]) if len(sys.argv) > 3 else 0
+    files = int(sys.argv[4]) if len(sys.argv) > 4 else 5_000
     with tempfile.TemporaryDirectory() as folder, serving(Path(folder) / "log", workers=2) as service:
-        print(ask_mutants(service.url, int(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 0), flush=True)
-        print(ask_described(service.url, int(sys.argv[1])))
+        print("files:", ask_files(service.url, files, seed, Path(tempfile.gettempdir())), flush=True)
+        print("readers over their limit:", readers_over(httpx.get(f"{service.url}/metrics").text, 1e9), flush=True)
+        print(ask_mutants(service.url, int(sys.argv[2]), seed), flush=True)
+        if cases := int(sys.argv[1]):
+            print(ask_described(service.url, cases))
+
+
+if __name__ == "__main__":
+    main()

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import httpx
+
 from tests.app.fuzz import ask_mutants
+from tests.app.fuzz_files import ask_files, readers_over
 from tests.depth import examples
 
-MUTANTS, SEED = examples(35, 150), 1
+MUTANTS, FILES, SEED = examples(35, 150), examples(80, 400), 1
 
 
 def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:
@@ -13,3 +16,11 @@ def test_no_odd_request_gets_an_error_of_the_service(server: str) -> None:
     assert statuses.total() == MUTANTS
     assert statuses[200] > MUTANTS // 20, "some of them are harmless"
     assert statuses[422] > MUTANTS // 4
+
+
+def test_no_damaged_file_gets_an_error_of_the_service(server: str) -> None:
+    statuses = ask_files(server, FILES, SEED).statuses
+    assert statuses.total() == FILES
+    assert statuses[200] > FILES // 10, "some of them are harmless"
+    assert statuses[422] > FILES // 5
+    assert readers_over(httpx.get(f"{server}/metrics").text, 1e9) == 0

@@ -151,6 +151,66 @@ def test_each_is_refused_at_its_place(client: httpx.Client, field: str, body: di
     assert [error["pointer"] for error in refused.json()["errors"]] == [field], refused.text
 
 
+PLAIN = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"name,length,width,overhang\n{PLAIN}",
+        PLAIN,
+        f"\n\n{PLAIN}",
+        "3.41,0.3,0.275\n2.2,0.3,0.275\n",
+        "Zhou\t3,41\t0,3\t0,275\nLi\t2,2\t0,3\t0,275\n",
+        "Zhou;3,41;0,3;0,275\nLi;2,2;0,3;0,275\n",
+        "name\tlength\twidth\toverhang\nZhou\t3,41\t0,3\t0,275\nLi\t2,2\t0,3\t0,275\n",
+        "sep=;\nlength;name;overhang;width\n3,41;Zhou;0,275;0,3\n2,2;Li;0,275;0,3\n",
+        f"sep=,\n{PLAIN}",
+        "sep=\t\n3,41\t0,3\t0,275\n2,2\t0,3\t0,275\n",
+        "名称;长度;宽度;孔心距板头\nZhou;3,41;0,3;0,275\nLi;2,2;0,3;0,275\n",
+    ],
+)
+def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
+    table = bench_table(text)
+    assert (table.lengths, table.widths, table.overhangs) == ([3.41, 2.2], [0.3, 0.3], [0.275, 0.275])
+    assert table.names in (["Zhou", "Li"], ["", ""])
+    assert [text.splitlines()[number - 1].strip() != "" for number in table.lines] == [True, True]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Zhou,3.41,0.3\n", 'a column must be name, length, width or overhang, got "Zhou"|got .Zhou.'),
+        ("3.41,0.3,0.275\n2.2,0.3\n", "line 2: must have 3 entries, as the first line has, got 2"),
+        ("3.41,0.3\n", "line 1: a column must be"),
+        ("sep=;\n", "line 1: a column must be"),
+        (PLAIN + "Wu,wide,0.3,0.275\n", "line 3: length must be a number in metres"),
+    ],
+)
+def test_a_table_that_is_none_names_its_line(text: str, words: str) -> None:
+    with pytest.raises(InvalidValue, match=words):
+        bench_table(text)
+
+
+@pytest.mark.parametrize("coding", ["gb18030", "utf-16", "utf-8-sig", "utf-8"])
+def test_a_table_of_a_spreadsheet_is_read_in_its_encoding(tmp_path: Path, coding: str) -> None:
+    lines = "名称,长度,宽度,孔距\n周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n"
+    (tmp_path / "benches.csv").write_bytes(lines.encode(coding))
+    (tmp_path / "dance.json").write_text('{"dragon": "benches.csv", "stop": 5}')
+    done = run("check", str(tmp_path / "dance.json"), "--json")
+    assert done.returncode == 0, done.stderr
+    note = f"{tmp_path / 'benches.csv'} is not in UTF-8; it was read as GB 18030."
+    assert (note in done.stderr) == (coding == "gb18030")
+
+
+def test_a_workbook_of_benches_is_refused_with_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / "benches.xlsx").write_bytes(b"PK\3\4" + bytes(99))
+    (tmp_path / "dance.json").write_text('{"dragon": "benches.xlsx"}')
+    done = run("check", str(tmp_path / "dance.json"))
+    assert done.returncode == 2
+    assert "benches.xlsx is a workbook: save its sheet as CSV" in " ".join(done.stderr.split())
+
+
 def test_a_table_of_benches_is_a_dragon_in_every_body(client: httpx.Client) -> None:
     ours = posted(client, "/trajectory", times=[40], dragon={"csv": TABLE}).raise_for_status().json()
     assert ours == posted(client, "/trajectory", times=[40]).raise_for_status().json()

@@ -358,6 +358,36 @@ def test_the_whole_dance_is_in_the_address_or_in_a_file_and_opens_again(visit: A
     page.locator("#points summary", has_text="900").wait_for()
 
 
+def test_a_map_of_a_survey_grid_keeps_it_in_the_address_and_in_files(visit: Any, tmp_path: Path) -> None:
+    page = visit()
+    corners = [[499_950, 3_219_950], [500_050, 3_219_950], [500_050, 3_220_050], [499_950, 3_220_050]]
+    square = {"type": "Polygon", "coordinates": [[*corners, corners[0]]]}
+    line = {"type": "LineString", "coordinates": [[499_960, 3_220_000], [500_040, 3_219_990]]}
+    both = {"type": "GeometryCollection", "geometries": [square, line]}
+    (tmp_path / "grid.geojson").write_text(json.dumps(both))
+    page.locator("#open-file").set_input_files(tmp_path / "grid.geojson")
+    page.locator("#status", has_text="x = y = 0 is its x 500000 m, y 3220000 m").wait_for()
+    settled(page, "address")
+    assert "grid=500000%2C3220000" in page.url or "grid=500000,3220000" in page.url
+    assert saved(page)["venue"]["grid"] == {"x": 500_000, "y": 3_220_000}
+    page.goto(page.url)
+    settled(page, "address")
+    assert saved(page)["venue"]["grid"] == {"x": 500_000, "y": 3_220_000}
+
+
+def test_a_table_of_a_chinese_spreadsheet_is_opened_and_a_workbook_is_refused_in_words(
+    visit: Any, tmp_path: Path
+) -> None:
+    page = visit()
+    (tmp_path / "benches.csv").write_bytes("周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n".encode("gb18030"))
+    page.locator("#open-file").set_input_files(tmp_path / "benches.csv")
+    page.locator("#one-by-one summary", has_text="2").wait_for()
+    assert page.locator("#csv").input_value().startswith("周,3.41")
+    (tmp_path / "benches.xlsx").write_bytes(b"PK\3\4" + bytes(99))
+    page.locator("#csv-file").set_input_files(tmp_path / "benches.xlsx")
+    page.locator("#csv-error", has_text="benches.xlsx is a workbook: save its sheet as CSV").wait_for()
+
+
 def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_stays(visit: Any) -> None:
     page = visit(VILLAGE + "&lang=zh", failing=True)
     verdict(page, "无法表演")

@@ -94,6 +94,7 @@ export const DANCE = {
   csv: ["Benches measured one by one", "逐节测量的板凳"],
   csvCount: ["Benches measured one by one: {count}", "逐节测量的板凳：{count} 节"],
   csvHelp: ["Paste a table or drop a CSV, head first, in metres: name (optional), length, width, overhang. Sweeps take equal benches.", "粘贴表格或拖入 CSV，自龙头起，单位为米：名称（可省略）、长度、宽度、孔心距板头。批量计算只用等长板凳。"],
+  csvWorkbook: ["{name} is a workbook: save its sheet as CSV, and open that.", "{name} 是工作簿：请将工作表另存为 CSV 再打开。"],
   csvOpen: ["Open CSV …", "打开 CSV……"],
   csvBegin: ["Begin with equal benches", "从等长板凳开始"],
   csvClear: ["Equal benches again", "恢复等长板凳"],

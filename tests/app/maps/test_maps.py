@@ -251,6 +251,129 @@ def test_swapped_longitude_and_latitude_are_refused_as_such() -> None:
         read(json.dumps(place).encode())
 
 
+def placemark(inner: str, before: str = "") -> str:
+    return (
+        f'<kml xmlns="http://www.opengis.net/kml/2.2"><Document>{before}<Placemark>{inner}</Placemark></Document></kml>'
+    )
+
+
+def outline(coordinates: str) -> str:
+    ring = f"<LinearRing><coordinates>{coordinates}</coordinates></LinearRing>"
+    return f"<Polygon><outerBoundaryIs>{ring}</outerBoundaryIs></Polygon>"
+
+
+CORNERS = "119.640,29.110,0 119.641,29.110,0 119.641,29.111,0 119.640,29.111,0 119.640,29.110,0"
+
+
+@pytest.mark.parametrize("coding", ["GBK", "GB18030", "big5", "utf-16", "utf-8"])
+def test_the_name_of_a_square_is_read_in_the_encoding_that_the_file_states(client: httpx.Client, coding: str) -> None:
+    name = {"big5": "廣場"}.get(coding, "广场")
+    text = f'<?xml version="1.0" encoding="{coding}"?>{placemark(f"<name>{name}</name>{outline(CORNERS)}")}'
+    headers = {"Content-Type": "application/vnd.google-earth.kml+xml"}
+    answer = client.post("/places", content=text.encode(coding), headers=headers)
+    assert answer.status_code == 200, answer.text
+    assert answer.json()["venue"]["features"][0]["properties"]["name"] == name
+
+
+@pytest.mark.parametrize("coding", ["utf-16", "gb18030"])
+@pytest.mark.parametrize("form", ["geojson", "toml"])
+def test_text_of_chinese_and_windows_programs_is_read(coding: str, form: str) -> None:
+    text = 'path = {kind = "spiral", pitch = 1.5}\nname = "龙"\n'
+    if form == "geojson":
+        square = {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 95], [0, 0]]]}
+        text = json.dumps({"type": "Feature", "properties": {"name": "广场"}, "geometry": square}, ensure_ascii=False)
+    found = read(text.encode(coding))
+    if form == "geojson":
+        assert found.venue is not None
+        assert found.venue.square.name == "广场"
+    else:
+        assert found.dance == {"name": "龙"}
+    assert ("The file is not in UTF-8; it was read as GB 18030." in found.notes) == (coding == "gb18030")
+
+
+@pytest.mark.parametrize(
+    "inner",
+    [outline(" "), "<Point><coordinates/></Point>", "<LineString><coordinates></coordinates></LineString>", ""],
+    ids=["polygon", "point", "line", "nothing"],
+)
+def test_a_map_of_nothing_is_refused(client: httpx.Client, inner: str) -> None:
+    headers = {"Content-Type": "application/vnd.google-earth.kml+xml"}
+    answer = client.post("/places", content=placemark(inner).encode(), headers=headers)
+    assert answer.status_code == 422
+    assert answer.json()["detail"] == "file must hold a polygon, a line or a point, got none of these"
+
+
+def test_what_is_empty_or_hidden_is_left_out_and_said() -> None:
+    point = "<Point><coordinates>119.6405,29.1105</coordinates></Point>"
+    hidden = f"<Folder><visibility>0</visibility><Placemark>{point}</Placemark></Folder>"
+    hidden += f"<Placemark><visibility>0</visibility>{point}</Placemark>"
+    lone = f"<Placemark>{outline(' ')}</Placemark>"
+    found = read(placemark(f"<name>square</name>{outline(CORNERS)}", hidden + lone).encode())
+    assert found.venue is not None
+    assert found.venue.obstacles == ()
+    assert {"Left out, because hidden: 2 points.", "Left out: 1 empty Polygon."} <= set(found.notes)
+
+
+def test_commas_between_points_are_named() -> None:
+    line = "119.6402,29.1102,0,119.6403,29.1103,0\n119.6405,29.1104,0,119.6406,29.1105,0\n119.6408,29.1108,0"
+    inner = f"<LineString><coordinates>{line}</coordinates></LineString>"
+    with pytest.raises(InvalidValue, match=r"must have a space between two points.*got '119.6402,29.1102,0,119.6403"):
+        read(placemark(inner).encode())
+
+
+def test_a_name_in_the_data_is_the_name_where_there_is_no_other() -> None:
+    data = '<ExtendedData><Data name="name"><value>old elm</value></Data></ExtendedData>'
+    point = "<Point><coordinates>119.6405,29.1105</coordinates></Point>"
+    square = f"<Placemark><name>square</name>{outline(CORNERS)}</Placemark>"
+    for own, name in (("", "old elm"), ("<name>elm 7</name>", "elm 7")):
+        found = read(placemark(own + data + point, square).encode())
+        assert found.venue is not None
+        assert [area.name for area in found.venue.obstacles] == [name]
+
+
+def test_a_square_at_the_date_line_is_as_small_as_it_is(client: httpx.Client) -> None:
+    ring = [[179.9995, 0], [-179.9995, 0], [-179.9995, 0.001], [179.9995, 0.001], [179.9995, 0]]
+    tree = {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [-179.9999, 0.0005]}}
+    square = {
+        "type": "Feature",
+        "properties": {"name": "square"},
+        "geometry": {"type": "Polygon", "coordinates": [ring]},
+    }
+    found = read(json.dumps({"type": "FeatureCollection", "features": [square, tree]}).encode())
+    assert np.ptp(rings(found)[0], axis=0) == pytest.approx([111.3, 110.6], abs=0.1)
+    assert found.origin is not None
+    assert abs(found.origin.longitude) == pytest.approx(180.0)
+    assert rings(found)[1].mean(axis=0) == pytest.approx([11.1, 0.0], abs=0.2)
+    answer = client.post("/check", json={"dragon": {"benches": 2}, "venue": found.geometry})
+    assert answer.status_code == 200, answer.text
+
+
+@pytest.mark.parametrize("across", [0.0003, 0.1, 0.3, 3.0, 3.5, 60.0])
+def test_places_and_check_agree_about_degrees(client: httpx.Client, across: float) -> None:
+    x, y = 119.5, 29.0
+    ring = [[x, y], [x + across, y], [x + across, y + across], [x, y + across], [x, y]]
+    square = {"type": "Polygon", "coordinates": [ring]}
+    checked = client.post("/check", json={"dragon": {"benches": 2}, "venue": square})
+    taken_for_degrees = "looks like longitude and latitude" in checked.text
+    if across in (0.3, 3.0):
+        with pytest.raises(
+            InvalidValue, match=r"file must be at most 20 km across.*if they are metres, give the units metres"
+        ):
+            read(json.dumps(square).encode())
+        assert taken_for_degrees
+        return
+    found = read(json.dumps(square).encode())
+    assert (found.origin is not None) == taken_for_degrees
+    again = client.post("/check", json={"dragon": {"benches": 2}, "venue": found.geometry})
+    assert again.status_code == 200, again.text
+
+
+def test_a_square_that_check_refuses_is_noted() -> None:
+    square = {"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 2], [0, 0]]]}
+    found = read(json.dumps(square).encode(), "metres")
+    assert any("narrower than a bench of 3.41 m: check refuses it" in note for note in found.notes)
+
+
 def zipped(size: int) -> bytes:
     sink = io.BytesIO()
     with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -286,6 +409,7 @@ BOMB = '<!DOCTYPE k [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a
         (broken(8, b"\0\x08", 0).replace(b"doc.kml", b"d\xff\xfe.kml"), "must be a KMZ file that can be unpacked"),
         (broken(0, b"", zipfile.ZIP_BZIP2), "must be a KMZ file that can be unpacked"),
         (broken(0, b"", zipfile.ZIP_LZMA), "must be a KMZ file that can be unpacked"),
+        (zipped(0).replace(b"doc.kml", b"doc.txt"), "must be a KMZ file with a .kml document"),
         (b"<svg/>", "got XML of another kind"),
         (b"AC1027" + b"\0" * 100, "got DWG"),
         (b"0\nSECTION\nnonsense", "file must be DXF"),

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.wire.degrees import ACROSS_MAX, Origin, place_of
+from app.wire.degrees import ACROSS_MAX, Origin, Plane, place_of
 from core import Dance, Dragon, InvalidValue, check
 from core import Spiral as CoreSpiral
 from tests.app.command import run
@@ -313,3 +313,11 @@ def test_core_itself_knows_metres_alone() -> None:
     place = place_of(around(40.0), "degrees", Dragon(20))
     report = check(Dance(Dragon(20), CoreSpiral(1.7, 6.0)), venue=place.venue, stop=20.0)
     assert report.passed
+
+
+@pytest.mark.parametrize(("metres", "latitude", "apart"), [(100.0, 30.0, 0.0001), (2_000.0, 60.0, 0.14)])
+def test_an_edge_along_a_parallel_bends_as_far_as_the_pages_say(metres: float, latitude: float, apart: float) -> None:
+    plane = Plane(Origin(119.0, latitude))
+    half = 0.5 * metres / 111_320.0 / math.cos(math.radians(latitude))
+    begin, middle, end = plane.metres(np.array([[119.0 - half, latitude], [119.0, latitude], [119.0 + half, latitude]]))
+    assert np.hypot(*(middle - 0.5 * (begin + end))) == pytest.approx(apart, rel=0.2)

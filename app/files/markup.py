@@ -1,0 +1,102 @@
+"""XML of strangers, read by expat without a tree and without trust.
+
+A document type is refused, so a file can define no entities and cannot grow in memory by them. A tag has a largest
+length, because expat keeps all of it and makes a dictionary of its attributes: 1.5 million of them took 1 GB and 60 s
+(2026-11-26).
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Callable, Iterable
+from xml.parsers import expat
+
+from core import InvalidValue
+from core.errors import Given
+
+# Longest tag, comment or instruction [bytes].
+TAG_MAX = 200_000
+PIECE = 1 << 16
+NO_MEMORY = 1  # XML_ERROR_NO_MEMORY of expat
+DECLARED = re.compile(rb"""<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([\w.:-]{1,40})["']""")
+MARKS = (
+    (codecs.BOM_UTF8, "utf-8-sig"),
+    (codecs.BOM_UTF16_LE, "utf-16"),
+    (codecs.BOM_UTF16_BE, "utf-16"),
+    (b"<\0", "utf-16-le"),
+    (b"\0<", "utf-16-be"),
+)
+# Encodings of map programs, by their names in Python. Others, such as UTF-7, are refused.
+ENCODINGS = re.compile(
+    r"utf-8|utf-16(-[lb]e)?|ascii|iso8859-\d+|cp(125\d|866|874|932|936|949|950)|koi8-[ru]|"
+    r"gb2312|gbk|gb18030|big5(hkscs)?|shift_jis|euc_(jp|kr)|mac-roman"
+)
+# Programs that write GB2312 and GBK mean the whole of GB 18030, which contains both.
+WIDER = {"gb2312": "gb18030", "gbk": "gb18030", "big5": "big5hkscs", "shift_jis": "cp932", "euc_kr": "cp949"}
+
+
+class LongTag(Exception):
+    """A tag, comment or instruction of more than TAG_MAX bytes."""
+
+
+def new_parser(refuse: Callable[..., object], separator: str, encoding: str | None = None) -> expat.XMLParserType:
+    """A parser of expat. refuse: called for a document type; separator: between a namespace and a name
+
+    encoding: of the text, whatever the text declares; None: as it declares
+    """
+    parser = expat.ParserCreate(encoding, separator)
+    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refuse
+    return parser
+
+
+def parse(parser: expat.XMLParserType, pieces: Iterable[bytes]) -> None:
+    """Parse a document in pieces. raises: LongTag, expat.ExpatError, MemoryError, and what the handlers raise"""
+    length = 0
+    try:
+        for piece in pieces:
+            parser.Parse(piece, False)
+            length += len(piece)
+            # expat stays at the beginning of a tag until it has seen its end.
+            if length - parser.CurrentByteIndex > TAG_MAX:
+                raise LongTag
+        parser.Parse(b"", True)
+    except expat.ExpatError as error:
+        if error.code == NO_MEMORY:
+            raise MemoryError from error
+        raise
+
+
+def in_pieces(data: bytes) -> Iterable[bytes]:
+    return (data[k : k + PIECE] for k in range(0, len(data), PIECE))
+
+
+def as_utf8(data: bytes) -> bytes:
+    """An XML document in UTF-8, from the encoding that its first bytes or its declaration state.
+
+    raises: InvalidValue at the field `file` for an encoding that is not known, and for bytes that are not text in it
+    """
+    marked = next((coding for mark, coding in MARKS if data.startswith(mark)), None)
+    name = marked or _declared(data)
+    try:
+        text = data.decode(name)
+        return data if name in ("utf-8", "ascii") else text.encode()
+    except UnicodeError as error:
+        place = getattr(error, "start", 0)
+        words = "must be text in the encoding that it states, {coding}, got a wrong byte at position {place}"
+        raise InvalidValue("file", f"{words}: save it as UTF-8", coding=name, place=place) from error
+
+
+def _declared(data: bytes) -> str:
+    declared = DECLARED.match(data[:400])
+    if declared is None:
+        return "utf-8"
+    stated = declared[1].decode("ascii", "replace")
+    try:
+        name = codecs.lookup(stated).name
+    except LookupError:
+        name = ""
+    if not ENCODINGS.fullmatch(name):
+        raise InvalidValue("file", "must be text in a usual encoding: save it as UTF-8", got=Given(stated, stated))
+    # UTF-16 without a mark would have been recognised by its first bytes, so a declaration of it is wrong.
+    return "utf-8" if name.startswith("utf-16") else WIDER.get(name, name)

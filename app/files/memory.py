@@ -1,0 +1,84 @@
+"""Memory of a process that reads files of strangers: a limit, and the first place when the system has none left."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import sys
+from collections.abc import Iterator
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
+from core import TooMuchWork
+from core.errors import Quantity
+
+# Memory in which any file within the other limits can be read [bytes]; address space, so that it also holds for what is
+# reserved. A new process takes 240 MB of it (measured 2026-11-26).
+READING_MAX = 1_000_000_000
+# Linux ends the process with the largest value first when memory runs out; 1,000 is the largest.
+STATUS, PEAK = Path("/proc/self/status"), re.compile(rb"VmHWM:\s*(\d+) kB")
+OOM_SCORE, OOM_SCORE_MAX = Path("/proc/self/oom_score_adj"), 1_000
+
+
+def limit_memory(most: int) -> None:
+    """Limit the address space of this process [bytes], if the system supports it."""
+    if find_spec("resource"):
+        resource = import_module("resource")
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def peak_memory() -> int:
+    """Largest resident memory of this process so far [bytes]; 0 where the system does not say it."""
+    with contextlib.suppress(OSError):  # getrusage() of Linux also counts the process that started this one.
+        line = PEAK.search(STATUS.read_bytes())
+        return int(line[1]) * 1024 if line else 0
+    if not find_spec("resource"):
+        return 0
+    resource = import_module("resource")
+    peak: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak * (1 if sys.platform == "darwin" else 1024)
+
+
+def end_first() -> None:
+    """Let the system end this process before all others when memory runs out."""
+    with contextlib.suppress(OSError):  # another system than Linux, or a sandbox
+        OOM_SCORE.write_text(str(OOM_SCORE_MAX))
+
+
+def too_much_memory(most: int = READING_MAX) -> TooMuchWork:
+    """The error for a file whose reading needs more memory than it may take [bytes]."""
+    words = "the file must be simpler: reading it takes more than {most} of memory"
+    return TooMuchWork.in_words("file", words, most=Quantity(most / 1e6, "MB", 6))
+
+
+@contextlib.contextmanager
+def reading() -> Iterator[None]:
+    """A context in which this process may take READING_MAX more memory than it has. raises: TooMuchWork
+
+    For a command, which reads files in its own process.
+    """
+    end_first()
+    try:
+        with _within(READING_MAX):
+            yield
+    except MemoryError as error:
+        raise too_much_memory() from error
+
+
+@contextlib.contextmanager
+def _within(more: int) -> Iterator[None]:
+    pages = Path("/proc/self/statm")
+    if not (find_spec("resource") and pages.exists()):
+        yield
+        return
+    resource = import_module("resource")
+    before, hard = resource.getrlimit(resource.RLIMIT_AS)
+    taken = int(pages.read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    most = min((one for one in (taken + more, before, hard) if one != resource.RLIM_INFINITY), default=taken + more)
+    resource.setrlimit(resource.RLIMIT_AS, (most, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (before, hard))

@@ -1,0 +1,212 @@
+"""What can be seen in a drawing: entities on visible layers, those of blocks at each place, as features in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from math import dist, radians
+from typing import Any
+
+from app.maps.curves import Damaged, points_of
+from app.maps.features import (
+    LEAVE_OUT,
+    OBSTACLE,
+    PATH,
+    SQUARE,
+    Counted,
+    MapFeature,
+    drawn_as,
+    holds,
+    role_of,
+    round_area,
+)
+from app.maps.joined import APART, joined
+from app.maps.labels import Label, are_too_many, label_of, names_of
+from core import InvalidValue
+from core.values import Point
+
+# Deepest nesting of blocks, and most entities of a drawing; those of a block count each time it is used.
+DEPTH_MAX, ENTITIES_MAX = 4, 20_000
+CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "ELLIPSE", "SPLINE")
+TEXTS = ("TEXT", "MTEXT", "ATTRIB")
+# Layer of marks, whose crosses are no things; and the layer whose entities take that of their block.
+MARKS, OF_BLOCK = "MARKS", "0"
+# Meshes and surfaces that DXF stores as polylines, by the name under which they are left out.
+MESHES = (("is_polygon_mesh", "POLYMESH"), ("is_poly_face_mesh", "POLYFACE"))
+# Flags of a block that stands in another file.
+EXTERNAL = 4 | 8
+# Points nearer to one another are one [m].
+SAME = 1e-9
+# The middle column and line of the nine places of an MTEXT, from 1 at the upper left.
+COLUMNS = 3
+
+
+class Entities:
+    """Collects the features of a drawing, in metres."""
+
+    def __init__(self, document: Any, factor: float, record: Mapping[str, Any]) -> None:
+        """factor: metres in a unit; record: of this program; names, and radii of walls [m], by handle"""
+        self.factor, self.names = factor, _mapping(record.get("names"))
+        self.radii = {handle: one for handle, one in _mapping(record.get("radii")).items() if isinstance(one, float)}
+        self.counted, self.labels = Counted(), list[Label]()
+        self.layers = document.layers
+        self.seen = 0
+        for entity, layer in self._visible(document.modelspace()):
+            self._take(entity, layer)
+
+    def _visible(self, some: Any, depth: int = 0, around: str = OF_BLOCK) -> Iterator[tuple[Any, str]]:
+        """Every entity that can be seen, with its layer; those of a block wherever the block is inserted."""
+        for entity in some:
+            self._count(1)
+            own = str(entity.dxf.get("layer", OF_BLOCK))
+            layer = around if own == OF_BLOCK else own
+            is_off, is_frozen = self._state(layer)
+            # A block on a frozen layer is hidden with all that is in it; on one that is off, only what takes its layer.
+            if entity.dxf.get("invisible", 0) or is_frozen:
+                self.counted.hide(entity.dxftype())
+            elif entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
+                yield from self._of_block(entity, depth, layer)
+            elif is_off:
+                self.counted.hide(entity.dxftype())
+            else:
+                yield entity, layer
+
+    def _of_block(self, insert: Any, depth: int, layer: str) -> Iterator[tuple[Any, str]]:
+        def skipped(entity: Any, reason: str) -> None:
+            self.counted.leave_out(entity.dxftype())
+
+        block = insert.block()
+        if block is None or block.block.dxf.flags & EXTERNAL:
+            self.counted.leave_out("missing block" if block is None else "block of another drawing")
+            return
+        copies = max(1, int(insert.mcount))
+        if copies > 1:
+            self._count(copies)
+        for one in insert.multi_insert() if copies > 1 else (insert,):
+            inside = one.virtual_entities(skipped_entity_callback=skipped)
+            yield from self._visible(inside, depth + 1, layer)
+        yield from self._visible(insert.attribs, DEPTH_MAX, layer)
+
+    def _count(self, more: int) -> None:
+        self.seen += more
+        if self.seen > ENTITIES_MAX:
+            rule = f"must draw at most {{most}} entities, counting a block at each use: {LEAVE_OUT}"
+            raise InvalidValue("file", rule, got="more", most=ENTITIES_MAX)
+
+    def _state(self, layer: str) -> tuple[bool, bool]:
+        """Whether a layer is off, and whether it is frozen."""
+        if not self.layers.has_entry(layer):
+            return False, False
+        entry = self.layers.get(layer)
+        return bool(entry.is_off()), bool(entry.is_frozen())
+
+    def _take(self, entity: Any, layer: str) -> None:
+        kind, handle = entity.dxftype(), str(entity.dxf.get("handle"))
+        name, radius = self.names.get(handle), self.radii.get(handle)
+        feature = MapFeature("point", (), name, role_of(layer, name), radius, properties={"layer": layer})
+        if kind in TEXTS:
+            self._read_text(entity, kind)
+        elif kind == "POINT":
+            self.counted.add(replace(feature, rings=((self._place(entity.dxf.location),),)))
+        elif kind == "CIRCLE":
+            centre = self._place(entity.ocs().to_wcs(entity.dxf.center))
+            circle = replace(feature, rings=((centre,),), radius=float(entity.dxf.radius) * self.factor)
+            self.counted.add(round_area(circle) if circle.role == SQUARE else circle)
+        elif mesh := next((word for test, word in MESHES if getattr(entity, test, False)), None):
+            self.counted.leave_out(mesh)
+        elif kind in CURVES:
+            self._add_curve(entity, feature)
+        elif layer != MARKS:
+            self.counted.leave_out(kind)
+
+    def _read_text(self, entity: Any, kind: str) -> None:
+        if kind == "MTEXT":
+            words, height, at = entity.plain_text(), float(entity.dxf.char_height), entity.dxf.insert
+            align = 0.5 * ((int(entity.dxf.attachment_point) - 1) % COLUMNS)
+            turned = radians(float(entity.get_rotation()))
+        else:
+            words, height, turned = str(entity.dxf.text), float(entity.dxf.height), radians(float(entity.dxf.rotation))
+            is_left = entity.dxf.halign == 0 and entity.dxf.valign == 0
+            at = entity.dxf.insert if is_left else entity.dxf.get("align_point", entity.dxf.insert)
+            at, align = entity.ocs().to_wcs(at), {1: 0.5, 2: 1.0, 4: 0.5}.get(int(entity.dxf.halign), 0.0)
+        if words.strip():
+            self.labels.append(label_of(words.strip(), self._place(at), abs(height) * self.factor, turned, align))
+
+    def _add_curve(self, entity: Any, feature: MapFeature) -> None:
+        try:
+            places = [(x, y) for x, y in points_of(entity, self.factor).tolist()]
+        except Damaged:
+            self.counted.leave_out(f"damaged {entity.dxftype()}")
+            return
+        points = tuple(b for a, b in zip((None, *places), places, strict=False) if a is None or dist(a, b) > SAME)
+        if len(points) < 2:
+            self.counted.leave_out(f"{entity.dxftype()} of one point")
+            return
+        closed = bool(getattr(entity, "closed", False) or getattr(entity, "is_closed", False))
+        if closed and points[0] != points[-1]:
+            points = (*points, points[0])
+        # A closing point that a program adds may differ from the first one in the last digits.
+        if len(points) > 3 and dist(points[0], points[-1]) < APART:
+            points = (*points[:-1], points[0])
+        width = 0.0 if feature.radius or feature.role == PATH else _width(entity) * self.factor
+        self._add_line(replace(feature, rings=(points,)), 0.5 * width)
+
+    def _add_line(self, line: MapFeature, half: float) -> None:
+        """Add a line; one with a width reaches to both sides of it, also where it is the outline of an area."""
+        drawn = drawn_as(line)
+        if half == 0.0:
+            self.counted.add(drawn)
+        elif drawn.shape == "polygon":
+            self.counted.add(drawn)
+            edge = f"edge of {drawn.name}" if drawn.name else None
+            self.counted.add(replace(line, shape="line", name=edge, role=OBSTACLE, radius=half))
+        else:
+            self.counted.add(replace(line, shape="line", radius=half))
+
+    def _place(self, point: Any) -> Point:
+        return float(point[0]) * self.factor, float(point[1]) * self.factor
+
+    def named(self) -> Iterator[MapFeature]:
+        """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
+        features = list(_with_holes(joined(self.counted.features)))
+        if are_too_many(features, self.labels):
+            self.counted.left_out["text"] = len(self.labels)
+            self.labels = []
+        words = names_of(features, self.labels)
+        for k, feature in enumerate(features):
+            name, layer = feature.name or words.get(k), _layer_of(feature)
+            own = layer if layer not in ("", OF_BLOCK) and role_of(layer) is None else None
+            yield replace(feature, name=name or own, role=feature.role or role_of(name), properties={})
+
+
+def _mapping(value: object) -> Mapping[str, Any]:
+    return value if isinstance(value, Mapping) else {}
+
+
+def _width(entity: Any) -> float:
+    """Largest width of a polyline; 0 without one."""
+    if entity.dxftype() == "LWPOLYLINE":
+        widths = [float(one) for pair in entity.get_points("se") for one in pair]
+        widths.append(float(entity.dxf.get("const_width", 0.0)))
+        return max(map(abs, widths))
+    if entity.dxftype() != "POLYLINE":
+        return 0.0
+    names = ("start_width", "end_width")
+    widths = [float(one.dxf.get(name, 0.0)) for one in entity.vertices for name in names]
+    widths += [float(entity.dxf.get(f"default_{name}", 0.0)) for name in names]
+    return max(map(abs, widths))
+
+
+def _with_holes(features: list[MapFeature]) -> Iterator[MapFeature]:
+    """The features; a ring on a layer of holes becomes a hole of the polygon around it."""
+    holes = [one for one in features if _layer_of(one).endswith("_HOLES")]
+    for feature in features:
+        if feature in holes:
+            continue
+        near = [one for one in holes if feature.shape == "polygon" and holds(feature.rings[:1], one.rings[0][0])]
+        own = (one.rings[0] for one in near if _layer_of(one).removesuffix("_HOLES") == _layer_of(feature))
+        yield replace(feature, rings=(*feature.rings, *own))
+
+
+def _layer_of(feature: MapFeature) -> str:
+    return str(feature.properties.get("layer", ""))

@@ -1,0 +1,252 @@
+"""Small files that need much memory or time to read, made here and never kept as files; and their limits."""
+
+from __future__ import annotations
+
+import io
+import os
+import zipfile
+import zlib
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import NoReturn
+
+Bomb = Callable[[], bytes]
+MAPS: dict[str, Bomb] = {}
+GRADES: dict[str, Bomb] = {}
+SHEET = "xl/worksheets/sheet1.xml"
+MAIN = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
+END = b"</sheetData></worksheet>"
+# Largest file of a call [bytes].
+FILE_MAX = 20_000_000
+
+
+def of_map(made: Bomb) -> Bomb:
+    MAPS[made.__name__] = made
+    return made
+
+
+def of_grade(made: Bomb) -> Bomb:
+    GRADES[made.__name__] = made
+    return made
+
+
+def zipped(parts: dict[str, bytes], method: int) -> bytes:
+    sink = io.BytesIO()
+    with zipfile.ZipFile(sink, "w", method) as archive:
+        for name, data in parts.items():
+            archive.writestr(name, data)
+    return sink.getvalue()
+
+
+@cache
+def zeros(name: str, length: int, method: int) -> bytes:
+    """An archive with one part of zeros, written in pieces."""
+    sink = io.BytesIO()
+    with zipfile.ZipFile(sink, "w", method) as archive, archive.open(name, "w") as part:
+        for _ in range(length // 1_000_000):
+            part.write(bytes(1_000_000))
+    return sink.getvalue()
+
+
+def lying(data: bytes, name: str, length: int, content: bytes) -> bytes:
+    """The archive with another length and sum of a part in both of its records. content: the first bytes of it"""
+    changed = bytearray(data)
+    crc = zlib.crc32(content[:length]).to_bytes(4, "little")
+    for mark, sum_at, name_at in ((b"PK\3\4", 14, 30), (b"PK\1\2", 16, 46)):
+        at = -1
+        while (at := data.find(mark, at + 1)) >= 0:
+            if data[at + name_at : at + name_at + len(name)] == name.encode():
+                changed[at + sum_at : at + sum_at + 4] = crc
+                changed[at + sum_at + 8 : at + sum_at + 12] = length.to_bytes(4, "little")
+    return bytes(changed)
+
+
+@of_map
+def bzip2() -> bytes:
+    """700 bytes that become 300 MB."""
+    return zeros("doc.kml", 300_000_000, zipfile.ZIP_BZIP2)
+
+
+@of_map
+def lzma() -> bytes:
+    return zeros("doc.kml", 100_000_000, zipfile.ZIP_LZMA)
+
+
+@of_map
+def deflated() -> bytes:
+    return zeros("doc.kml", 300_000_000, zipfile.ZIP_DEFLATED)
+
+
+@of_map
+def deflated_that_lies() -> bytes:
+    return lying(deflated(), "doc.kml", 100, bytes(100))
+
+
+@of_map
+def many_parts() -> bytes:
+    """A directory of 200,000 entries, all of the same part."""
+    name = b"doc.kml"
+    local = b"PK\3\4" + bytes(22) + len(name).to_bytes(2, "little") + bytes(2) + name
+    entry = b"PK\1\2" + bytes(24) + len(name).to_bytes(2, "little") + bytes(16) + name
+    count = 200_000
+    ended = b"PK\5\6" + bytes(4) + 2 * (count % 65536).to_bytes(2, "little")
+    return (
+        local
+        + entry * count
+        + ended
+        + (count * len(entry)).to_bytes(4, "little")
+        + len(local).to_bytes(4, "little")
+        + bytes(2)
+    )
+
+
+@of_map
+def attributes_of_kml() -> bytes:
+    """One element with 1.5 million attributes."""
+    return b"<kml><Placemark " + b" ".join(b'a%d=""' % k for k in range(1_500_000)) + b"/></kml>"
+
+
+@of_map
+def tables_of_toml() -> bytes:
+    return b"".join(b"[a%d]\n" % k for k in range(1_400_000))
+
+
+@of_map
+def dotted_toml() -> bytes:
+    return b"a" + b".a" * 5_000_000 + b" = 1\n"
+
+
+@of_map
+def integer_of_toml() -> bytes:
+    return b"x = " + b"1" * 19_000_000
+
+
+@of_map
+def brackets_of_json() -> bytes:
+    return b'{"type": "FeatureCollection", "features": [' + b"[]," * 6_600_000 + b"[]]}"
+
+
+@of_map
+def points_of_geojson() -> bytes:
+    return b'{"type": "MultiPoint", "coordinates": [' + b"[1,2]," * 3_300_000 + b"[1,2]]}"
+
+
+@of_map
+def dance_of_lists() -> bytes:
+    return b'{"path": null, "more": [' + b"{}," * 6_600_000 + b"{}]}"
+
+
+@of_map
+def arc_of_dxf() -> bytes:
+    """73 bytes whose arc would be 1e152 straight lines."""
+    return drawn("0\nARC\n10\n0\n20\n0\n40\n1e300\n50\n0\n51\n90")
+
+
+@of_map
+def ellipse_of_dxf() -> bytes:
+    middle, axis = "100\nAcDbEntity\n100\nAcDbEllipse\n10\n0\n20\n0", "11\n9e299\n21\n0"
+    return drawn(f"0\nELLIPSE\n{middle}\n{axis}\n40\n1.0\n41\n0\n42\n6.28")
+
+
+@of_map
+def bulge_of_dxf() -> bytes:
+    corners = "10\n0\n20\n0\n42\n1\n10\n1e8\n20\n0"
+    return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n2\n70\n0\n{corners}")
+
+
+@of_map
+def spline_of_dxf() -> bytes:
+    """A spline of degree 3 through places 1e9 m apart."""
+    places = "\n".join(f"10\n{1e9 * (k % 2)}\n20\n{1e9 * k}" for k in range(40))
+    knots = "\n".join(f"40\n{k}" for k in (0, 0, 0, *range(38), 37, 37, 37))
+    numbers = "70\n8\n71\n3\n72\n44\n73\n40"
+    return drawn(f"0\nSPLINE\n100\nAcDbEntity\n100\nAcDbSpline\n{numbers}\n{knots}\n{places}")
+
+
+@of_map
+def arcs_of_dxf() -> bytes:
+    """5,000 arcs as large as an arc may be."""
+    return drawn("\n".join(["0\nARC\n10\n0\n20\n0\n40\n99999\n50\n0\n51\n359"] * 5_000))
+
+
+@of_map
+def array_of_dxf() -> bytes:
+    """A block that is inserted a thousand million times."""
+    block = "0\nBLOCK\n2\nTREE\n70\n0\n10\n0\n20\n0\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\n0\nENDBLK"
+    inserted = "0\nINSERT\n2\nTREE\n10\n0\n20\n0\n70\n32000\n71\n32000\n44\n5\n45\n5"
+    return (
+        f"0\nSECTION\n2\nBLOCKS\n{block}\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{inserted}\n0\nENDSEC\n0\nEOF\n".encode()
+    )
+
+
+@of_map
+def entities_of_dxf() -> bytes:
+    return drawn("\n".join(["0\nPOINT\n10\n0\n20\n0"] * 900_000))
+
+
+@of_map
+def vertices_of_dxf() -> bytes:
+    corners = "10\n0\n20\n1\n" * 1_000_000
+    return drawn(f"0\nLWPOLYLINE\n100\nAcDbEntity\n100\nAcDbPolyline\n90\n1000000\n70\n0\n{corners}".rstrip())
+
+
+def drawn(entities: str) -> bytes:
+    """A drawing of the version of the year 2000."""
+    header = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC"
+    return f"{header}\n0\nSECTION\n2\nENTITIES\n{entities}\n0\nENDSEC\n0\nEOF\n".encode()
+
+
+@of_grade
+def bzip2_of_a_workbook() -> bytes:
+    return zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_BZIP2)
+
+
+@of_grade
+def workbook_that_lies() -> bytes:
+    return lying(zeros("xl/workbook.xml", 300_000_000, zipfile.ZIP_DEFLATED), "xl/workbook.xml", 90, bytes(90))
+
+
+def workbook(sheet: bytes) -> bytes:
+    """A workbook with this sheet."""
+    import xlsxwriter
+
+    sink = io.BytesIO()
+    with xlsxwriter.Workbook(sink, {"in_memory": True}) as book:
+        book.add_worksheet().write(0, 0, 1.0)
+    with zipfile.ZipFile(sink) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    return zipped(parts | {SHEET: sheet}, zipfile.ZIP_DEFLATED)
+
+
+@of_grade
+def attributes() -> bytes:
+    """1.5 million attributes on one element."""
+    words = b" ".join(b'a%d=""' % k for k in range(1_500_000))
+    return workbook(MAIN + b"<row " + words + b"/>" + END)
+
+
+@of_grade
+def cells() -> bytes:
+    return workbook(MAIN + b"<row>" + b"<c/>" * 1_900_000 + b"</row>" + END)
+
+
+@of_grade
+def styles() -> bytes:
+    """A sheet that is a long text, and one that ends early."""
+    return workbook(MAIN + b"<row><c><v>" + b"1" * 90_000_000)
+
+
+def end(file: Path, budget: object) -> NoReturn:
+    """What a fault in a library of C does to the process that reads a file. file: gets a line"""
+    with file.open("a") as log:
+        log.write("ended\n")
+    os._exit(11)
+
+
+def take_memory(data: bytes, budget: object) -> int:
+    return len(data * 10_000)
+
+
+def fail(data: bytes, budget: object) -> NoReturn:
+    raise ZeroDivisionError(f"near {data!r}")

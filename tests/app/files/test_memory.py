@@ -1,0 +1,69 @@
+"""Memory of a command that reads a file: a limit while it reads, and none afterwards."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from tests.conftest import ROOT
+
+READ = """
+import resource
+from app.files import memory
+memory.READING_MAX = 300_000_000
+before = resource.getrlimit(resource.RLIMIT_AS)
+with memory.reading():
+    assert len(b"x" * 200_000_000) == 200_000_000
+assert resource.getrlimit(resource.RLIMIT_AS) == before
+assert 2e8 < memory.peak_memory() < 4e8
+print(open("/proc/self/oom_score_adj").read().strip())
+try:
+    with memory.reading():
+        bytes(400_000_000)
+except memory.TooMuchWork as error:
+    print(error)
+assert len(bytes(400_000_000)) == 400_000_000
+try:
+    with memory.reading():
+        raise KeyError
+except KeyError:
+    assert resource.getrlimit(resource.RLIMIT_AS) == before
+"""
+
+
+def test_reading_has_a_limit_and_the_process_is_the_first_to_end() -> None:
+    done = subprocess.run([sys.executable, "-c", READ], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    assert done.stdout.splitlines() == [
+        "1000",
+        "the file must be simpler: reading it takes more than 1000 MB of memory",
+    ]
+
+
+def test_a_limit_that_is_lower_already_stays() -> None:
+    limited = f"import resource\nresource.setrlimit(resource.RLIMIT_AS, (2_000_000_000,) * 2)\n{READ}"
+    done = subprocess.run([sys.executable, "-c", limited], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+GRADE = """
+import sys
+import openpyxl
+from app.command.main import app
+from app.files import memory
+memory.READING_MAX = 8_000_000
+sys.argv = ["bench-dragon", "grade", *sys.argv[1:]]
+app()
+"""
+
+
+def test_a_student_whose_file_needs_too_much_memory_does_not_stop_the_others(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(b"word," * 3_000_000)
+    (tmp_path / "b.csv").write_text("a,b")
+    words = [sys.executable, "-c", GRADE, str(tmp_path)]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    said = " ".join(done.stdout.split())  # The lines are as wide as a terminal.
+    assert said.count("The file was not read: that takes more than 8 MB of memory.") == 1
+    assert "b.csv: unreadable" in said

@@ -1,0 +1,201 @@
+"""Damaged files: maps, dances and results of every form, one to four steps away from good ones; and small bombs."""
+
+from __future__ import annotations
+
+import io
+import json
+import random
+import re
+import time
+import zipfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import ezdxf
+import httpx
+
+from tests.app.bombs import GRADES, MAPS, lying, zipped
+from tests.app.fuzz import SLOWEST, Tally
+from tests.app.grade.students import by_xlsxwriter, few
+
+# Call and file.
+Sample = tuple[str, bytes]
+NUMBER = re.compile(rb"-?\d+(?:\.\d+)?")
+ODD_NUMBERS = (
+    *(b"0", b"-0", b"1e300", b"-1e300", b"nan", b"inf", b"1e-300", b"4294967296", b"-1", b"119.64", b"499950.5"),
+    *(b"99999999999999999999", b"", b"1_0", b"0x10", b"1,5", "１２".encode()),
+)
+ODD_TEXTS = (
+    *(b"\0", b"\xff\xfe", b"\xef\xbb\xbf", b"<", b">", b"&amp;", b"]]>", b'"', b"{", b"[", b"}", b"\r", b"\n"),
+    *(b"<!DOCTYPE a>", b'<?xml version="1.0" encoding="utf-7"?>', "龙".encode(), "龙".encode("gbk"), b"\xed\xa0\x80"),
+)
+ENCODINGS = ("utf-16", "utf-16-le", "gb18030", "utf-32", "utf-7", "latin-1")
+# Chance that a file is a bomb [1].
+BOMBS = 0.01
+
+
+def _drawing() -> bytes:
+    document = ezdxf.new("R2010", units=6)
+    document.layers.add("OLD").freeze()
+    space = document.modelspace()
+    space.add_lwpolyline([(-50, -50), (50, -50), (50, 50), (-50, 50)], close=True, dxfattribs={"layer": "SQUARE"})
+    space.add_lwpolyline([(0, 0, 0.5), (9, 9, 0)], format="xyb", dxfattribs={"const_width": 0.4})
+    space.add_arc((0, 0), 20.0, 0, 90)
+    space.add_ellipse((9, 9), (3, 0), 0.5)
+    space.add_spline([(0, 0), (5, 9), (9, 0)])
+    document.blocks.new("TREE").add_circle((0, 0), 0.4)
+    space.add_blockref("TREE", (3, 3), dxfattribs={"row_count": 2, "column_count": 2, "row_spacing": 4.0})
+    space.add_circle((20, 20), 1.0, dxfattribs={"layer": "OLD"})
+    space.add_text("elm", height=1.0, dxfattribs={"insert": (3, 4)})
+    space.add_mtext("oak", dxfattribs={"insert": (9, 4)})
+    space.add_line((0, -40), (30, -40), dxfattribs={"layer": "PATH"})
+    sink = io.StringIO()
+    document.write(sink)
+    return sink.getvalue().encode()
+
+
+KML = """<?xml version="1.0" encoding="UTF-8"?>
+<kml xmlns="http://www.opengis.net/kml/2.2"><Document><name>寺</name><Folder><name>Trees</name><Placemark>
+<name>elm</name><ExtendedData><Data name="radius"><value>0.8</value></Data></ExtendedData><Point><coordinates>
+120.0001,30.0001,5</coordinates></Point></Placemark></Folder><Placemark><visibility>1</visibility><name>square</name>
+<Polygon><outerBoundaryIs><LinearRing><coordinates>120,30 120.0004,30 120.0004,30.0003 120,30.0003 120,30
+</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark><Placemark><name>Route</name><LineString>
+<coordinates>120.0001,30.0002 120.0003,30.0002</coordinates></LineString></Placemark></Document></kml>"""
+SQUARE = [[-50, -50], [50, -50], [50, 50], [-50, 50], [-50, -50]]
+LINES = [[[0, 0], [9, 9]], [[1, 1], [2, 5]]]
+THINGS = (
+    ({"name": "square"}, {"type": "Polygon", "coordinates": [SQUARE]}),
+    ({"name": "elm", "radius": 0.5}, {"type": "Point", "coordinates": [3, 4]}),
+    ({"role": "path"}, {"type": "MultiLineString", "coordinates": LINES}),
+)
+FEATURES = [{"type": "Feature", "properties": own, "geometry": form} for own, form in THINGS]
+GEOJSON = {"type": "FeatureCollection", "grid": {"x": 5e5, "y": 3e6}, "features": FEATURES}
+DANCE = {"dragon": {"benches": 4}, "path": {"kind": "spiral", "pitch": 1.5}, "venue": GEOJSON, "margin": 0.1}
+TOML = 'margin = 0.1\nvenue = "square.kml"\n[dragon]\nbenches = 4\n[path]\nkind = "spiral"\npitch = 1.5\n'
+
+
+@cache
+def samples() -> list[Sample]:
+    """Good files, by their calls."""
+    kml, result = KML.encode(), by_xlsxwriter(few())
+    csv = "\n".join(f"head x (m),{k},{k}.5,8.800000" for k in range(300)).encode()
+    maps = [kml, zipped({"a.png": b"", "doc.kml": kml}, zipfile.ZIP_DEFLATED), _drawing(), TOML.encode()]
+    maps += [json.dumps(one).encode() for one in (GEOJSON, DANCE)]
+    return [("places", one) for one in maps] + [("grade", one) for one in (result, csv)]
+
+
+@cache
+def small_bombs() -> list[Sample]:
+    both = (("places", MAPS), ("grade", GRADES))
+    return [(call, made()) for call, some in both for name, made in some.items() if len(made()) < 100_000]
+
+
+def damaged(data: bytes, chance: random.Random) -> bytes:
+    """The file with one thing in it changed."""
+    steps: list[Callable[[bytes, random.Random], bytes]] = [_cut, _flipped, _inserted, _twice, _number, _number, _text]
+    if data.startswith(b"PK"):
+        steps += [_repacked, _repacked, _repacked, _lying]
+    return chance.choice(steps)(data, chance)
+
+
+def _at(data: bytes, chance: random.Random) -> int:
+    return chance.randrange(len(data) + 1)
+
+
+def _cut(data: bytes, chance: random.Random) -> bytes:
+    at = _at(data, chance)
+    return data[:at] + (b"" if chance.random() < 0.3 else data[at + chance.randrange(200) :])
+
+
+def _flipped(data: bytes, chance: random.Random) -> bytes:
+    changed = bytearray(data)
+    for _ in range(chance.choice((1, 3, 20)) if data else 0):
+        changed[chance.randrange(len(data))] = chance.randrange(256)
+    return bytes(changed)
+
+
+def _inserted(data: bytes, chance: random.Random) -> bytes:
+    at = _at(data, chance)
+    return data[:at] + chance.choice(ODD_TEXTS) * chance.choice((1, 1, 2, 300)) + data[at:]
+
+
+def _twice(data: bytes, chance: random.Random) -> bytes:
+    a, b = sorted((_at(data, chance), _at(data, chance)))
+    return data[:b] + data[a:b] * chance.choice((1, 3)) + data[b:] if len(data) < 200_000 else data[a:b]
+
+
+def _number(data: bytes, chance: random.Random) -> bytes:
+    found = list(NUMBER.finditer(data))
+    if not found:
+        return data
+    one = chance.choice(found)
+    return data[: one.start()] + chance.choice(ODD_NUMBERS) + data[one.end() :]
+
+
+def _text(data: bytes, chance: random.Random) -> bytes:
+    coding = chance.choice(ENCODINGS)
+    return data.decode("utf-8", "replace").encode(coding, "replace")
+
+
+def _repacked(data: bytes, chance: random.Random) -> bytes:
+    """The archive with one part damaged, left out, or packed by another method."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            parts = {name: archive.read(name) for name in archive.namelist()}
+    except Exception:
+        return _flipped(data, chance)
+    if parts:
+        name = chance.choice(list(parts))
+        parts[name] = damaged(parts[name], chance) if chance.random() < 0.8 else b""
+    methods = (zipfile.ZIP_DEFLATED, zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED, zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA)
+    return zipped(parts, chance.choice(methods))
+
+
+def _lying(data: bytes, chance: random.Random) -> bytes:
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            name = chance.choice(archive.namelist())
+            content = archive.read(name)
+    except Exception:
+        return _flipped(data, chance)
+    return lying(data, name, chance.choice((0, len(content) // 2, len(content) + 9, 2**31)), content)
+
+
+def file_of(chance: random.Random) -> Sample:
+    """A damaged file, or a small bomb."""
+    if chance.random() < BOMBS:
+        return chance.choice(small_bombs())
+    call, data = chance.choice(samples())
+    for _ in range(chance.randrange(1, 5)):
+        data = damaged(data, chance)
+    return call, data[:3_000_000]
+
+
+def ask_files(url: str, count: int, seed: int = 0, kept: Path | None = None) -> Tally:
+    """Send a number of them. kept: folder that gets a file at which the service fails"""
+    chance, tally = random.Random(seed), Tally()
+    headers = {"Content-Type": "application/octet-stream"}
+    with httpx.Client(base_url=url, timeout=4.0 * SLOWEST) as client:
+        for number in range(count):
+            call, data = file_of(chance)
+            begun = time.monotonic()
+            answer = client.post(f"/{call}", content=data, headers=headers)
+            try:
+                seconds = time.monotonic() - begun
+                tally.add(answer.status_code, answer.headers, answer.text, seconds, f"{call} {number}: {data[:150]!r}")
+            except AssertionError:
+                if kept is not None:
+                    (kept / f"{call}-{seed}-{number}").write_bytes(data)
+                raise
+    return tally
+
+
+def readers_over(metrics: str, limit: float) -> int:
+    """Number of files whose readers took more memory than a limit, or ended. metrics: of the service; limit: [bytes]"""
+    counts = {
+        name: float(value) for name, value in (line.rsplit(" ", 1) for line in metrics.splitlines() if line[0] != "#")
+    }
+    name = "bench_dragon_reader_memory_bytes"
+    within = counts.get(f'{name}_bucket{{le="{limit:g}"}}', counts.get(f'{name}_bucket{{le="{limit}"}}', 0.0))
+    return round(counts.get(f"{name}_count", 0.0) - within + counts.get("bench_dragon_readers_ended_total", 0.0))

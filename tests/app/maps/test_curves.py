@@ -1,0 +1,163 @@
+"""Curves as points: within 5 mm of the true curve, on it at both ends, and counted before they are made."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import cos, hypot, pi, sin
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+from scipy.interpolate import BSpline
+from scipy.spatial import KDTree
+
+from app.maps.curves import SAG, Damaged, points_of
+from core import InvalidValue
+
+SPACE: Any = ezdxf.new("R2010").modelspace()
+
+
+def middles(points: np.ndarray) -> np.ndarray:
+    """Points along the straight lines between points."""
+    shares = np.linspace(0.0, 1.0, 9)[:, None]
+    return np.concatenate([a + shares * (b - a) for a, b in pairwise(points)])
+
+
+@pytest.mark.parametrize("radius", [0.01, 1.0, 100.0, 5_000.0])
+@pytest.mark.parametrize(("start", "end"), [(0.0, 90.0), (350.0, 20.0), (10.0, 370.0), (0.0, 0.0)])
+def test_an_arc_is_as_round_as_it_is(radius: float, start: float, end: float) -> None:
+    points = points_of(SPACE.add_arc((3, 4), radius, start, end), 1.0)
+    away = np.hypot(*(middles(points) - (3.0, 4.0)).T)
+    assert abs(away - radius).max() <= SAG
+    assert away.max() <= radius + 1e-9
+    for point, angle in ((points[0], start), (points[-1], end)):
+        expected = (3 + radius * cos(angle * pi / 180), 4 + radius * sin(angle * pi / 180))
+        assert point == pytest.approx(expected, abs=1e-9)
+    swept = np.unwrap(np.arctan2(*(points - (3.0, 4.0)).T[::-1]))
+    assert swept[-1] - swept[0] == pytest.approx((end - start) % 360 * pi / 180 or 2 * pi)
+
+
+def test_the_unit_of_a_drawing_does_not_change_the_number_of_points() -> None:
+    metres = points_of(SPACE.add_arc((0, 0), 20.0, 0, 90), 1.0)
+    millimetres = points_of(SPACE.add_arc((0, 0), 20_000.0, 0, 90), 0.001)
+    assert millimetres == pytest.approx(metres)
+
+
+def test_a_mirrored_arc_is_mirrored() -> None:
+    arc = SPACE.add_arc((3, 4), 2.0, 0, 90, dxfattribs={"extrusion": (0, 0, -1)})
+    points = points_of(arc, 1.0)
+    assert points[0] == pytest.approx((-5.0, 4.0))
+    assert points[-1] == pytest.approx((-3.0, 6.0))
+
+
+@pytest.mark.parametrize("bulge", [0.2, -0.2, 1.0, -1.0, 3.0, 1e-5, 1e-9, -0.5])
+def test_a_bulge_is_the_arc_that_it_says(bulge: float) -> None:
+    line = SPACE.add_lwpolyline([(0, 0, bulge), (10, 5, 0)], format="xyb")
+    points = points_of(line, 1.0)
+    assert (points[0].tolist(), points[-1].tolist()) == ([0.0, 0.0], [10.0, 5.0])
+    chord, left = hypot(10, 5), np.array([-5.0, 10.0]) / hypot(10, 5)
+    # A positive bulge turns to the left, so its top is to the right of the straight line.
+    top = np.array([5.0, 2.5]) - left * 0.5 * chord * bulge
+    if abs(bulge) < 1e-3:
+        assert len(points) == 2
+        return
+    # The middle of the circle is as far from the beginning as from the end and the top.
+    centre = np.linalg.solve([[10.0, 5.0], top], [62.5, 0.5 * top @ top])
+    radius = hypot(*centre)
+    assert np.hypot(*(points - centre).T) == pytest.approx(radius)
+    assert abs(np.hypot(*(middles(points) - centre).T) - radius).max() <= SAG
+    assert np.hypot(*(points - top).T).min() < 0.5
+
+
+def test_a_squeezed_circle_is_an_ellipse_and_a_part_of_it() -> None:
+    whole = points_of(SPACE.add_ellipse((1, 2), major_axis=(30, 0), ratio=0.5), 1.0)
+    x, y = (middles(whole) - (1.0, 2.0)).T
+    assert abs(np.hypot(x, 2.0 * y) - 30.0).max() <= 2.0 * SAG
+    assert whole[0] == pytest.approx(whole[-1])
+    half = points_of(SPACE.add_ellipse((0, 0), major_axis=(0, 4), ratio=0.5, start_param=0.0, end_param=pi), 1.0)
+    assert half[0] == pytest.approx((0.0, 4.0), abs=1e-12)
+    assert half[-1] == pytest.approx((0.0, -4.0), abs=1e-12)
+    assert half[:, 0].min() == pytest.approx(-2.0, abs=SAG)
+
+
+def spline(
+    points: list[tuple[float, float]], degree: int, knots: list[float], weights: list[float] | None = None
+) -> Any:
+    entity = SPACE.add_spline(degree=degree)
+    entity.control_points, entity.knots = [(*point, 0.0) for point in points], knots
+    if weights:
+        entity.weights = weights
+    return entity
+
+
+WRAPPED = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0), (10.0, 0.0), (10.0, 10.0)]
+CURVES = {
+    "wrapped": (WRAPPED, 3, [float(k) for k in range(11)]),
+    "clamped": ([(0.0, 0.0), (5.0, 9.0), (20.0, -3.0), (30.0, 0.0)], 3, [0, 0, 0, 0, 1, 1, 1, 1]),
+    "with a corner": ([(0.0, 0.0), (5.0, 9.0), (9.0, 0.0), (20.0, 5.0), (30.0, 0.0)], 2, [0, 0, 0, 1, 1, 2, 2, 2]),
+    "straight": ([(0.0, 0.0), (5.0, 9.0), (9.0, 0.0)], 1, [0, 0, 1, 2, 2]),
+    "of degree 5": ([(3.0 * k, 20.0 * (k % 3)) for k in range(9)], 5, [0] * 6 + [1, 2, 4] + [5] * 6),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_a_spline_is_where_another_program_computes_it(name: str) -> None:
+    control, degree, knots = CURVES[name]
+    points = points_of(spline(control, degree, knots), 1.0)
+    low, high = knots[degree], knots[len(control)]
+    truth = BSpline(np.array(knots, dtype=float), np.array(control), degree)(np.linspace(low, high, 300_001))
+    assert points[[0, -1]] == pytest.approx(truth[[0, -1]])
+    apart, _ = KDTree(truth).query(middles(points))
+    assert apart.max() <= SAG + 1e-3  # as far as the points of the truth are from one another
+
+
+def test_a_closed_spline_is_only_where_it_is_defined() -> None:
+    points = points_of(spline(*CURVES["wrapped"]), 1.0)
+    assert points[0] == pytest.approx(points[-1])
+    assert points.min() == pytest.approx(5 / 12, abs=SAG)
+    assert points.max() == pytest.approx(10 - 5 / 12, abs=SAG)
+
+
+@pytest.mark.parametrize("place", [0.0, 3_220_000.0])
+def test_a_spline_with_weights_is_a_circle(place: float) -> None:
+    root = 0.5**0.5
+    corners = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]
+    control = [(place + 30.0 * x, place + 30.0 * y) for x, y in corners]
+    circle = spline(control, 2, [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], [1, root, 1, root, 1, root, 1, root, 1])
+    points = points_of(circle, 1.0) - place
+    assert abs(np.hypot(*middles(points).T) - 30.0).max() <= SAG
+    assert len(points) < 3_000
+
+
+@pytest.mark.parametrize(
+    ("knots", "weights"),
+    [([0, 0, 0, 0, 1], None), ([0, 0, 0, 0, 1, 1, 1, 0.5], None), ([0, 0, 0, 0, 1, 1, 1, 1], [1, 0, 1, 1])],
+    ids=["too few knots", "knots that fall", "a weight of zero"],
+)
+def test_a_spline_whose_numbers_do_not_fit_is_damaged(knots: list[float], weights: list[float] | None) -> None:
+    with pytest.raises((Damaged, ezdxf.DXFError, ValueError)):
+        points_of(spline(CURVES["clamped"][0], 3, knots, weights), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("entity", "words"),
+    [
+        (SPACE.add_arc((0, 0), 1e300, 0, 90), r"no arc of a radius over 1000000000 m, got 1e\+300 m"),
+        (SPACE.add_arc((0, 0), float("nan"), 0, 90), "no arc of a radius over"),
+        (SPACE.add_arc((0, 0), 9e8, 0, 359), "no curve that takes more than 100000 points"),
+        (SPACE.add_lwpolyline([(0, 0, 1), (1e9, 0, 0)], format="xyb"), "no curve that takes more than 100000 points"),
+        (SPACE.add_ellipse((0, 0), major_axis=(1e12, 0), ratio=0.5), "no arc of a radius over"),
+        (spline([(0, 0), (1e12, 0), (0, 1e12), (1, 1)], 3, [0, 0, 0, 0, 1, 1, 1, 1]), "no curve that takes more"),
+    ],
+    ids=["arc", "no number", "large arc", "bulge", "ellipse", "spline"],
+)
+def test_a_curve_that_takes_too_many_points_is_refused_before_one_is_made(entity: Any, words: str) -> None:
+    with pytest.raises(InvalidValue, match=words):
+        points_of(entity, 1.0)
+
+
+def test_control_points_of_a_smoothed_polyline_are_no_places() -> None:
+    line = SPACE.add_polyline2d([(0, 0), (5, 9), (5, 5), (10, 0)])
+    line.vertices[1].dxf.flags = 16
+    assert points_of(line, 1.0).tolist() == [[0, 0], [5, 5], [10, 0]]

@@ -1,0 +1,44 @@
+"""Texts of a drawing: each names what it stands in or beside."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.maps.features import MapFeature
+from app.maps.labels import label_of, names_of
+
+SQUARE = MapFeature("polygon", (((0, 0), (60, 0), (60, 60), (0, 60), (0, 0)),))
+COURT = MapFeature("polygon", (((40, 40), (50, 40), (50, 50), (40, 50), (40, 40)),))
+WALL = MapFeature("line", (((20, 20), (30, 20)),), radius=0.3)
+TREE = MapFeature("point", (((10, 10),),), radius=1.0)
+ALL = [SQUARE, WALL, TREE, COURT]
+
+
+@pytest.mark.parametrize(
+    ("at", "height", "named"),
+    [
+        ((22, 21), 2.5, 1),  # beside the wall
+        ((22, 19), 1.0, 1),
+        ((22, 25), 2.5, 0),  # two heights above it
+        ((5, 30), 1.0, 0),
+        ((10, 10), 0.5, 2),
+        ((11.5, 10), 0.5, 2),  # beside the tree
+        ((41, 41), 0.5, 3),
+        ((41, 39.5), 0.5, 3),  # below the court
+        ((70, 70), 1.0, None),
+    ],
+)
+def test_a_text_names_the_nearest_thing(at: tuple[float, float], height: float, named: int | None) -> None:
+    assert names_of(ALL, [label_of("words", at, height, 0.0, 0.0)]) == ({} if named is None else {named: "words"})
+
+
+def test_a_text_reaches_as_far_as_its_letters() -> None:
+    # Ten letters of 1 m: 6 m to the right of its place, which is 5 m from the wall; centred, 3 m to both sides.
+    for align, named in ((0.0, 1), (0.5, 0), (1.0, 0)):
+        assert names_of(ALL, [label_of("ten letter", (14, 20), 1.0, 0.0, align)]) == {named: "ten letter"}
+    assert names_of(ALL, [label_of("ten letter", (25, 13), 1.0, 1.5707963, 0.0)]) == {1: "ten letter"}
+
+
+def test_the_first_text_names_a_thing() -> None:
+    labels = [label_of(words, (10, 10), 0.5, 0.0, 0.0) for words in ("elm", "oak")]
+    assert names_of(ALL, labels) == {2: "elm"}
