@@ -31,7 +31,7 @@ help:
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
 	@echo 'make soak     each attack alone, then all in turn beside 64 clients, 8 minutes (SECONDS=, FOLDER= for its curve)'
-	@echo 'make fuzz     10,000 requests from the service description and 12,000 odd ones (CASES=, MUTANTS=, SEED=)'
+	@echo 'make fuzz     10,000 requests from the service description, 12,000 odd ones, 5,000 files (CASES=, MUTANTS=, SEED=, FILES=)'
 	@echo 'make bench    benchmarks against a plain SciPy baseline, into docs/performance.md'
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
 	@echo '              hours, continued after an interruption (QUERIES=, SEED=)'
@@ -122,7 +122,7 @@ soak: test-setup
 	@$(BIN)/python -m tests.app.soak $(or $(SECONDS),300) $(or $(FOLDER),build)
 
 fuzz: test-setup
-	@$(BIN)/python -m tests.app.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0)
+	@$(BIN)/python -m tests.app.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0) $(or $(FILES),5000)
 
 bench: test-setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md

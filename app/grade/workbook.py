@@ -48,7 +48,7 @@ ROW, CELL, FORMULA, VALUE, MERGED = (
     "http://schemas.openxmlformats.org/spreadsheetml/2006/main}" + name for name in ("row", "c", "f", "v", "mergeCell")
 )
 # Most cells of a row in any spreadsheet program; openpyxl keeps those of a row in memory.
-CELLS_MAX = 16_384
+ROW_CELLS_MAX = 16_384
 STRICT = "http://purl.oclc.org/ooxml/"
 
 
@@ -143,8 +143,8 @@ def _survey(part: str, pieces: Iterator[bytes], most: int) -> tuple[list[Note], 
             raise UnreadableTable(note("too_many_elements", most=f"{ELEMENTS_MAX:,}"))
         if tag == CELL:
             cell, in_row = given.get("r", ""), in_row + 1
-            if in_row > CELLS_MAX:
-                raise UnreadableTable(note("long_row", part=part, most=f"{CELLS_MAX:,}"))
+            if in_row > ROW_CELLS_MAX:
+                raise UnreadableTable(note("long_row", part=part, most=f"{ROW_CELLS_MAX:,}"))
         elif tag == ROW:
             in_row = 0
         elif tag == FORMULA:
