@@ -17,6 +17,10 @@ BEND = Arc((30.0, 3.0), 3.0, -math.pi / 2, 1.0)
 PATHS: dict[str, tuple[Spiral | Route, str]] = {
     "spiral": (Spiral(0.55, 16.0), "the spiral of pitch 0.55 m inwards from 16 turns"),
     "turn": (Turn(1.7, ratio=1.5, entry_radius=4.2), "the turn of ratio 1.5, which it enters 4.2 m from the centre"),
+    "free turn": (
+        Turn(1.7, ratio=1.2, entry_radius=3.96, exit_radius=4.47),
+        "which it enters 3.96 m from the centre at 0 s and leaves 4.47 m from it",
+    ),
     "route": (
         Route([Line((0.0, 0.0), (30.0, 0.0)), BEND], 7.0),
         "2 pieces (line, arc), joined exactly, its s = 0 at 7",
