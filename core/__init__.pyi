@@ -6,9 +6,10 @@ from .contact.first_contact import first_contact
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
+from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
 from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
-from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
+from .design.shortest_turn import ShortestTurn, shortest_turn
 from .dragon import Dragon, Stray
 from .errors import (
     BenchDragonError,
@@ -66,6 +67,7 @@ __all__ = [
     "Course",
     "CrossCheck",
     "Dance",
+    "DeepestTurn",
     "Dragon",
     "EndReason",
     "Engine",
@@ -133,6 +135,7 @@ __all__ = [
     "contact_probability",
     "course",
     "cross_check",
+    "deepest_turn",
     "envelope",
     "first_contact",
     "first_excess",

@@ -103,29 +103,32 @@ def _turn(turned: Turned, say: Say) -> list[Result]:
         "闭式解：两段圆弧半径之和 S = sqrt(R^2 + (p / 2π)^2) 与比例无关，且两段圆弧转过同一角 a，"
         "因此长度 S a 与半径之比无关",
     )
-    inner, shorter = say("turn from the deepest entry", "从最深处进入时的调头曲线长度"), say("shorter by", "缩短")
-    equal = say(
-        "turn from the deepest entry with equal arcs (ratio 1)", "两段圆弧半径相等（比例 1）、从最深处进入时的长度"
-    )
+    inner, shorter = say("shortest turn", "最短调头曲线长度"), say("shorter by", "缩短")
+    equal = say("shortest turn with equal arcs (ratio 1)", "两段圆弧半径相等（比例 1）时的最短长度")
     found = [
-        (say("length of the turn", "调头曲线长度"), length, why),
-        (inner, shortest.turn.length, _why_shortest(shortest, say)),
-        (shorter, length - shortest.turn.length, say("the difference", "两者之差")),
+        (say("length of the turn", "调头曲线长度"), length, None, why),
+        (inner, shortest.turn.length, shortest.length_bracket, _why_shortest(shortest, say)),
+        (shorter, length - shortest.turn.length, None, say("the difference", "两者之差")),
     ]
     if even and even.turn.length < shortest.turn.length:
-        found.append((equal, even.turn.length, _why_shortest(even, say)))
-    return [Result(4, name, value, "m", None, how) for name, value, how in found]
+        found.append((equal, even.turn.length, even.length_bracket, _why_shortest(even, say)))
+    return [Result(4, name, value, "m", bracket, how) for name, value, bracket, how in found]
 
 
 def _why_shortest(found: ShortestTurn, say: Say) -> str:
     limits = {
         "bend": say("a handle could not follow a tighter arc", "圆弧再小则把手无法跟随"),
         "contact": say("benches would touch", "板凳会相碰"),
+        "circle": say("its circle", "调头空间的边界"),
         "centre": say("nothing, down to the centre", "直到中心都没有限制"),
         "undecided": say("rounding hides whether benches would touch", "舍入误差使是否相碰无法判定"),
     }
-    radius, limit = f"{found.turn.entry_radius:.6f} m", limits[found.limited_by.value]
-    return say(f"entry at a radius of {radius}; limit: {limit}", f"在半径 {radius} 处进入；限制：{limit}")
+    entry, leaving = (f"{radius:.6f} m" for radius in (found.turn.entry_radius, found.turn.exit_radius))
+    limit = limits[found.limited_by.value]
+    return say(
+        f"entry at a radius of {entry}, exit at {leaving}; limit: {limit}",
+        f"在半径 {entry} 处进入、{leaving} 处离开；限制：{limit}",
+    )
 
 
 def _speed(turned: Turned, limit: float, say: Say) -> Result:

@@ -90,7 +90,7 @@ def right_answer(name: str) -> float:
 @cache
 def shortest_length(ratio: float) -> float:
     """Length of the shortest turn at a ratio, which enters deeper inside the circle [m]."""
-    return core.shortest_turn(Dragon(), PITCH, TURNING_RADIUS, ratio).turn.length
+    return core.deepest_turn(Dragon(), PITCH, TURNING_RADIUS, ratio).turn.length
 
 
 def accepted(name: str, value: float, half_unit: float) -> float | None:
