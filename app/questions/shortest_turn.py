@@ -51,7 +51,8 @@ class ShortestTurn(Turn):
     limited_by: core.TurnLimit = Field(
         description="Reason against a shorter turn. bend: a chord cannot follow; circle: it begins or ends on the "
         "circle; contact: benches come nearer than the margin, or touch if it is 0; centre: nothing prevents it, down "
-        "to the centre; undecided: rounding hides whether benches come within the margin at the lower end of entry_bracket"
+        "to the centre; undecided: rounding hides whether benches come within the margin at the lower end of "
+        "entry_bracket"
     )
     benches: Pair | None = Field(
         description="The pair in contact at a slightly deeper entry; null if there is none, and for a free exit"

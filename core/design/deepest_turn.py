@@ -143,7 +143,7 @@ def deepest_turn(
     entries = _Entries(dragon, turn_at, margin, stray, (budget or Budget()).within(TURN_WORK))
     touch = entries.tried(radius)
     if touch.outcome is not Outcome.CLEAR:
-        raise _refusal(radius, touch, margin, stray)
+        raise refusal(radius, touch, margin, stray)
     entry, step = radius, ENTRY_STEP * radius
     while touch.outcome is Outcome.CLEAR and entry > floor:
         entry = max(entry - step, floor)
@@ -262,15 +262,21 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
 
     raises: InvalidValue (turning_radius) if a chord cannot follow even at the circle
     """
-    if not follows(dragon, turn_at(radius)):
-        bend = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
-        sharpest, chord = 1.0 / turn_at(radius).sharpest[0], float(dragon.chords.max())
-        told = quantities("m", got=radius) | quantities("m", 4, bend=sharpest) | quantities("m", 6, chord=chord)
-        raise InvalidValue("turning_radius", f"must be larger: {bend}", **told)
+    refuse_bend(dragon, turn_at(radius))
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
     if follows(dragon, turn_at(low)):
         return None, low
     return bisected(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
+
+
+def refuse_bend(dragon: Dragon, danced: Turn) -> None:
+    """Refuse the circle if a chord cannot follow a turn that begins on it. raises: InvalidValue (turning_radius)"""
+    if not follows(dragon, danced):
+        bend = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
+        sharpest, chord = 1.0 / danced.sharpest[0], float(dragon.chords.max())
+        told = quantities("m", got=danced.turning_radius) | quantities("m", 4, bend=sharpest)
+        told |= quantities("m", 6, chord=chord)
+        raise InvalidValue("turning_radius", f"must be larger: {bend}", **told)
 
 
 def _touch(found: FirstContact, zero: float) -> Touch:
@@ -306,7 +312,7 @@ def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> To
     return too_much(budget, "turning_radius", rule, Quantity(radius, "m"), **sizes)
 
 
-def _refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
+def refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
     """The error if no turn can begin on the circle."""
     (_, benches, time), told = touch, quantities("m", got=radius, margin=margin, stray=stray)
     if benches is None or time is None:

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from core import kernels
 from core.contact.answer import Outcome
 from core.contact.search import MARGIN_MAX
-from core.design.deepest_turn import TurnLimit, contact_in
+from core.design.deepest_turn import TurnLimit, contact_in, refusal, refuse_bend
 from core.design.turn_bounds import Boxes, Multipliers, divided, joined, lower_lengths, multipliers_at
 from core.design.turn_boxes import Turns, sizes_of, turns_in
 from core.design.turn_moves import apart_from_circle, box_of, coil_bend
@@ -39,7 +39,6 @@ from core.errors import (
     asked_of,
     checked_number,
     checked_size,
-    quantities,
     too_much,
 )
 from core.kernels import Budget, Halted
@@ -124,8 +123,8 @@ def shortest_turn(
     to RATIO_MAX; start_turns: of the coils; stray: largest distance of every hole from its place [m]
     width: of the bracket [m]; it is wider if the budget is spent, or for strays: overlaps below are exhibited without
     budget: default: SHORTEST_WORK
-    raises: TooMuchWork if it is stopped, or spent before a turn was danced; InvalidValue (turning_radius) if no turn
-        can be danced
+    raises: TooMuchWork if it is stopped, or spent before a turn was danced; InvalidValue (turning_radius) if neither a
+        locally shortest turn by the closed forms nor the one that begins and ends on the circle can be danced
 
     >>> answer = shortest_turn(Dragon(), 1.7)
     >>> round(answer.turn.length, 4), round(answer.turn.entry_radius, 4), answer.turn.exit_radius
@@ -196,17 +195,31 @@ class _Search:
             turn = apart_from_circle(self.pitch, entry, entry + self.growth * turned, math.exp(logarithm))
             if self.overlap.deepest(turn) <= 0.0 and (self._is_near(start, COARSE) or self.best is None):
                 self._improve(start)
+        if self.best is None:
+            self._dance_from_circle()
         boxes = self._first_boxes()
         while boxes.lows.size and self.budget.left > 0.0:
             self.budget.look()
             parts = [self._part(boxes.taken(slice(k, k + TOGETHER))) for k in range(0, boxes.lows.size, TOGETHER)]
             boxes = joined(parts)
             boxes = boxes.taken(np.argsort(boxes.lows, kind="stable"))
-        if self.best is None:
-            if boxes.lows.size:
-                raise Halted(self.budget)
-            raise self._refusal()
         return self._result(boxes)
+
+    def _dance_from_circle(self) -> None:
+        """Dance the turn that begins and ends on the circle.
+
+        raises: InvalidValue with the reason if it cannot be danced
+        """
+        ratio = 1.0 if self.ratio is None else self.ratio
+        danced = Turn(self.pitch, self.radius, ratio, start_turns=self.start_turns)
+        refuse_bend(self.dragon, danced)
+        self.evaluations += 1
+        touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
+        if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0:
+            raise Halted(self.budget)
+        if touch.outcome is not Outcome.CLEAR:
+            raise refusal(self.radius, touch, self.margin, self.stray)
+        self.best = danced
 
     def _improve(self, place: Floats) -> None:
         """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one."""
@@ -334,9 +347,3 @@ class _Search:
             best, (lowest, best.length), brackets[0], brackets[1], limit, self.boxes, self.overlaps,
             self.evaluations,
         )  # fmt: skip
-
-    def _refusal(self) -> InvalidValue:
-        """The error if no turn can be danced."""
-        why = "in every turn of two arcs inside it a bench cannot follow, or benches come within {margin}"
-        told = quantities("m", got=self.radius, margin=self.margin)
-        return InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)

@@ -161,6 +161,14 @@ def test_a_stopped_search_is_an_error() -> None:
         shortest_turn(Dragon(), PITCH, budget=budget)
 
 
+def test_a_turn_that_only_another_exit_allows_is_found() -> None:
+    """On this circle the turn that leaves opposite to its entry is too tight for the head."""
+    with pytest.raises(InvalidValue, match="bends to a radius"):
+        deepest_turn(Dragon(30), PITCH, 4.2855)
+    found = shortest_turn(Dragon(30), PITCH, 4.2855, budget=Budget(4e7))
+    assert first_contact(Dance(Dragon(), found.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+
+
 @pytest.mark.parametrize(
     ("about", "field"),
     [
