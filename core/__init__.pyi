@@ -9,7 +9,9 @@ from .dance import Dance, EndReason, RunEnd
 from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
 from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
+from .design.quickest_turn import TurnTime, quickest_turn, turn_time
 from .design.shortest_turn import ShortestTurn, shortest_turn
+from .design.turn_length import turn_length_bounds
 from .dragon import Dragon, Stray
 from .errors import (
     BenchDragonError,
@@ -122,6 +124,7 @@ __all__ = [
     "Trajectory",
     "Turn",
     "TurnLimit",
+    "TurnTime",
     "Venue",
     "VenueClearance",
     "Verdict",
@@ -147,12 +150,15 @@ __all__ = [
     "pitch_check",
     "pitch_scan",
     "quick_check",
+    "quickest_turn",
     "separation",
     "sharpest_bend",
     "shortest_turn",
     "tolerance",
     "tolerance_curve",
     "trajectory",
+    "turn_length_bounds",
+    "turn_time",
     "uncertain_tolerance",
     "venue_clearance",
     "verdicts",

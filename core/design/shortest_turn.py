@@ -23,13 +23,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core import kernels
 from core.contact.answer import Outcome
 from core.contact.search import MARGIN_MAX
 from core.design.deepest_turn import TurnLimit, contact_in, refusal, refuse_bend
-from core.design.turn_bounds import Boxes, Multipliers, divided, joined, lower_lengths, multipliers_at
+from core.design.turn_bounds import (
+    Boxes,
+    Multipliers,
+    divided,
+    first_boxes,
+    joined,
+    least_entry,
+    lower_lengths,
+    multipliers_at,
+)
 from core.design.turn_boxes import Turns, sizes_of, turns_in
-from core.design.turn_moves import apart_from_circle, box_of, coil_bend
+from core.design.turn_moves import apart_from_circle, box_of, least_bend
 from core.design.turn_overlap import Overlap
 from core.design.turn_places import polished, starts
 from core.dragon import Dragon, Stray, checked_stray, told_chords
@@ -44,19 +52,17 @@ from core.errors import (
 from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
-from core.sampling import bisected
 from core.shown import Readable, worded
 from core.values import Floats
 
-# Width of the bracket of the length [m].
+# Width of the bracket of the length [m], and over all ratios.
 LENGTH_WIDTH = 1e-6
+RATIO_WIDTH = 1e-3
 # Largest work [1], see core/kernels/constants.py: about 10 s. The contest's turn takes 2e6, one with equal arcs 7e7.
 SHORTEST_WORK = 8e7
 # Work by the time that it takes [1]: of the closed forms of a box, of the preparation of a box for its poses, and of a
 # bench of a pose.
 BOX_WORK, PREPARED_WORK, POSE_WORK = 200.0, 1e4, 8.0
-# Half widths of the first boxes: of the entry radius, as a part of the circle's [1], of v [rad], of the log ratio [1].
-FIRST = (0.025, 0.2, 0.1)
 # Half widths from which on an overlap is looked for, in chords, [rad] and [1]: larger boxes move benches too far.
 OVERLAP_HALF = (0.025, 0.05, 0.06)
 # Number of divisions after which an overlap is looked for again where there was none, and of those that make a box half
@@ -114,14 +120,14 @@ def shortest_turn(
     start_turns: float = 16.0,
     margin: float = 0.0,
     stray: float | Stray = 0.0,
-    width: float = LENGTH_WIDTH,
     budget: Budget | None = None,
 ) -> ShortestTurn:
     """The shortest turn of two arcs inside the circle over all entries and exits, with a proven bracket of its length.
 
     pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second, None: any from RATIO_MIN
     to RATIO_MAX; start_turns: of the coils; stray: largest distance of every hole from its place [m]
-    width: of the bracket [m]; it is wider if the budget is spent, or for strays: overlaps below are exhibited without
+    The bracket is LENGTH_WIDTH wide, with a free ratio RATIO_WIDTH; wider if the budget is spent, or for strays,
+    because overlaps are exhibited without them
     budget: default: SHORTEST_WORK
     raises: TooMuchWork if it is stopped, or spent before a turn was danced; InvalidValue (turning_radius) if neither a
         locally shortest turn by the closed forms nor the one that begins and ends on the circle can be danced
@@ -132,7 +138,7 @@ def shortest_turn(
     """
     radius, pitch = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch)
     margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
-    width = checked_number("width", width, "m", 1e-9, 1e3)
+    width = RATIO_WIDTH if ratio is None else LENGTH_WIDTH
     if ratio is not None:
         ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
     Turn(pitch, radius, 1.0 if ratio is None else ratio, start_turns=start_turns)  # refuses what no turn can have
@@ -165,8 +171,8 @@ class _Search:
         self.pitch, self.radius, self.ratio, self.start_turns = asked
         self.margin, self.stray = kept
         self.growth = self.pitch / (2.0 * math.pi)
-        self.least = 0.5 * float(dragon.chords[: dragon.uniform_from + 1].max()) / kernels.ROUTE_SINE_LIMIT
-        self.inner = self._least_entry()
+        self.least = least_bend(dragon)
+        self.inner = least_entry(self.growth, self.radius, self.least)
         around = 2.0 * math.pi * self.radius + 4.0 * self.radius
         most = 4 + math.ceil(around / float(dragon.chords[1:].min(initial=dragon.chords[0])))
         self.overlap = Overlap(dragon, self.margin, self.least, most)
@@ -175,17 +181,6 @@ class _Search:
         self.longer: list[Boxes] = []
         self.multipliers: list[Multipliers] = []
         self.tried: list[Floats] = []
-
-    def _least_entry(self) -> float:
-        """Least radius at which a coil is wide enough for the longest chord [m]."""
-
-        def fits(radius: float) -> bool:
-            return coil_bend(self.growth, radius) * self.least <= 1.0
-
-        if not fits(self.radius):
-            return self.radius
-        low = 1e-3 * self.radius
-        return low if fits(low) else bisected(fits, low, self.radius, width=1e-9)[0]
 
     def answer(self) -> ShortestTurn:
         """The answer. raises: InvalidValue, Halted"""
@@ -197,7 +192,7 @@ class _Search:
                 self._improve(start)
         if self.best is None:
             self._dance_from_circle()
-        boxes = self._first_boxes()
+        boxes = first_boxes(self.growth, self.inner, self.radius, self.ratio)
         while boxes.lows.size and self.budget.left > 0.0:
             self.budget.look()
             parts = [self._part(boxes.taken(slice(k, k + TOGETHER))) for k in range(0, boxes.lows.size, TOGETHER)]
@@ -235,19 +230,6 @@ class _Search:
     def _is_near(self, place: Floats, most: float) -> bool:
         """Whether the turn at a place is shorter than the best one, or longer by at most this [m]."""
         return self.best is not None and bool(sizes_of(self.growth, *place[:, None])[4, 0] < self.best.length + most)
-
-    def _first_boxes(self) -> Boxes:
-        """Boxes that cover all turns."""
-        logs = np.log([RATIO_MIN, RATIO_MAX]) if self.ratio is None else np.log([self.ratio, self.ratio])
-        sweep = (self.radius - self.inner) / self.growth
-        ends = np.array([[self.inner, self.radius], [-sweep, sweep], logs])
-        sizes = np.array(FIRST) * [self.radius, 1.0, 1.0]
-        counts = [max(1, math.ceil((high - low) / (2.0 * size))) for (low, high), size in zip(ends, sizes, strict=True)]
-        half = np.diff(ends)[:, 0] / (2.0 * np.array(counts))
-        axes = [low + step * (2.0 * np.arange(n) + 1.0) for (low, _), step, n in zip(ends, half, counts, strict=True)]
-        centres = np.array(np.meshgrid(*axes, indexing="ij")).reshape(3, -1)
-        count = centres.shape[1]
-        return Boxes(centres, np.repeat(half[:, None], count, axis=1), np.zeros(count, dtype=np.int64), np.zeros(count))
 
     def _part(self, boxes: Boxes) -> Boxes:
         """Exclude boxes and divide the others."""

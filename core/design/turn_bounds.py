@@ -11,8 +11,13 @@ from numpy.typing import NDArray
 
 from core.design.spans import Span, mean_value
 from core.design.turn_boxes import JUST, ROUNDING, Turns, sizes_of
+from core.design.turn_moves import coil_bend
+from core.paths.turn import RATIO_MAX, RATIO_MIN
+from core.sampling import bisected
 from core.values import Floats
 
+# Half widths of the first boxes: of the entry radius, as a part of the circle's [1], of v [rad], of the log ratio [1].
+FIRST = (0.025, 0.2, 0.1)
 # Larger slopes of a length count as this [m] for [m], [rad] or [1].
 STEEPEST = 40.0
 # Slopes by which a box is divided at least, however little its length depends on a direction: the moves of benches.
@@ -37,6 +42,32 @@ def joined(parts: list[Boxes]) -> Boxes:
     """All boxes of the parts."""
     centres, halves = (np.hstack([getattr(part, name) for part in parts]) for name in ("centres", "halves"))
     return Boxes(centres, halves, np.hstack([p.waits for p in parts]), np.hstack([p.lows for p in parts]))
+
+
+def least_entry(growth: float, radius: float, least: float) -> float:
+    """Least radius at which a coil bends no tighter than `least`, at most that of the circle [m]."""
+
+    def fits(inner: float) -> bool:
+        return coil_bend(growth, inner) * least <= 1.0
+
+    if not fits(radius):
+        return radius
+    low = 1e-3 * radius
+    return low if fits(low) else bisected(fits, low, radius, width=1e-9)[0]
+
+
+def first_boxes(growth: float, inner: float, radius: float, ratio: float | None) -> Boxes:
+    """Boxes that cover all turns between two radii of entry and exit [m]."""
+    logs = np.log([RATIO_MIN, RATIO_MAX]) if ratio is None else np.log([ratio, ratio])
+    sweep = (radius - inner) / growth
+    ends = np.array([[inner, radius], [-sweep, sweep], logs])
+    sizes = np.array(FIRST) * [radius, 1.0, 1.0]
+    counts = [max(1, math.ceil((high - low) / (2.0 * size))) for (low, high), size in zip(ends, sizes, strict=True)]
+    half = np.diff(ends)[:, 0] / (2.0 * np.array(counts))
+    axes = [low + step * (2.0 * np.arange(n) + 1.0) for (low, _), step, n in zip(ends, half, counts, strict=True)]
+    centres = np.array(np.meshgrid(*axes, indexing="ij")).reshape(3, -1)
+    count = centres.shape[1]
+    return Boxes(centres, np.repeat(half[:, None], count, axis=1), np.zeros(count, dtype=np.int64), np.zeros(count))
 
 
 def lower_lengths(turns: Turns) -> Floats:

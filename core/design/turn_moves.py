@@ -29,6 +29,7 @@ import numpy as np
 
 from core import kernels
 from core.design.turn_boxes import Turns, sizes_of
+from core.dragon import Dragon
 from core.paths.turn import Turn
 from core.values import Floats
 
@@ -115,6 +116,11 @@ def apart_from_circle(pitch: float, entry: float, leaving: float, ratio: float) 
 def _slant(growth: float, radii: Floats, nominal: float) -> float:
     """Greatest difference of atan theta at one of the radii from that at the nominal one [rad]."""
     return float(np.abs(np.arctan(radii / growth) - math.atan(nominal / growth)).max())
+
+
+def least_bend(dragon: Dragon) -> float:
+    """Least radius of a bend that every bench can follow [m]."""
+    return 0.5 * float(dragon.chords[: dragon.uniform_from + 1].max()) / kernels.ROUTE_SINE_LIMIT
 
 
 def coil_bend(growth: float, radius: float) -> float:

@@ -174,7 +174,6 @@ def test_a_turn_that_only_another_exit_allows_is_found() -> None:
     [
         ({"turning_radius": 1.4}, "turning_radius"),
         ({"ratio": 0.0}, "ratio"),
-        ({"width": 0.0}, "width"),
         ({"margin": -1.0}, "margin"),
         ({"start_turns": 2.0}, "start_turns"),
     ],
