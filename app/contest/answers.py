@@ -28,7 +28,8 @@ def answers(solved: Solved, say: Say) -> list[Result]:
     """The numbers of the five answers, in the order of the questions."""
     found = [*_inwards(solved, say), *_contact(solved, say), _pitch(solved.pitch, say)]
     if solved.turned:
-        found += [*_turn(solved.turned, say), _speed(solved.turned, solved.asked.speed_limit, say)]
+        limit = solved.asked.speed_limit
+        found += [*_turn(solved.turned, say), *_times(solved.turned, limit, say), _speed(solved.turned, limit, say)]
     return found
 
 
@@ -129,6 +130,27 @@ def _why_shortest(found: ShortestTurn, say: Say) -> str:
         f"entry at a radius of {entry}, exit at {leaving}; limit: {limit}",
         f"在半径 {entry} 处进入、{leaving} 处离开；限制：{limit}",
     )
+
+
+def _times(turned: Turned, limit: float, say: Say) -> list[Result]:
+    """How long the head takes through the turns if no handle exceeds the limit."""
+    turns = (
+        say("the turn of question 4", "问题 4 的调头曲线"),
+        say("the shortest turn", "最短调头曲线"),
+        say("the quickest turn (of a scan)", "最快调头曲线（扫描所得）"),
+    )
+    found = []
+    for name, time in zip(turns, turned.times, strict=False):
+        entry, leaving = time.turn.entry_radius, time.turn.exit_radius
+        how = say(
+            f"{time.length:.6f} m at {time.head_speed:.6f} m/s, the highest head speed at which no handle exceeds "
+            f"{limit:g} m/s; entry at a radius of {entry:.6f} m, exit at {leaving:.6f} m",
+            f"长 {time.length:.6f} m，龙头以 {time.head_speed:.6f} m/s 行进，"
+            f"即各把手不超过 {limit:g} m/s 时的最大速度；"
+            f"在半径 {entry:.6f} m 处进入、{leaving:.6f} m 处离开",
+        )
+        found.append(Result(4, say(f"time through {name}", f"通过{name}的时间"), time.time, "s", None, how))
+    return found
 
 
 def _speed(turned: Turned, limit: float, say: Say) -> Result:
