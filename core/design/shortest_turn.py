@@ -58,8 +58,8 @@ from core.values import Floats
 # Width of the bracket of the length [m], and over all ratios.
 LENGTH_WIDTH = 1e-6
 RATIO_WIDTH = 1e-3
-# Largest work [1], see core/kernels/constants.py: about 10 s. The contest's turn takes 2e6, one with equal arcs 7e7.
-SHORTEST_WORK = 8e7
+# Largest work [1], see core/kernels/constants.py: 10 to 25 s. The contest's turn takes 2e6, one with equal arcs 1e8.
+SHORTEST_WORK = 1.5e8
 # Work by the time that it takes [1]: of the closed forms of a box, of the preparation of a box for its poses, and of a
 # bench of a pose.
 BOX_WORK, PREPARED_WORK, POSE_WORK = 200.0, 1e4, 8.0
@@ -69,6 +69,8 @@ OVERLAP_HALF = (0.025, 0.05, 0.06)
 # as large; most dances of a round.
 PATIENCE, DIRECTIONS = 3, 2
 DANCES = 4
+# Most places from which a locally shortest turn is looked for: each costs some 0.03 s.
+POLISHED = 200
 # Most by which a locally shortest turn is longer than the best one if its multipliers are used too [m].
 NEARLY = 0.1
 # The same of a place on the grid from which a locally shortest one is looked for [m]; distance of places that count as
@@ -181,6 +183,7 @@ class _Search:
         self.longer: list[Boxes] = []
         self.multipliers: list[Multipliers] = []
         self.tried: list[Floats] = []
+        self.polished = 0
 
     def answer(self) -> ShortestTurn:
         """The answer. raises: InvalidValue, Halted"""
@@ -216,16 +219,23 @@ class _Search:
             raise refusal(self.radius, touch, self.margin, self.stray)
         self.best = danced
 
-    def _improve(self, place: Floats) -> None:
-        """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one."""
+    def _improve(self, place: Floats) -> bool:
+        """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one.
+
+        returns: whether it was looked for: only so often from places of boxes
+        """
+        if self.polished >= POLISHED:
+            return False
+        self.polished += 1
         near = polished(self.growth, place, self.inner, self.radius, self.ratio, self.least)
         if near is None or any(np.allclose(near, other, atol=SAME) for other in self.tried):
-            return
+            return True
         self.tried.append(near)
         if self.best is None or self._is_near(near, NEARLY):
             self._dance(near)
             known = multipliers_at(self.growth, near, self.least, self.radius, self.ratio is None)
             self.multipliers = [known, *self.multipliers][:MULTIPLIERS]
+        return True
 
     def _is_near(self, place: Floats, most: float) -> bool:
         """Whether the turn at a place is shorter than the best one, or longer by at most this [m]."""
@@ -276,9 +286,9 @@ class _Search:
             waits[k] = 1
             if found.depth <= 0.0:
                 waits[k] = PATIENCE
-                if dances < DANCES and self._dance(box.nominal_point):
-                    dances += 1
-                    self._improve(box.nominal_point)
+                if dances < DANCES:
+                    self._dance(box.nominal_point)
+                    dances += self._improve(box.nominal_point)
             elif math.isfinite(found.excess):  # until boxes are smaller by what benches move too far
                 waits[k] = min(PATIENCE, math.floor(DIRECTIONS * math.log2(found.excess)))
         self.overlaps += len(shared)
