@@ -69,8 +69,8 @@ OVERLAP_HALF = (0.025, 0.05, 0.06)
 # as large; most dances of a round.
 PATIENCE, DIRECTIONS = 3, 2
 DANCES = 4
-# Most places from which a locally shortest turn is looked for: each costs some 0.03 s.
-POLISHED = 200
+# Most places from which a locally shortest turn is looked for, and the work of one [1].
+POLISHED, POLISH_WORK = 100, 2e5
 # Most by which a locally shortest turn is longer than the best one if its multipliers are used too [m].
 NEARLY = 0.1
 # The same of a place on the grid from which a locally shortest one is looked for [m]; distance of places that count as
@@ -227,6 +227,7 @@ class _Search:
         if self.polished >= POLISHED:
             return False
         self.polished += 1
+        self.budget.spend(POLISH_WORK)
         near = polished(self.growth, place, self.inner, self.radius, self.ratio, self.least)
         if near is None or any(np.allclose(near, other, atol=SAME) for other in self.tried):
             return True

@@ -194,7 +194,7 @@ def test_every_dance_above_is_proven(monkeypatch: pytest.MonkeyPatch) -> None:
         return own(budget, dragon, danced, margin, stray)
 
     monkeypatch.setattr(core.design.shortest_turn, "contact_in", contact_in)
-    found = shortest_turn(Dragon(20), PITCH, budget=Budget(2e7))
+    found = shortest_turn(Dragon(20), PITCH, budget=Budget(1e7))
     assert refused
     assert found.turn.exit_radius <= 4.499 or found.turn.entry_radius >= 4.45
     assert found.length_bracket[0] <= answer(2.0).length_bracket[1]
