@@ -6,9 +6,12 @@ from .contact.first_contact import first_contact
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
+from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
 from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
-from .design.shortest_turn import ShortestTurn, TurnLimit, shortest_turn
+from .design.quickest_turn import TurnTime, quickest_turn, turn_time
+from .design.shortest_turn import ShortestTurn, shortest_turn
+from .design.turn_length import turn_length_bounds
 from .dragon import Dragon, Stray
 from .errors import (
     BenchDragonError,
@@ -66,6 +69,7 @@ __all__ = [
     "Course",
     "CrossCheck",
     "Dance",
+    "DeepestTurn",
     "Dragon",
     "EndReason",
     "Engine",
@@ -120,6 +124,7 @@ __all__ = [
     "Trajectory",
     "Turn",
     "TurnLimit",
+    "TurnTime",
     "Venue",
     "VenueClearance",
     "Verdict",
@@ -133,6 +138,7 @@ __all__ = [
     "contact_probability",
     "course",
     "cross_check",
+    "deepest_turn",
     "envelope",
     "first_contact",
     "first_excess",
@@ -144,12 +150,15 @@ __all__ = [
     "pitch_check",
     "pitch_scan",
     "quick_check",
+    "quickest_turn",
     "separation",
     "sharpest_bend",
     "shortest_turn",
     "tolerance",
     "tolerance_curve",
     "trajectory",
+    "turn_length_bounds",
+    "turn_time",
     "uncertain_tolerance",
     "venue_clearance",
     "verdicts",

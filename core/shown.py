@@ -19,10 +19,10 @@ ENTRIES_MOST = 6
 _FIELDS = {
     "rad": "angle end_heading rotation start_angle start_heading start_theta sweep theta",
     "m": """
-        at_least centre chords clearance depth distance entry_bracket forward gap head_radius hole independent
-        lateral length lengths margin other_feasible_intervals overhangs people pin pitch pitch_bracket pitch_error
-        point points position proven_from proven_up_to radius rings scan_step separation simple stray stray_bracket
-        strays tolerance until_s wall widths witness_a witness_b x y
+        at_least centre chords clearance depth distance entry_bracket exit_bracket forward gap head_radius hole
+        independent lateral length length_bracket lengths margin other_feasible_intervals overhangs people pin pitch
+        pitch_bracket pitch_error point points position proven_from proven_up_to radius rings scan_step separation
+        simple stray stray_bracket strays tolerance until_s wall widths witness_a witness_b x y
     """,
     "1/m": "bound",
     "s": "clear_until correlation_time peak_time start step stop time time_at_unit_head_speed time_bracket until_time",

@@ -8,11 +8,11 @@ import typer
 from pydantic import Field
 
 from app.command.options import given, unused
-from app.wire.paths import EntryRadius, TurnFields
+from app.wire.paths import EntryRadius, ExitRadius, TurnFields
 from app.wire.question import DanceQuery, TurningDiameter, measure
 from core import Dance
 
-TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius")
+TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius", "exit_radius")
 
 
 class PathOptions(DanceQuery):
@@ -24,6 +24,7 @@ class PathOptions(DanceQuery):
     turning_diameter: TurningDiameter = measure("m", "Diameter of the circle in which the turn lies", 9.0)
     ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc of the turn divided by the second")
     entry_radius: EntryRadius = None
+    exit_radius: ExitRadius = None
 
 
 class OfFile(Protocol):

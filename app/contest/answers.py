@@ -28,7 +28,8 @@ def answers(solved: Solved, say: Say) -> list[Result]:
     """The numbers of the five answers, in the order of the questions."""
     found = [*_inwards(solved, say), *_contact(solved, say), _pitch(solved.pitch, say)]
     if solved.turned:
-        found += [*_turn(solved.turned, say), _speed(solved.turned, solved.asked.speed_limit, say)]
+        limit = solved.asked.speed_limit
+        found += [*_turn(solved.turned, say), *_times(solved.turned, limit, say), _speed(solved.turned, limit, say)]
     return found
 
 
@@ -103,29 +104,53 @@ def _turn(turned: Turned, say: Say) -> list[Result]:
         "闭式解：两段圆弧半径之和 S = sqrt(R^2 + (p / 2π)^2) 与比例无关，且两段圆弧转过同一角 a，"
         "因此长度 S a 与半径之比无关",
     )
-    inner, shorter = say("turn from the deepest entry", "从最深处进入时的调头曲线长度"), say("shorter by", "缩短")
-    equal = say(
-        "turn from the deepest entry with equal arcs (ratio 1)", "两段圆弧半径相等（比例 1）、从最深处进入时的长度"
-    )
+    inner, shorter = say("shortest turn", "最短调头曲线长度"), say("shorter by", "缩短")
+    equal = say("shortest turn with equal arcs (ratio 1)", "两段圆弧半径相等（比例 1）时的最短长度")
     found = [
-        (say("length of the turn", "调头曲线长度"), length, why),
-        (inner, shortest.turn.length, _why_shortest(shortest, say)),
-        (shorter, length - shortest.turn.length, say("the difference", "两者之差")),
+        (say("length of the turn", "调头曲线长度"), length, None, why),
+        (inner, shortest.turn.length, shortest.length_bracket, _why_shortest(shortest, say)),
+        (shorter, length - shortest.turn.length, None, say("the difference", "两者之差")),
     ]
     if even and even.turn.length < shortest.turn.length:
-        found.append((equal, even.turn.length, _why_shortest(even, say)))
-    return [Result(4, name, value, "m", None, how) for name, value, how in found]
+        found.append((equal, even.turn.length, even.length_bracket, _why_shortest(even, say)))
+    return [Result(4, name, value, "m", bracket, how) for name, value, bracket, how in found]
 
 
 def _why_shortest(found: ShortestTurn, say: Say) -> str:
     limits = {
         "bend": say("a handle could not follow a tighter arc", "圆弧再小则把手无法跟随"),
         "contact": say("benches would touch", "板凳会相碰"),
+        "circle": say("its circle", "调头空间的边界"),
         "centre": say("nothing, down to the centre", "直到中心都没有限制"),
         "undecided": say("rounding hides whether benches would touch", "舍入误差使是否相碰无法判定"),
     }
-    radius, limit = f"{found.turn.entry_radius:.6f} m", limits[found.limited_by.value]
-    return say(f"entry at a radius of {radius}; limit: {limit}", f"在半径 {radius} 处进入；限制：{limit}")
+    entry, leaving = (f"{radius:.6f} m" for radius in (found.turn.entry_radius, found.turn.exit_radius))
+    limit = limits[found.limited_by.value]
+    return say(
+        f"entry at a radius of {entry}, exit at {leaving}; limit: {limit}",
+        f"在半径 {entry} 处进入、{leaving} 处离开；限制：{limit}",
+    )
+
+
+def _times(turned: Turned, limit: float, say: Say) -> list[Result]:
+    """How long the head takes through the turns if no handle exceeds the limit."""
+    turns = (
+        say("the turn of question 4", "问题 4 的调头曲线"),
+        say("the shortest turn", "最短调头曲线"),
+        say("the quickest turn (of a scan)", "最快调头曲线（扫描所得）"),
+    )
+    found = []
+    for name, time in zip(turns, turned.times, strict=False):
+        entry, leaving = time.turn.entry_radius, time.turn.exit_radius
+        how = say(
+            f"{time.length:.6f} m at {time.head_speed:.6f} m/s, the highest head speed at which no handle exceeds "
+            f"{limit:g} m/s; entry at a radius of {entry:.6f} m, exit at {leaving:.6f} m",
+            f"长 {time.length:.6f} m，龙头以 {time.head_speed:.6f} m/s 行进，"
+            f"即各把手不超过 {limit:g} m/s 时的最大速度；"
+            f"在半径 {entry:.6f} m 处进入、{leaving:.6f} m 处离开",
+        )
+        found.append(Result(4, say(f"time through {name}", f"通过{name}的时间"), time.time, "s", None, how))
+    return found
 
 
 def _speed(turned: Turned, limit: float, say: Say) -> Result:

@@ -94,19 +94,23 @@ def _ratio(solved: Solved, say: Say) -> str:
             f"问题 4 和 5 没有答案：{solved.why_no_turn}。请改变调头圆直径、调头螺距或圆弧半径之比。",
         )
     turn, shortest, even = solved.turned.path, solved.turned.shortest.turn, solved.turned.even
+    low = solved.turned.shortest.length_bracket[0]
     words = say(
         f"Question 4 asks for a shorter turn. Another ratio alone does not help: the length is {turn.length:.7f} m at "
-        f"every ratio. A deeper entry inside the circle does: at a radius of {shortest.entry_radius:.6f} m the turn "
-        f"is {shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter.",
+        f"every ratio while the dance leaves opposite to its entry. An entry and an exit inside the circle do: from "
+        f"{shortest.entry_radius:.6f} m to {shortest.exit_radius:.6f} m from the centre the turn is "
+        f"{shortest.length:.7f} m long, {turn.length - shortest.length:.7f} m shorter; with this ratio none is shorter "
+        f"than {low:.7f} m (proven).",
         f"问题 4 问调头曲线能否变短。只改变半径之比不能：对任何比例长度都是 {turn.length:.7f} m。"
-        f"在圆内更深处进入则可以：在半径 {shortest.entry_radius:.6f} m 处进入时长度为 {shortest.length:.7f} m，"
-        f"缩短 {turn.length - shortest.length:.7f} m。",
+        f"（终点与起点相对时）。起点和终点都可在圆内自由选取：距中心 {shortest.entry_radius:.6f} m 处进入、"
+        f"{shortest.exit_radius:.6f} m 处离开时长度为 {shortest.length:.7f} m，"
+        f"缩短 {turn.length - shortest.length:.7f} m；此比例下没有短于 {low:.7f} m 的（已证明）。",
     )
     if even and even.turn.length < shortest.length:
         words += say(
-            f" Both changes together make it even shorter: with equal arcs (ratio 1) the entry can be as deep as "
-            f"{even.turn.entry_radius:.6f} m, and the turn is {even.turn.length:.7f} m long.",
-            f"两者一起改变还能更短：两段圆弧半径相等（比例 1）时，可在半径 {even.turn.entry_radius:.6f} m 处进入，"
-            f"长度为 {even.turn.length:.7f} m。",
+            f" Another ratio makes it even shorter: with equal arcs (ratio 1), from {even.turn.entry_radius:.6f} m to "
+            f"{even.turn.exit_radius:.6f} m from the centre, it is {even.turn.length:.7f} m long.",
+            f"改变比例还能更短：两段圆弧半径相等（比例 1）、距中心 {even.turn.entry_radius:.6f} m 处进入、"
+            f"{even.turn.exit_radius:.6f} m 处离开时，长度为 {even.turn.length:.7f} m。",
         )
     return words

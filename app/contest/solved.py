@@ -17,7 +17,7 @@ from core.values import Floats
 
 # Number of intervals between the instants of the tables that the contest requires; for the turn, from -span to span.
 SHOWN_STEPS, TURN_STEPS = 5, 4
-# Ratio of equal arcs [1], which allows the deepest entry: both arcs are as tight as the benches allow.
+# Ratio of equal arcs [1], which makes the turn shortest: both arcs are as tight as the benches allow.
 EVEN = 1.0
 
 
@@ -37,6 +37,7 @@ class Turned:
     """Inputs and answers of questions 4 and 5.
 
     dance: along the turn; shortest: with the ratio asked for; even: with equal arcs, None where it cannot be danced
+    times: of the turn of question 4, of the shortest and of the quickest one with its ratio, at the speed limit
     around: every second of question 4
     """
 
@@ -44,6 +45,7 @@ class Turned:
     dance: Dance
     shortest: core.ShortestTurn
     even: core.ShortestTurn | None
+    times: list[core.TurnTime]
     around: Trajectory
     fastest: core.MaximumHeadSpeed
 
@@ -131,7 +133,14 @@ def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
         even = core.shortest_turn(dragon, asked.turn_pitch, radius, EVEN, **about, budget=terms.budget)
     around = core.trajectory(dance, seconds(-asked.span, asked.span), budget=terms.budget)
     fastest = core.maximum_head_speed(dance, asked.speed_limit, budget=terms.budget)
-    return Turned(path, dance, shortest=shortest, even=even, around=around, fastest=fastest)
+    turns = [path, shortest.turn]
+    with suppress(InvalidValue):  # no turn that was tried can be danced
+        found = core.quickest_turn(
+            dragon, asked.turn_pitch, radius, asked.ratio, **about, speed_limit=asked.speed_limit, budget=terms.budget
+        )
+        turns.append(found.turn)
+    times = [core.turn_time(dragon, turn, asked.speed_limit, budget=terms.budget) for turn in turns]
+    return Turned(path, dance, shortest=shortest, even=even, times=times, around=around, fastest=fastest)
 
 
 def seconds(start: float, stop: float) -> Floats:

@@ -154,16 +154,13 @@ export function showMinimumPitch(box, answer, asked, key, use) {
   offer(box, key, () => use(high));
 }
 
-/** answer: of /shortest-turn; use(radius) sets the entry of the turn */
+/** answer: of /shortest-turn; use(entry, exit) sets both radii of the turn */
 export function showShortestTurn(box, answer, asked, use) {
-  const { entry_radius, length, limited_by, scan_step, evaluations } = answer;
-  const names = answer.benches ? pair(answer.benches, Number(asked.benches)) : {};
-  const limit = limited_by === "contact" ? sayOf("entry_contact", asked, names) : say(`entry_${limited_by}`);
-  const lines = [say("entryIs", { length: length.toFixed(6) }), limit];
-  const scanned = [say("scanned"), say("scannedEntries", { evaluations, step: 1000 * scan_step })];
-  const known = facts(bracket("bracketEntry", answer.entry_bracket, 9), scanned);
-  show(box, titleOf("shortestTurn", asked), `${entry_radius.toFixed(6)} m`, lines, [known]);
-  offer(box, "useEntry", () => use(answer.entry_bracket[1]));
+  const { entry_radius, exit_radius, length, limited_by } = answer;
+  const lines = [say("turnIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, asked)];
+  const known = facts(bracket("bracketLength", answer.length_bracket, 9), bracket("bracketEntry", answer.entry_bracket, 9), bracket("bracketExit", answer.exit_bracket, 9));
+  show(box, titleOf("shortestTurn", asked), `${length.toFixed(6)} m`, lines, [known]);
+  offer(box, "useEntry", () => use(entry_radius, exit_radius));
 }
 
 /** answer: of /maximum-head-speed; use(speed) sets it */

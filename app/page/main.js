@@ -192,7 +192,7 @@ const SHOW = {
   },
   shortest() {
     const { answer, asked } = questions.answers.shortest;
-    answers.showShortestTurn($("#shortest-turn"), answer, asked, (radius) => state.set({ entry_radius: String(radius) }));
+    answers.showShortestTurn($("#shortest-turn"), answer, asked, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
   },
   head() {
     const { answer, asked } = questions.answers.head;

@@ -16,6 +16,7 @@ export const FIELDS = [
   { name: "turning_diameter", value: "9", group: "path", slider: [2, 16, 0.1] },
   { name: "ratio", value: "2", group: "path", slider: [0.5, 4, 0.05], only: "turn" },
   { name: "entry_radius", value: "", group: "path", slider: [4, 5, 0.001], only: "turn" },
+  { name: "exit_radius", value: "", group: "path", slider: [3.5, 5, 0.001], only: "turn" },
   { name: "benches", value: "223", group: "dragon", slider: [1, 400, 1] },
   { name: "head_length", value: "3.41", group: "dragon", slider: [1, 6, 0.01] },
   { name: "body_length", value: "2.2", group: "dragon", slider: [1, 4, 0.01] },
@@ -36,7 +37,7 @@ export const CONTACT = ["margin", ...namesOf("people")];
 /** Largest distance of every hole from its place [m]: the stray of people, and half the difference of hole and pin. */
 export const strayOf = ({ stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
 /** The numbers of a turn in addition to those of its coils. */
-export const TURN = ["turning_diameter", "ratio", "entry_radius"];
+export const TURN = ["turning_diameter", "ratio", "entry_radius", "exit_radius"];
 /** Texts as numbers; other texts stay unchanged, so that the service refuses them. */
 export const numbersOf = (texts) =>
   Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, text.trim() && Number.isFinite(Number(text)) ? Number(text) : text]));

@@ -1,4 +1,4 @@
-"""The question shortest_turn: the deepest entry of a turn inside its circle."""
+"""The question shortest_turn: the shortest turn inside its circle, with any exit or the one opposite to its entry."""
 
 from __future__ import annotations
 
@@ -16,49 +16,75 @@ class ShortestTurnFields(Strays, TurnCircle):
     """The circle and the coils of the turn to shorten."""
 
     margin: Margin = 0.0
+    exit_opposite: bool = Field(
+        False,
+        description="true: the turn ends opposite to its entry, so that only the entry is searched; false: it may end "
+        "anywhere on the coil outwards inside the circle",
+    )
+    any_ratio: bool = Field(
+        False, description="true: the ratio is free too, so that `ratio` does not matter; a long search, for a job"
+    )
 
 
 class ShortestTurnQuery(ShortestTurnFields, UniformDragon):
-    """Deepest entry of a turn inside its circle."""
+    """Shortest turn inside its circle."""
 
 
 class ShortestTurnRequest(ShortestTurnFields, DragonFields, strict=True):
-    """Deepest entry of a turn inside its circle, for any dragon."""
+    """Shortest turn inside its circle, for any dragon."""
 
 
 class ShortestTurn(Turn):
-    """The turn with the deepest entry inside the circle that this dragon can dance."""
+    """The shortest turn inside the circle that this dragon can dance."""
 
-    entry_bracket: Point = measure("m", "Entry radii: infeasible; feasible")
-    limited_by: core.TurnLimit = Field(
-        description="Reason against a deeper entry. bend: a chord cannot follow; contact: benches come nearer than the "
-        "margin, or touch if it is 0; centre: nothing prevents it, down to the centre; undecided: rounding hides "
-        "whether benches come within the margin at the lower end of entry_bracket"
+    length_bracket: Point | None = measure(
+        "m",
+        "Proven: no turn of two arcs inside the circle is shorter; the length of this one, which was danced without a "
+        "contact. It is wider where the work was spent first. null for an opposite exit",
     )
-    benches: Pair | None = Field(description="The pair in contact at a slightly deeper entry; null if there is none")
+    entry_bracket: Point = measure(
+        "m",
+        "Entry radii. Free exit: least and greatest of the turns that may be as short as this one; opposite exit: "
+        "infeasible; feasible",
+    )
+    exit_bracket: Point | None = measure("m", "Exit radii, as entry_bracket; null for an opposite exit")
+    limited_by: core.TurnLimit = Field(
+        description="Reason against a shorter turn. bend: a chord cannot follow; circle: it begins or ends on the "
+        "circle; contact: benches come nearer than the margin, or touch if it is 0; centre: nothing prevents it, down "
+        "to the centre; undecided: rounding hides whether benches come within the margin at the lower end of "
+        "entry_bracket"
+    )
+    benches: Pair | None = Field(
+        description="The pair in contact at a slightly deeper entry; null if there is none, and for a free exit"
+    )
     time: float | None = measure("s", "Time of that contact, at a head speed of 1 m/s; 0 is the entry into the turn")
     scan_step: float = measure(
         "m",
         "Distance between the entries tried from the circle inwards; each one is proven, but a narrower range of "
-        "infeasible ones between two is not excluded",
+        "infeasible ones between two is not excluded. 0 for a free exit, whose search leaves no gap",
     )
-    evaluations: int = Field(description="Number of entries tried")
+    evaluations: int = Field(description="Number of turns danced")
     stray: float | None = TOTAL_STRAY
 
 
 def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
-    """The turn that begins as deep inside its circle as the dragon can dance, and what prevents a deeper one."""
-    found = core.shortest_turn(
-        asked.to_dragon(terms.settings.checked_benches_max),
-        asked.pitch,
-        asked.turning_diameter / 2,
-        asked.ratio,
-        start_turns=asked.start_turns,
-        margin=asked.margin,
-        stray=asked.to_stray(),
-        budget=terms.budget,
-    )
-    return ShortestTurn.known(found, stray=asked.total_stray, **Turn.of(found.turn).model_dump())
+    """The shortest turn inside the circle that the dragon can dance, with a proven bracket, and what limits it."""
+    dragon = asked.to_dragon(terms.settings.checked_benches_max)
+    about = {"start_turns": asked.start_turns, "margin": asked.margin, "stray": asked.to_stray()}
+    circle = (asked.pitch, asked.turning_diameter / 2)
+    found: core.ShortestTurn | core.DeepestTurn
+    if asked.exit_opposite:
+        if asked.any_ratio:
+            raise core.InvalidValue(
+                "any_ratio", "must be false with exit_opposite: only a free exit is searched over ratios"
+            )
+        found = core.deepest_turn(dragon, *circle, asked.ratio, **about, budget=terms.budget)
+        own: dict[str, float | None] = {"length_bracket": None, "exit_bracket": None}
+    else:
+        ratio = None if asked.any_ratio else asked.ratio
+        found = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
+        own = {"benches": None, "time": None, "scan_step": 0.0}
+    return ShortestTurn.known(found, stray=asked.total_stray, **own, **Turn.of(found.turn).model_dump())
 
 
 QUESTION = Question(shortest_turn, ShortestTurn, flat=ShortestTurnQuery, body=ShortestTurnRequest)

@@ -29,6 +29,7 @@ class Turn(Answer):
     turning_diameter: float = measure("m", "Diameter of the circle in which the turn lies")
     ratio: float = Field(description="Radius of the first arc divided by that of the second")
     entry_radius: float = measure("m", "Distance of the entry from the centre")
+    exit_radius: float = measure("m", "Distance of the exit from the centre")
     radii: Point = measure("m", "Radii of both arcs")
     centres: tuple[Point, Point] = measure("m", "Centres of both arcs, x and y")
     angles: Point = measure("rad", "Angle of each arc")

@@ -40,6 +40,12 @@ EntryRadius = Annotated[
 ]
 
 
+ExitRadius = Annotated[
+    float | None,
+    measure("m", "Distance from the centre at which the turn ends; default: that of its entry", ge=1e-3, le=100),
+]
+
+
 class WayToCircle(Wire):
     """A circle that the head must reach from a start on a spiral of any pitch."""
 
@@ -71,6 +77,7 @@ class TurnFields(TurnCircle):
     first arc."""
 
     entry_radius: EntryRadius = None
+    exit_radius: ExitRadius = None
 
     def to_turn(self) -> core.Turn:
         """raises: InvalidValue"""
@@ -80,6 +87,7 @@ class TurnFields(TurnCircle):
             self.ratio,
             start_turns=self.start_turns,
             entry_radius=self.entry_radius,
+            exit_radius=self.exit_radius,
         )
 
     def to_path(self) -> core.Turn:

@@ -23,7 +23,7 @@ from core.paths.following import follows, tightest_bend
 # A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")
 # Fields of a turn that can make it too tight where their defaults would not; otherwise its circle is too small.
-MEND_A_TURN = ("entry_radius", "ratio", "pitch")
+MEND_A_TURN = ("exit_radius", "entry_radius", "ratio", "pitch")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
 
 

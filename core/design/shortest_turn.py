@@ -1,106 +1,115 @@
-"""The shortest turn: the deepest entry inside its circle.
+"""The shortest turn: two tangent arcs with any entry and exit inside the circle, as a proven bracket of the length.
 
-A closed form says whether handles can follow: the radius of a bend must be at least half a chord over ROUTE_SINE_LIMIT
-(core/kernels/constants.py). The sum of the arcs' radii is S = sqrt(E^2 + growth^2) for the entry radius E (see Turn).
-Both radii shrink with E, and so does that of the coil at the entry: so there is one least entry.
+The turns are those of core/paths/turn.py: the entry at a radius a, the exit at a radius b, both at most that of the
+circle, and a ratio of the arcs' radii, known or free. A turn counts if every bench can follow its bends, so if both
+radii are at least half the longest chord over ROUTE_SINE_LIMIT (core/kernels/constants.py), and if no two benches come
+within the margin on all of its coils and arcs.
 
-Contacts are tested entry by entry, from the circle down. On the coil before the entry, first_contact() tests the
-spiral. From the entry on it tests the route, but only until the leading benches are out of reach, see below. The
-benches behind them repeat their meetings in the same places (core/contact/first_contact.py), so nothing touches later
-either, for coils of any length.
+Above: a turn that was danced, and proven free of contact by first_contact() (core/design/deepest_turn.py: contact_in).
+Below: branch and bound. Boxes of (a, v, log ratio) cover all turns (v: core/design/turn_boxes.py). A box is excluded
+    - if one arc of all its turns is too tight, or an end is outside the circle, or on a coil too tight to follow;
+    - if all its turns are longer than the shortest known turn less the width of the bracket;
+    - if one pose is exhibited that overlaps in all its turns (core/design/turn_overlap.py);
+and divided otherwise. When no box is left, no shorter turn exists. That arcs stay inside the circle is required of the
+turn above, and not used below: arcs of short turns do, and without it the bound is lower at most.
+The search is over all turns of the family; it assumes the arithmetic of doubles, with allowances for its rounding.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from core import kernels
-from core.contact.answer import FirstContact, Outcome
-from core.contact.coils import STRETCH, TwoCoils, beyond, free_arc
-from core.contact.first_contact import contact_within
+from core.contact.answer import Outcome
 from core.contact.search import MARGIN_MAX
-from core.dance import Dance
+from core.design.deepest_turn import TurnLimit, contact_in, refusal, refuse_bend
+from core.design.turn_bounds import (
+    Boxes,
+    Multipliers,
+    divided,
+    first_boxes,
+    joined,
+    least_entry,
+    lower_lengths,
+    multipliers_at,
+)
+from core.design.turn_boxes import Turns, sizes_of, turns_in
+from core.design.turn_moves import apart_from_circle, box_of, least_bend
+from core.design.turn_overlap import Overlap
+from core.design.turn_places import polished, starts
 from core.dragon import Dragon, Stray, checked_stray, told_chords
 from core.errors import (
     InvalidValue,
     Quantity,
-    TooMuchWork,
     asked_of,
     checked_number,
     checked_size,
-    quantities,
     too_much,
 )
 from core.kernels import Budget, Halted
 from core.paths.following import follows
-from core.paths.spiral import Spiral
-from core.paths.turn import Turn
-from core.sampling import bisected
+from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 from core.shown import Readable, worded
-from core.tolerance.reach import reach
+from core.values import Floats
 
-# Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
-ENTRY_STEP = 0.01
-# and the border is bisected to this width [m].
-ENTRY_WIDTH = 1e-9
-# Largest work of all entries together [1], see core/kernels/constants.py: about 8 s, because a step on a route takes
-# longer than one on a spiral. The default turn takes about 90,000.
-TURN_WORK = 2.5e7
-# The deepest entry that Turn accepts [m].
-ENTRY_MIN = 1e-3
-# Additional length of the coils, as a part of the necessary one, so that rounding cannot end them too early [1].
-SPARE_TURNS = 1e-9
-
-# If rounding hides whether benches meet at the deepest refused entry, entries down to this far below are tried [m].
-LOOKED_BELOW = 1e-6
-
-
-class Touch(NamedTuple):
-    """Whether benches meet in a turn; if they do, the pair and the time [s at 1 m/s, 0 at the entry]."""
-
-    outcome: Outcome
-    benches: tuple[int, int] | None = None
-    time: float | None = None
-
-
-class TurnLimit(StrEnum):
-    """Reason against a deeper entry: a chord cannot follow, two benches come within the margin, or none down to the
-    deepest entry that is tried. UNDECIDED: rounding hides whether two benches come within the margin."""
-
-    BEND = "bend"
-    CONTACT = "contact"
-    CENTRE = "centre"
-    UNDECIDED = "undecided"
+# Width of the bracket of the length [m], and over all ratios.
+LENGTH_WIDTH = 1e-6
+RATIO_WIDTH = 1e-3
+# Largest work [1], see core/kernels/constants.py: 10 to 25 s. The contest's turn takes 2e6, one with equal arcs 1e8.
+SHORTEST_WORK = 1.5e8
+# Work by the time that it takes [1]: of the closed forms of a box, of the preparation of a box for its poses, and of a
+# bench of a pose.
+BOX_WORK, PREPARED_WORK, POSE_WORK = 200.0, 1e4, 8.0
+# Half widths from which on an overlap is looked for, in chords, [rad] and [1]: larger boxes move benches too far.
+OVERLAP_HALF = (0.025, 0.05, 0.06)
+# Number of divisions after which an overlap is looked for again where there was none, and of those that make a box half
+# as large; most dances of a round.
+PATIENCE, DIRECTIONS = 3, 2
+DANCES = 4
+# Most places from which a locally shortest turn is looked for, and the work of one [1].
+POLISHED, POLISH_WORK = 100, 2e5
+# Most by which a locally shortest turn is longer than the best one if its multipliers are used too [m].
+NEARLY = 0.1
+# The same of a place on the grid from which a locally shortest one is looked for [m]; distance of places that count as
+# one [m], [rad].
+COARSE = 0.5
+# Most multipliers that are used: each costs a tenth of a box [1].
+MULTIPLIERS = 4
+SAME = 1e-4
+# Radius beyond the least one that still counts as limited by it [m].
+AT_LIMIT = 1e-6
+# Boxes whose closed forms are computed together: more would leave the processor's cache.
+TOGETHER = 4096
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ShortestTurn(Readable):
-    """The turn with the smallest entry radius such that all larger ones up to the circle can be danced.
+    """The shortest two-arc turn that the dragon can dance inside the circle, whatever its entry and exit.
 
-    turn: at the feasible end of entry_bracket (infeasible, feasible) [m]; limited_by: see TurnLimit
-    benches, time: the pair that comes within the margin just below, and its time [s at 1 m/s, 0 at the entry], or None
-    scan_step: distance between the tried entries [m]; a narrower range of infeasible ones above is not excluded
-    evaluations: number of tried entries, each with a proof
+    turn: danced with proof; its length is the upper end of length_bracket (no turn is shorter, turn) [m]
+    entry_bracket, exit_bracket: radii between which those of every turn as short as that lie [m]
+    limited_by: BEND, CIRCLE or CONTACT, the first that applies to it: an arc as tight as benches can follow; an end on
+        the circle; else benches within the margin in turns beside it
+    boxes: number of excluded boxes; overlaps: those of them by an exhibited overlap; evaluations: tried dances
     """
 
     turn: Turn
+    length_bracket: tuple[float, float]
     entry_bracket: tuple[float, float]
+    exit_bracket: tuple[float, float]
     limited_by: TurnLimit
-    benches: tuple[int, int] | None
-    time: float | None
-    scan_step: float
+    boxes: int
+    overlaps: int
     evaluations: int
 
     def _line(self) -> str:
-        pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
-        entry = f"entry at a radius of {worded(self.turn.entry_radius, 'm')}, length {worded(self.turn.length, 'm')}"
-        return f"{entry}, limited by {self.limited_by.value}{pair}"
+        low, high = self.length_bracket
+        places = f"entry {worded(self.turn.entry_radius, 'm')}, exit {worded(self.turn.exit_radius, 'm')}"
+        length = f"length {worded(self.turn.length, 'm')} ({worded(high - low, 'm')} or less above the shortest)"
+        return f"{length}, {places}, ratio {worded(self.turn.ratio)}, limited by {self.limited_by.value}"
 
 
 @asked_of("dragon", Dragon)
@@ -108,202 +117,226 @@ def shortest_turn(
     dragon: Dragon,
     pitch: float,
     turning_radius: float = 4.5,
-    ratio: float = 2.0,
+    ratio: float | None = 2.0,
     *,
     start_turns: float = 16.0,
     margin: float = 0.0,
     stray: float | Stray = 0.0,
     budget: Budget | None = None,
 ) -> ShortestTurn:
-    """The smallest entry radius at which nothing touches and every handle can follow, searched from the circle inwards.
+    """The shortest turn of two arcs inside the circle over all entries and exits, with a proven bracket of its length.
 
-    pitch, turning_radius, margin [m]; stray: largest distance of every hole from its place [m]; ratio: radius of the
-    first arc over that of the second; start_turns: of the coils
-    Each tried entry is proven. The entries are ENTRY_STEP of the turning radius apart, so this is a scan that may miss
-    a narrower infeasible range.
-    entry_bracket is at most ENTRY_WIDTH wide, or wider if the budget is spent or by entries that can be neither proven
-    nor refuted; budget: default: TURN_WORK
-    raises: TooMuchWork if it is stopped, or spent before an infeasible entry was found; InvalidValue (turning_radius)
-        if even the turn at the circle cannot be danced
+    pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second, None: any from RATIO_MIN
+    to RATIO_MAX; start_turns: of the coils; stray: largest distance of every hole from its place [m]
+    The bracket is LENGTH_WIDTH wide, with a free ratio RATIO_WIDTH; wider if the budget is spent, or for strays,
+    because overlaps are exhibited without them
+    budget: default: SHORTEST_WORK
+    raises: TooMuchWork if it is stopped, or spent before a turn was danced; InvalidValue (turning_radius) if neither a
+        locally shortest turn by the closed forms nor the one that begins and ends on the circle can be danced
 
-    >>> round(shortest_turn(Dragon(), 1.7).turn.entry_radius, 6)
-    4.285762
+    >>> answer = shortest_turn(Dragon(), 1.7)
+    >>> round(answer.turn.length, 4), round(answer.turn.entry_radius, 4), answer.turn.exit_radius
+    (11.7992, 4.2904, 4.5)
     """
-    radius = checked_size("turning_radius", turning_radius)
+    radius, pitch = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch)
     margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
-
-    def turn_at(entry: float) -> Turn:
-        return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
-
-    border, floor = _follow_border(dragon, turn_at, radius)
-    entries = _Entries(dragon, turn_at, start_turns, margin, stray, (budget or Budget()).within(TURN_WORK))
-    touch = entries.tried(radius)
-    if touch.outcome is not Outcome.CLEAR:
-        raise _refusal(radius, touch, margin, stray)
-    entry, step = radius, ENTRY_STEP * radius
-    while touch.outcome is Outcome.CLEAR and entry > floor:
-        entry = max(entry - step, floor)
-        touch = entries.tried(entry)
-    if touch.outcome is Outcome.CLEAR:
-        limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
-        return ShortestTurn(turn_at(floor), (border or 0.0, floor), limited_by, None, None, step, entries.evaluations)
-    bracket, touch = entries.bracket(entry, floor)
-    limited_by = TurnLimit.UNDECIDED if touch.outcome is Outcome.UNDECIDED else TurnLimit.CONTACT
-    return ShortestTurn(turn_at(bracket[1]), bracket, limited_by, touch.benches, touch.time, step, entries.evaluations)
+    width = RATIO_WIDTH if ratio is None else LENGTH_WIDTH
+    if ratio is not None:
+        ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
+    Turn(pitch, radius, 1.0 if ratio is None else ratio, start_turns=start_turns)  # refuses what no turn can have
+    work = (budget or Budget()).within(SHORTEST_WORK)
+    search = _Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), width, work)
+    try:
+        return search.answer()
+    except Halted as halted:
+        rule = "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; the"
+        rule += " {benches} chords are {shortest} to {longest} long"
+        raise too_much(work, "turning_radius", rule, Quantity(radius, "m"), **told_chords(dragon)) from halted
 
 
-class _Entries:
-    """Search for the entries whose turns are free of contact, from the circle inwards.
+class _Search:
+    """Branch and bound over boxes.
 
-    margin, stray: [m]; feasible: the last entry found clear; refuted: the last one at which benches meet, and
-        how [m]; None before there is one; evaluations: number of tried entries
+    best: the shortest turn that was danced with proof; longer: boxes that were excluded by their length; tried: places
+    of locally shortest turns; multipliers: those of the ones that are nearly the best
     """
 
     def __init__(
         self,
         dragon: Dragon,
-        turn_at: Callable[[float], Turn],
-        start_turns: float,
-        margin: float,
-        stray: float,
+        asked: tuple[float, float, float | None, float],
+        kept: tuple[float, float],
+        width: float,
         budget: Budget,
     ) -> None:
-        self.dragon, self.turn_at, self.start_turns, self.budget = dragon, turn_at, start_turns, budget
-        self.margin, self.stray = margin, stray
-        self.feasible: float | None = None
-        self.refuted: tuple[float, Touch] | None = None
-        self.evaluations = 0
+        self.dragon, self.budget, self.width = dragon, budget, width
+        self.pitch, self.radius, self.ratio, self.start_turns = asked
+        self.margin, self.stray = kept
+        self.growth = self.pitch / (2.0 * math.pi)
+        self.least = least_bend(dragon)
+        self.inner = least_entry(self.growth, self.radius, self.least)
+        around = 2.0 * math.pi * self.radius + 4.0 * self.radius
+        most = 4 + math.ceil(around / float(dragon.chords[1:].min(initial=dragon.chords[0])))
+        self.overlap = Overlap(dragon, self.margin, self.least, most)
+        self.best: Turn | None = None
+        self.boxes = self.overlaps = self.evaluations = 0
+        self.longer: list[Boxes] = []
+        self.multipliers: list[Multipliers] = []
+        self.tried: list[Floats] = []
+        self.polished = 0
 
-    def tried(self, entry: float) -> Touch:
-        """Whether benches meet in the turn with this entry radius [m].
+    def answer(self) -> ShortestTurn:
+        """The answer. raises: InvalidValue, Halted"""
+        for start in starts(self.growth, self.inner, self.radius, self.ratio, self.least):
+            self.budget.look()
+            entry, turned, logarithm = start
+            turn = apart_from_circle(self.pitch, entry, entry + self.growth * turned, math.exp(logarithm))
+            if self.overlap.deepest(turn) <= 0.0 and (self._is_near(start, COARSE) or self.best is None):
+                self._improve(start)
+        if self.best is None:
+            self._dance_from_circle()
+        boxes = first_boxes(self.growth, self.inner, self.radius, self.ratio)
+        while boxes.lows.size and self.budget.left > 0.0:
+            self.budget.look()
+            parts = [self._part(boxes.taken(slice(k, k + TOGETHER))) for k in range(0, boxes.lows.size, TOGETHER)]
+            boxes = joined(parts)
+            boxes = boxes.taken(np.argsort(boxes.lows, kind="stable"))
+        return self._result(boxes)
 
-        raises: TooMuchWork if the budget ends first, and benches are not known to meet at any other entry
+    def _dance_from_circle(self) -> None:
+        """Dance the turn that begins and ends on the circle.
+
+        raises: InvalidValue with the reason if it cannot be danced
         """
-        try:
-            touch = self._contact(self.turn_at(entry))
-        except Halted as halted:
-            raise _too_much(self.budget, self.dragon, entry, self.turn_at(entry).turning_radius) from halted
+        ratio = 1.0 if self.ratio is None else self.ratio
+        danced = Turn(self.pitch, self.radius, ratio, start_turns=self.start_turns)
+        refuse_bend(self.dragon, danced)
         self.evaluations += 1
-        if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0 and not self.refuted:
-            raise _too_much(self.budget, self.dragon, entry, self.turn_at(entry).turning_radius)
-        if touch.outcome is Outcome.CLEAR:
-            self.feasible = entry
-        elif touch.outcome is not Outcome.UNDECIDED:
-            self.refuted = entry, touch
-        return touch
+        touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
+        if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0:
+            raise Halted(self.budget)
+        if touch.outcome is not Outcome.CLEAR:
+            raise refusal(self.radius, touch, self.margin, self.stray)
+        self.best = danced
 
-    def _contact(self, danced: Turn) -> Touch:
-        """The first contact of a dance through the turn, with time 0 at its entry; CLEAR is proven.
+    def _improve(self, place: Floats) -> bool:
+        """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one.
 
-        On the coil it begins where the turn of the last clear entry begins.
+        returns: whether it was looked for: only so often from places of boxes
         """
-        dragon, margin, stray = self.dragon, self.margin, self.stray
-        coil = Spiral(danced.pitch, self.start_turns)
-        before, start = (
-            coil.length - coil.growth * float(kernels.spiral_arc(r / coil.growth)) if r else 0.0
-            for r in (danced.entry_radius, self.feasible)
-        )
-        if before > start:
-            found = contact_within(
-                self.budget, Dance(dragon, coil), margin=margin, stray=stray, start=start, stop=before
-            )
-            if found.outcome is not Outcome.CLEAR:
-                return _touch(found, before)
-        stop, followed = way_followed(reach(dragon, stray).bounds if stray else dragon, danced, margin)
-        arc = stop - danced.length - coils_of(danced).arc(0.0)
-        turns = max(self.start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
-        entry, radius = danced.entry_radius, danced.turning_radius
-        path = Turn(danced.pitch, radius, danced.ratio, start_turns=turns, entry_radius=entry)
-        found = contact_within(
-            self.budget, Dance(dragon.leading(followed.benches), path), margin=margin, stray=stray, stop=stop
-        )
-        return _touch(found, 0.0)
+        if self.polished >= POLISHED:
+            return False
+        self.polished += 1
+        self.budget.spend(POLISH_WORK)
+        near = polished(self.growth, place, self.inner, self.radius, self.ratio, self.least)
+        if near is None or any(np.allclose(near, other, atol=SAME) for other in self.tried):
+            return True
+        self.tried.append(near)
+        if self.best is None or self._is_near(near, NEARLY):
+            self._dance(near)
+            known = multipliers_at(self.growth, near, self.least, self.radius, self.ratio is None)
+            self.multipliers = [known, *self.multipliers][:MULTIPLIERS]
+        return True
 
-    def bracket(self, refused: float, floor: float) -> tuple[tuple[float, float], Touch]:
-        """The bracket (infeasible, feasible) above a refused entry [m], and how benches meet at its lower end.
+    def _is_near(self, place: Floats, most: float) -> bool:
+        """Whether the turn at a place is shorter than the best one, or longer by at most this [m]."""
+        return self.best is not None and bool(sizes_of(self.growth, *place[:, None])[4, 0] < self.best.length + most)
 
-        If rounding hides that they meet there, that end is a deeper entry at which they do; if there is none not far
-        below and above `floor` [m], the end is undecided.
+    def _part(self, boxes: Boxes) -> Boxes:
+        """Exclude boxes and divide the others."""
+        self.budget.spend(BOX_WORK * boxes.lows.size)
+        turns = turns_in(self.growth, boxes.centres, boxes.halves)
+        bounds = [known.lower(turns, boxes.centres, boxes.halves) for known in self.multipliers]
+        lows = np.maximum.reduce([boxes.lows, lower_lengths(turns), *bounds])
+        boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
+        target = math.inf if self.best is None else self.best.length - self.width
+        out = (turns.exit.low > self.radius) | (turns.exit.high < self.inner)
+        out |= (turns.radii[0].high < self.least) | (turns.radii[1].high < self.least)
+        longer = ~out & (lows >= target)
+        self.longer.append(boxes.taken(np.flatnonzero(longer)))
+        left = np.flatnonzero(~(out | longer))
+        left = left[np.argsort(lows[left], kind="stable")]
+        left = np.setdiff1d(left, self._overlapping(turns, boxes, left))
+        self.boxes += lows.size - left.size
+        slope = np.array([slope.furthest for slope in turns.slopes[2]])
+        return divided(boxes.taken(left), slope[:, left])
+
+    def _overlapping(self, turns: Turns, boxes: Boxes, left: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The boxes of `left` in all of whose turns benches overlap; turns that seem clear are danced.
+
+        It sets the waits of the others.
         """
+        chord, waits = float(self.overlap.chords.max()), boxes.waits
+        small = np.asarray((boxes.halves <= (np.array(OVERLAP_HALF) * [chord, 1.0, 1.0])[:, None]).all(axis=0))
+        shared: list[int] = []
+        dances = 0
+        for k in left.tolist():
+            if waits[k] or not small[k] or self.budget.left <= 0.0:
+                waits[k] = max(0, waits[k] - 1)
+                continue
+            box = box_of(self.pitch, turns, k, boxes.centres[:, k], boxes.halves[:, k], self.least)
+            if box is None:
+                waits[k] = 1
+                continue
+            self.budget.look()
+            found = self.overlap.exhibited(box)
+            self.budget.spend(PREPARED_WORK + POSE_WORK * self.overlap.count * found.poses)
+            if found.shared:
+                shared.append(k)
+                continue
+            waits[k] = 1
+            if found.depth <= 0.0:
+                waits[k] = PATIENCE
+                if dances < DANCES:
+                    self._dance(box.nominal_point)
+                    dances += self._improve(box.nominal_point)
+            elif math.isfinite(found.excess):  # until boxes are smaller by what benches move too far
+                waits[k] = min(PATIENCE, math.floor(DIRECTIONS * math.log2(found.excess)))
+        self.overlaps += len(shared)
+        return np.array(shared, dtype=np.intp)
 
-        def is_clear(entry: float) -> bool | None:
-            if self.budget.left <= 0.0:
-                return None
-            touch = self.tried(entry)
-            if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0:  # only because the work is spent
-                return None
-            return touch.outcome is Outcome.CLEAR
+    def _dance(self, point: Floats | None) -> bool:
+        """Whether the turn at a point is shorter than the best one and proven clear; it is the best one then."""
+        if point is None:
+            return False
+        entry, leaving = float(point[0]), min(float(point[0] + self.growth * point[1]), self.radius)
+        if min(entry, leaving) < self.inner:
+            return False
+        ratio = math.exp(point[2]) if self.ratio is None else self.ratio
+        try:
+            danced = Turn(
+                self.pitch, self.radius, min(max(ratio, RATIO_MIN), RATIO_MAX), start_turns=self.start_turns,
+                entry_radius=min(entry, self.radius), exit_radius=leaving,
+            )  # fmt: skip
+        except InvalidValue:
+            return False
+        if not follows(self.dragon, danced) or (self.best is not None and danced.length >= self.best.length):
+            return False
+        self.evaluations += 1
+        touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
+        if touch.outcome is not Outcome.CLEAR:
+            return False
+        self.best = danced
+        return True
 
-        assert self.feasible is not None
-        low, high = bisected(is_clear, refused, self.feasible, width=ENTRY_WIDTH)
-        below = ENTRY_WIDTH
-        while not self.refuted and below <= LOOKED_BELOW and low - below > floor and self.budget.left > 0.0:
-            if self.tried(low - below).outcome is Outcome.CLEAR:
-                break
-            below *= 10.0
-        if not self.refuted:
-            return (low, high), Touch(Outcome.UNDECIDED)
-        low, touch = self.refuted
-        return (low, high), touch
-
-
-def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
-    """Bracket of the entry radius from which chords fit the bends [m]; its lower end is None if the deepest entry fits.
-
-    raises: InvalidValue (turning_radius) if a chord cannot follow even at the circle
-    """
-    if not follows(dragon, turn_at(radius)):
-        bend = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
-        sharpest, chord = 1.0 / turn_at(radius).sharpest[0], float(dragon.chords.max())
-        told = quantities("m", got=radius) | quantities("m", 4, bend=sharpest) | quantities("m", 6, chord=chord)
-        raise InvalidValue("turning_radius", f"must be larger: {bend}", **told)
-    low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
-    if follows(dragon, turn_at(low)):
-        return None, low
-    return bisected(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
-
-
-def _touch(found: FirstContact, zero: float) -> Touch:
-    return Touch(found.outcome, found.benches, None if found.time is None else found.time - zero)
-
-
-def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
-    """Travel of the head from the entry that needs a search [m], and the benches that matter until then, see
-    core/contact/coils.py."""
-    coils, chords = coils_of(danced), dragon.chords
-    whole = danced.length + STRETCH * float(chords.sum())
-    out = free_arc(dragon, coils, margin)
-    if out is None or danced.length + out >= whole:
-        return whole, dragon
-    head = coils.growth * float(kernels.spiral_theta((out - coils.arc(0.0)) / coils.growth))
-    behind = danced.length + out + coils.arc(beyond(dragon, coils.growth, head, margin))
-    count = max(int(np.searchsorted(np.cumsum(chords), behind)) + 2, dragon.uniform_from + 2)
-    return danced.length + out, dragon.leading(count)
-
-
-def coils_of(danced: Turn) -> TwoCoils:
-    """The coils before and after a turn."""
-    extent = max(math.hypot(*c) + r for c, r in zip(danced.centres, danced.radii, strict=True))
-    return TwoCoils(danced.pitch / (2.0 * math.pi), math.pi, extent, danced.length, danced.entry_radius)
-
-
-def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> TooMuchWork:
-    """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
-    rule = "must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry} were not all"
-    rule += " decided {then}; the {benches} chords are {shortest} to {longest} long"
-    sizes = {"entry": Quantity(entry, "m", 6), **told_chords(dragon)}
-    return too_much(budget, "turning_radius", rule, Quantity(radius, "m"), **sizes)
-
-
-def _refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
-    """The error if no turn can begin on the circle."""
-    (_, benches, time), told = touch, quantities("m", got=radius, margin=margin, stray=stray)
-    if benches is None or time is None:
-        what = "benches come so near to the margin of {margin} that it is not decided whether they keep it"
-    else:
-        near = "come within {margin}" if margin else "touch"
-        near = f"may {near} with strays up to {{stray}}" if stray else near
-        what = f"benches {{a}} and {{b}} {near} {{time}} {'after' if time >= 0.0 else 'before'} the entry at 1 m/s"
-        told |= {"a": benches[0], "b": benches[1], "time": Quantity(round(abs(time), 6), "s")}
-    rule = f"must be larger, or the pitch: in a turn that begins on the circle {what}"
-    return InvalidValue("turning_radius", rule, **told)
+    def _result(self, left: Boxes) -> ShortestTurn:
+        """The answer. left: the boxes that were not excluded when the work was spent, none otherwise"""
+        assert self.best is not None
+        best = self.best
+        lowest = min(float(left.lows.min(initial=math.inf)), best.length - self.width)
+        near = [boxes.taken(np.flatnonzero(boxes.lows <= best.length)) for boxes in (*self.longer, left)]
+        middles, sizes = (np.hstack([getattr(boxes, name) for boxes in near]) for name in ("centres", "halves"))
+        leaving, spread = middles[0] + self.growth * middles[1], sizes[0] + self.growth * sizes[1]
+        brackets = []
+        for at, half, own in ((middles[0], sizes[0], best.entry_radius), (leaving, spread, best.exit_radius)):
+            low, high = (at - half).min(initial=own), (at + half).max(initial=own)
+            brackets.append((max(float(low), self.inner), min(float(high), self.radius)))
+        limit = TurnLimit.CONTACT
+        if min(best.radii) < self.least + AT_LIMIT:
+            limit = TurnLimit.BEND
+        elif max(best.entry_radius, best.exit_radius) > self.radius - AT_LIMIT:
+            limit = TurnLimit.CIRCLE
+        return ShortestTurn(
+            best, (lowest, best.length), brackets[0], brackets[1], limit, self.boxes, self.overlaps,
+            self.evaluations,
+        )  # fmt: skip

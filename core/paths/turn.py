@@ -1,8 +1,9 @@
-"""The turn: two tangent arcs from a coil inwards to a coil outwards, its rotation by half a revolution."""
+"""The turn: two tangent arcs from a coil inwards to a coil outwards, which is its rotation by half a revolution."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,15 +16,32 @@ from core.values import Floats, Point
 
 RATIO_MIN = 0.01
 RATIO_MAX = 100.0
+# Distance by which rounding may put an arc outside its circle [m].
+OUTSIDE = 1e-9
+# Least A for the division by it [1]: a smaller one, and no root, leave arcs larger than any that is accepted.
+LEAST_CURVED = 1e-30
 
 
 # Places of the arcs.
-# At the entry E, |E| = R, the direction of travel T makes the angle gamma with the circle, tan gamma = 1 / theta,
-# where theta is the polar angle. By symmetry the dance leaves at -E in the same direction T. With n the normal to the
-# right of T, the centres are C1 = E + r1 n and C2 = -E - r2 n, and the arcs touch if |C1 - C2| = r1 + r2 =: S:
-#     |2 E + S n|^2 = S^2   =>   S = |E|^2 / (-E . n) = R / cos gamma = R sqrt(1 + theta^2) / theta,
+# The entry is E, |E| = R, at the polar angle theta = 2 pi R / pitch; the dance travels there in the direction T, with
+# the normal n to the right of it. The coil outwards is the coil inwards, reversed and reflected at the centre. So at
+# an exit X, |X| = Q, at the angle phi = 2 pi Q / pitch of that coil, X is minus the place of the coil inwards at phi,
+# and the direction T' there is the one of the coil inwards. The centres are C1 = E + r1 n and C2 = X - r2 n'. The arcs
+# touch if |C1 - C2| = r1 + r2. With r1 = ratio r2, D = E - X and m = ratio n + n' this is
+#     |D + r2 m|^2 = (1 + ratio)^2 r2^2   =>   A r2^2 - 2 B r2 - |D|^2 = 0,
+#     A = (1 + ratio)^2 - |m|^2 = 2 ratio (1 - n . n') >= 0,   B = D . m.
+# The product of its roots is -|D|^2 / A <= 0, so one root is positive (none if A = 0 and B >= 0):
+#     r2 = |D|^2 / (sqrt(B^2 + A |D|^2) - B) = (sqrt(B^2 + A |D|^2) + B) / A,
+# of which the first form has no cancellation for B < 0, the second none for B > 0.
+#
+# If the dance leaves at X = -E, then T' = T, A = 0 and
+#     S := r1 + r2 = |E|^2 / (-E . n) = R sqrt(1 + theta^2) / theta,
 # for every ratio; so r1 = S ratio / (1 + ratio), r2 = S / (1 + ratio). The triangles O C1 E and O C2 (-E) show that
 # both arcs turn by the same angle alpha, so the length S alpha does not depend on the ratio either.
+#
+# Distance of an arc from the centre. Along a circle the distance from a point rises up to the furthest point and falls
+# after it. So an arc is furthest from the centre at one of its ends, or at the furthest point of its circle, at
+# |C| + r, if the arc passes it.
 class Turn(Route):
     """Two tangent arcs, tangent to the incoming coil and to the outgoing one, its rotation by 180 degrees.
 
@@ -31,11 +49,15 @@ class Turn(Route):
     s = 0 at the entry.
     pitch [m]; turning_radius [m]; ratio: radius of the first arc over that of the second; start_turns: of both coils
     entry_radius: radius at the beginning of the turn [m], at most the turning radius, which is its default
+    exit_radius: radius at the end of the turn [m], at most the turning radius; default: that of the entry, so that the
+        dance leaves opposite to where it entered
     radii [m]; centres [m]; angles: turned on each arc [rad]; entry, tangent_point, exit [m]; length: of both arcs [m]
-    raises: InvalidValue
+    raises: InvalidValue, also for arcs that leave the turning circle
 
     >>> [round(radius, 9) for radius in Turn(1.7).radii]
     [3.005417668, 1.502708834]
+    >>> round(Turn(1.7, entry_radius=4.3, exit_radius=4.5).length, 6)
+    11.891012
     """
 
     def __init__(
@@ -46,38 +68,23 @@ class Turn(Route):
         *,
         start_turns: float = 16.0,
         entry_radius: float | None = None,
+        exit_radius: float | None = None,
     ) -> None:
         pitch = checked_size("pitch", pitch)
         radius = checked_size("turning_radius", turning_radius)
         ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
         inner = radius if entry_radius is None else checked_number("entry_radius", entry_radius, "m", 1e-3, radius)
+        outer = inner if exit_radius is None else checked_number("exit_radius", exit_radius, "m", 1e-3, radius)
         turns = checked_number("start_turns", start_turns, "turns", 0.0, 1e5, open_low=True)
-        theta, outer = 2.0 * math.pi * inner / pitch, 2.0 * math.pi * turns
-        coil = pitch / (2.0 * math.pi) * (kernels.spiral_arc(outer) - kernels.spiral_arc(theta))
-        if turns * pitch <= radius or coil < LENGTH_MIN:
-            rule, least = (
-                "must be more than {least}, so that the coil begins outside the circle",
-                radius / pitch,
-            )
-            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), least=Quantity(least, "turns", 6))
-        cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
-        entry = inner * np.array([cos, sin])
-        ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
-        right = np.array([ahead[1], -ahead[0]])
-        total = inner * stretch / theta
-        radii = (total * ratio / (1.0 + ratio), total / (1.0 + ratio))
-        first, second = entry + radii[0] * right, -entry - radii[1] * right
-        middle = first + (second - first) * (radii[0] / total)
-        start, end = _angle(entry - first), _angle(middle - first)
-        begin, finish = _angle(middle - second), _angle(-entry - second)
-        angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
-        _refuse_arcs(radii, angles, ratio, radius, entry_radius)
-        here = inner / pitch
+        _refuse_start(pitch, turns, radius, inner)
+        arcs = _arcs(pitch, ratio, inner, outer)
+        radii, (first, second), angles = arcs.radii, arcs.centres, arcs.angles
+        _refuse_arcs(arcs, ratio, radius, entry_radius, exit_radius)
         pieces = (
-            Coil(pitch, turns, here),
-            Arc(_point(first), radii[0], start, -angles[0]),
-            Arc(_point(second), radii[1], begin, angles[1]),
-            Coil(pitch, here, turns, rotation=math.pi),
+            Coil(pitch, turns, inner / pitch),
+            Arc(first, radii[0], arcs.starts[0], -angles[0]),
+            Arc(second, radii[1], arcs.starts[1], angles[1]),
+            Coil(pitch, outer / pitch, turns, rotation=math.pi),
         )
         try:
             route = Route(pieces)
@@ -85,11 +92,11 @@ class Turn(Route):
             rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
             raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns")) from error
         super().__init__(pieces, start=route.joints[0])
-        self.pitch, self.turning_radius, self.ratio, self.entry_radius = pitch, radius, ratio, inner
-        self.radii, self.centres, self.angles = radii, (_point(first), _point(second)), angles
-        self.entry, self.tangent_point, self.exit = _point(entry), _point(middle), _point(-entry)
+        self.pitch, self.turning_radius, self.ratio = pitch, radius, ratio
+        self.entry_radius, self.exit_radius, self.start_turns = inner, outer, turns
+        self.radii, self.centres, self.angles = radii, (first, second), angles
+        self.entry, self.tangent_point, self.exit = arcs.entry, arcs.tangent_point, arcs.exit
         self.length = radii[0] * angles[0] + radii[1] * angles[1]
-        self.start_turns = turns
 
     @property
     def _given(self) -> tuple[object, ...]:
@@ -97,30 +104,107 @@ class Turn(Route):
 
     def __repr__(self) -> str:
         deeper = f", entry_radius={self.entry_radius!r}" if self.entry_radius != self.turning_radius else ""
+        deeper += f", exit_radius={self.exit_radius!r}" if self.exit_radius != self.entry_radius else ""
         given = f"{self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, start_turns={self.start_turns!r}{deeper}"
         return f"Turn({given})"
 
     def _rows(self) -> list[tuple[str, str]]:
-        units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "radii", "length"), "m")
+        units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "exit_radius", "radii", "length"), "m")
         units |= {"ratio": "", "angles": "rad"} | dict.fromkeys(("centres", "entry", "tangent_point", "exit"), "m")
         named = [(name, getattr(self, name), unit) for name, unit in units.items()]
         return [(name.replace("_", " "), worded(value, unit, TABLE_DIGITS)) for name, value, unit in named]
 
 
-def _refuse_arcs(radii: Point, angles: Point, ratio: float, radius: float, entry_radius: float | None) -> None:
-    """Refuse impossible arcs by the wrong parameter: the ratio if equal arcs would be possible."""
+class Arcs(NamedTuple):
+    """Both arcs of a turn: radii, centres [m]; starts: directions from the centres to the beginnings [rad]; angles: the
+    angles turned [rad]; entry, tangent_point, exit [m]."""
+
+    radii: Point
+    centres: tuple[Point, Point]
+    starts: Point
+    angles: Point
+    entry: Point
+    tangent_point: Point
+    exit: Point
+
+    @property
+    def extent(self) -> float:
+        """Largest distance of the arcs from the centre [m]."""
+        furthest = [math.hypot(*point) for point in (self.entry, self.tangent_point, self.exit)]
+        arcs = zip(self.centres, self.radii, self.starts, (-self.angles[0], self.angles[1]), strict=True)
+        for (x, y), radius, start, sweep in arcs:
+            passed = math.copysign(1.0, sweep) * (math.atan2(y, x) - start) % (2.0 * math.pi)
+            if passed <= abs(sweep):
+                furthest.append(math.hypot(x, y) + radius)
+        return max(furthest)
+
+
+def _arcs(pitch: float, ratio: float, inner: float, outer: float) -> Arcs:
+    """The arcs from the entry at the radius `inner` to the exit at the radius `outer` [m]."""
+    theta, phi = (2.0 * math.pi * radius / pitch for radius in (inner, outer))
+    (entry, right), (opposite, back) = _place(inner, theta), _place(outer, phi)
+    if outer == inner:
+        total = inner * math.hypot(1.0, theta) / theta
+        radii = (total * ratio / (1.0 + ratio), total / (1.0 + ratio))
+    else:
+        apart, both = entry + opposite, ratio * right + back
+        curved, level, squared = 4.0 * ratio * _half_sine(theta, phi) ** 2, apart @ both, apart @ apart
+        root = math.sqrt(level * level + curved * squared)
+        least = float(squared / (root - level) if level < 0.0 else (root + level) / max(curved, LEAST_CURVED))
+        radii = (ratio * least, least)
+        total = radii[0] + radii[1]
+    first, second = entry + radii[0] * right, -opposite - radii[1] * back
+    middle = first + (second - first) * (radii[0] / total)
+    start, end = _angle(entry - first), _angle(middle - first)
+    begin, finish = _angle(middle - second), _angle(-opposite - second)
+    angles = ((start - end) % (2.0 * math.pi), (finish - begin) % (2.0 * math.pi))
+    centres = (_point(first), _point(second))
+    return Arcs(radii, centres, (start, begin), angles, _point(entry), _point(middle), _point(-opposite))
+
+
+def _place(radius: float, theta: float) -> tuple[Floats, Floats]:
+    """Point of the coil inwards at theta [m], and the unit normal to the right of the direction of travel."""
+    cos, sin, stretch = math.cos(theta), math.sin(theta), math.hypot(1.0, theta)
+    ahead = np.array([theta * sin - cos, -theta * cos - sin]) / stretch
+    return radius * np.array([cos, sin]), np.array([ahead[1], -ahead[0]])
+
+
+def _half_sine(theta: float, phi: float) -> float:
+    """Sine of half the angle between the directions of travel at two places: the direction at theta is theta + pi +
+    atan theta."""
+    return math.sin(0.5 * (theta - phi + math.atan(theta) - math.atan(phi)))
+
+
+def _refuse_start(pitch: float, turns: float, radius: float, inner: float) -> None:
+    """Refuse coils that begin inside the circle, or so near to the entry that no piece remains."""
+    coil = kernels.spiral_arc(2.0 * math.pi * turns) - kernels.spiral_arc(2.0 * math.pi * inner / pitch)
+    if turns * pitch <= radius or pitch / (2.0 * math.pi) * coil < LENGTH_MIN:
+        rule, least = "must be more than {least}, so that the coil begins outside the circle", radius / pitch
+        raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), least=Quantity(least, "turns", 6))
+
+
+def _refuse_arcs(
+    arcs: Arcs, ratio: float, radius: float, entry_radius: float | None, exit_radius: float | None
+) -> None:
+    """Refuse impossible arcs, by the ratio if equal arcs would be possible, else by the exit, the entry or the circle;
+    and arcs that leave the circle, which only a free exit makes possible."""
+    radii, angles = arcs.radii, arcs.angles
+    told = quantities("m", 6, high=SIZE_MAX, least=LENGTH_MIN)
+    given = {"exit_radius": exit_radius, "entry_radius": entry_radius, "turning_radius": radius}
+    name, got = next((name, Quantity(size, "m")) for name, size in given.items() if size is not None)
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
-    if min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN:
-        return
-    rule = "must leave arcs with radii from {low} to {high}, {least} long, not radii of {r1} and {r2}"
-    rule += " and a shorter arc of {shorter}"
-    told = quantities("", 6, low=SIZE_MIN, r1=radii[0])
-    told |= quantities("m", 6, high=SIZE_MAX, least=LENGTH_MIN, r2=radii[1], shorter=shorter)
-    equal = 0.5 * sum(radii)
-    if SIZE_MIN <= equal <= SIZE_MAX and equal * min(angles) >= LENGTH_MIN:
-        raise InvalidValue("ratio", rule, got=Quantity(ratio, ""), **told)
-    name, given = ("turning_radius", radius) if entry_radius is None else ("entry_radius", entry_radius)
-    raise InvalidValue(name, rule, got=Quantity(given, "m"), **told)
+    if not (min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN):
+        rule = "must leave arcs with radii from {low} to {high}, {least} long, not radii of {r1} and {r2}"
+        rule += " and a shorter arc of {shorter}"
+        told |= quantities("", 6, low=SIZE_MIN, r1=radii[0]) | quantities("m", 6, r2=radii[1], shorter=shorter)
+        equal = 0.5 * sum(radii)
+        if SIZE_MIN <= equal <= SIZE_MAX and equal * min(angles) >= LENGTH_MIN:
+            name, got = "ratio", Quantity(ratio, "")
+        raise InvalidValue(name, rule, got=got, **told)
+    if exit_radius is not None and arcs.extent > radius + OUTSIDE:
+        rule = "must leave the arcs inside the circle: they are up to {extent} from its centre, more than {radius}"
+        told = quantities("m", 6, extent=arcs.extent, radius=radius)
+        raise InvalidValue(name, rule, got=got, **told)
 
 
 def _angle(vector: Floats) -> float:

@@ -15,7 +15,7 @@ from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
 from core.proof.dances import ENDINGS, ClearClaim, ContactClaim
 from core.proof.ground import ONE_BY_ONE, SIDES
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, malformed
-from core.proof.paths import PIECES, POINTS, TURN
+from core.proof.paths import FREE_TURN, PIECES, POINTS, TURN
 from core.proof.strays import ToleranceClaim
 
 # The fewest and the most bits that a certificate may ask for. Its numbers are doubles, of 53 bits; the default dragon's
@@ -235,6 +235,7 @@ _SPIRAL: dict[str, Rule] = dict.fromkeys(("pitch", "start_turns"), _number)
 PATHS: dict[str, dict[str, Rule]] = {
     "spiral": _SPIRAL,
     "turn": dict.fromkeys(TURN, _number),
+    "free_turn": dict.fromkeys(FREE_TURN, _number),
     "route": {"start": _number, "pieces": _each(_by_kind(_PIECES))},
 }
 _DANCE: dict[str, Rule] = {"path": _by_kind(PATHS), "head_speed": _number, "start": _number}

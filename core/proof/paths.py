@@ -28,6 +28,7 @@ Record = Mapping[str, Any]
 
 # The members of each kind of path and of piece, in words that InvalidValue and the check of members share.
 TURN = ("pitch", "turning_radius", "ratio", "start_turns", "entry_radius")
+FREE_TURN = (*TURN, "exit_radius")
 PIECES: dict[str, tuple[type[pieces.Line | pieces.Arc | pieces.Coil], tuple[str, ...]]] = {
     "line": (pieces.Line, ("start", "end")),
     "arc": (pieces.Arc, ("centre", "radius", "start_angle", "sweep")),
@@ -43,8 +44,9 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
         return {"kind": "spiral", "pitch": path.spiral.pitch, "start_turns": path.spiral.start_turns}
     path = path.as_route(path.end)
     if isinstance(path, Turn):  # its arcs are computed in balls from these numbers, not taken from its rounded pieces
-        names = (*(name for name in TURN if name != "start_turns"), "start_turns")
-        return {"kind": "turn"} | {name: getattr(path, name) for name in names}
+        free = path.exit_radius != path.entry_radius
+        names = (*(name for name in (FREE_TURN if free else TURN) if name != "start_turns"), "start_turns")
+        return {"kind": "free_turn" if free else "turn"} | {name: getattr(path, name) for name in names}
     recorded = []
     for k, piece in enumerate(path.pieces):
         if isinstance(piece, pieces.Waypoints):
@@ -67,9 +69,9 @@ def core_path(record: Record) -> Spiral | Route:
     """The path as an object of core. raises: InvalidValue"""
     if record["kind"] == "spiral":
         return Spiral(record["pitch"], record["start_turns"])
-    if record["kind"] == "turn":
+    if record["kind"] in ("turn", "free_turn"):
         try:
-            return Turn(**{name: record[name] for name in TURN})
+            return Turn(**{name: record[name] for name in FREE_TURN if name in record})
         except InvalidValue as error:  # Turn does not name the path around its fields
             raise error.named(f"path.{error.field}") from error
     given = []
@@ -87,8 +89,10 @@ def described(record: Record) -> str:
     """The path in words, with all its numbers except those of pieces."""
     if record["kind"] == "spiral":
         return spiral_words(record["pitch"], record["start_turns"])
-    if record["kind"] == "turn":
+    if record["kind"] in ("turn", "free_turn"):
         entered = f"which it enters {said(record['entry_radius'])} m from the centre at 0 s"
+        if "exit_radius" in record:
+            entered += f" and leaves {said(record['exit_radius'])} m from it"
         coils = f"spirals of pitch {said(record['pitch'])} m and {said(record['start_turns'])} turns"
         return f"the turn of ratio {said(record['ratio'])}, {entered}, between {coils}"
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
@@ -100,8 +104,8 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
     """The dragon on the path, in balls."""
     if record["kind"] == "spiral":
         return Chain(dragon, arb(record["pitch"]), record["start_turns"], margin)
-    if record["kind"] == "turn":
-        return RouteChain(dragon, _turn_path(record), margin)
+    if record["kind"] in ("turn", "free_turn"):
+        return RouteChain(dragon, (_turn_path if record["kind"] == "turn" else _free_turn_path)(record), margin)
     given = [_piece(piece) for piece in record["pieces"]]
     path = Path([piece for piece, _, _ in given], (0, arb(record["start"])), *given[0][1:])
     return RouteChain(dragon, path, margin)
@@ -119,6 +123,42 @@ def _turn_path(record: Record) -> Path:
     coils = Coil.between(growth, start, theta), Coil.between(growth, -theta, -start)
     arcs = Piece(-1 / radii[0], radii[0] * angle), Piece(1 / radii[1], radii[1] * angle)
     return Path((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
+
+
+# With a free exit (core/paths/turn.py), as complex numbers: the place P(t) = growth t e^(it) of the coil inwards, its
+# direction T = -e^(it) (1 + it) / sqrt(1 + t^2), its normal n = -i T. From C1 to the entry goes -n1, to the tangent
+# point w = (C2 - C1) / (r1 + r2), so the clockwise angle on the first arc is arg(-n1 / w); from C2 to the tangent point
+# goes -w, to the exit n2, so the other angle is arg(-n2 / w). Both are from 0 to 2 pi; refusing arcs of almost no
+# length (core/paths/turn.py) keeps them from the ends of that range.
+def _free_turn_path(record: Record) -> Path:
+    growth, ratio = arb(record["pitch"]) / (2 * arb.pi()), arb(record["ratio"])
+    inner, outer = (arb(record[name]) / growth for name in ("entry_radius", "exit_radius"))
+    (entry, n1), (opposite, n2) = (_place_and_normal(growth, theta) for theta in (inner, outer))
+    apart, both = entry + opposite, ratio * n1 + n2
+    curved, level, squared = (1 + ratio) ** 2 - _squared(both), (apart * both.conjugate()).real, _squared(apart)
+    root = (level**2 + curved * squared).sqrt()
+    least = squared / (root - level) if level < 0 else (root + level) / curved
+    towards = (-opposite - least * n2 - entry - ratio * least * n1) / ((1 + ratio) * least)
+    angles = [_positive_angle(-normal / towards) for normal in (n1, n2)]
+    start = 2 * arb.pi() * arb(record["start_turns"])
+    coils = Coil.between(growth, start, inner), Coil.between(growth, -outer, -start)
+    arcs = Piece(-1 / (ratio * least), ratio * least * angles[0]), Piece(1 / least, least * angles[1])
+    return Path((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
+
+
+def _place_and_normal(growth: arb, theta: arb) -> tuple[acb, acb]:
+    """Place of the coil inwards [m], and the normal to the right of the direction of travel."""
+    outwards = (acb(0, 1) * theta).exp()
+    return growth * theta * outwards, acb(0, 1) * outwards * acb(1, theta) / (1 + theta**2).sqrt()
+
+
+def _squared(z: acb) -> arb:
+    return z.real**2 + z.imag**2
+
+
+def _positive_angle(z: acb) -> arb:
+    """Angle of a complex number, from 0 to 2 pi [rad]: pi more than that of -z, which is from -pi to pi."""
+    return (-z).arg() + arb.pi()
 
 
 def _piece(record: Record) -> tuple[Piece, acb, acb]:

@@ -67,12 +67,31 @@ def test_trajectory_through_the_turn_has_the_known_handles(client: httpx.Client,
 
 
 def test_the_shortest_turn_is_a_turn_and_what_limits_it(client: httpx.Client) -> None:
-    got = client.get("/shortest-turn?pitch=1.7&turning_diameter=9&ratio=1&margin=0.2").raise_for_status().json()
+    got = (
+        client.get("/shortest-turn?pitch=1.7&turning_diameter=9&ratio=1&margin=0.2&exit_opposite=true")
+        .raise_for_status()
+        .json()
+    )
     query = f"pitch=1.7&turning_diameter=9&ratio=1&entry_radius={got['entry_radius']!r}"
     turn = client.get(f"/turn?{query}").raise_for_status().json()
     assert {name: got[name] for name in turn} == turn
     assert got["entry_bracket"][1] == got["entry_radius"]
     assert (got["limited_by"], got["benches"], got["scan_step"]) == ("contact", [0, 13], 0.045)
+
+
+def test_the_shortest_turn_of_any_exit_has_a_proven_bracket(client: httpx.Client) -> None:
+    got = client.get("/shortest-turn?pitch=1.7&turning_diameter=9").raise_for_status().json()
+    query = f"pitch=1.7&turning_diameter=9&entry_radius={got['entry_radius']!r}&exit_radius={got['exit_radius']!r}"
+    turn = client.get(f"/turn?{query}").raise_for_status().json()
+    assert {name: got[name] for name in turn} == turn
+    low, high = got["length_bracket"]
+    assert 0 < high - low <= 1e-6
+    assert (high, got["exit_radius"]) == (got["length"], 4.5)
+    assert (got["limited_by"], got["benches"], got["time"], got["scan_step"]) == ("bend", None, None, 0)
+    opposite = client.get("/shortest-turn?pitch=1.7&turning_diameter=9&exit_opposite=true").raise_for_status().json()
+    assert (opposite["length_bracket"], opposite["exit_bracket"]) == (None, None)
+    assert opposite["exit_radius"] == opposite["entry_radius"]
+    assert opposite["length"] > high + 1
 
 
 def test_the_maximum_head_speed_is_the_known_one(client: httpx.Client) -> None:
@@ -350,7 +369,10 @@ def test_an_invalid_dance_is_a_problem_that_names_the_place(
         ("/shortest-turn?ratio=0", "ratio", ("at least 0.01",)),
         ("/shortest-turn?start_turns=1", "start_turns", ("2.64706 turns",)),
         ("/shortest-turn?entry_radius=4", "entry_radius", ("unknown",)),
+        ("/shortest-turn?exit_opposite=true&any_ratio=true", "any_ratio", ("must be false with exit_opposite",)),
+        ("/turn?exit_radius=9", "exit_radius", ("at most 4.5 m",)),
         ("/shortest-turn?margin=3", "margin", ("at most 2 m",)),
+        ("/shortest-turn?turning_diameter=7.9&exit_opposite=true", "turning_diameter", ("too tight", "2.86 m")),
         ("/shortest-turn?turning_diameter=8", "turning_diameter", ("too tight", "2.86 m")),
         ("/shortest-turn?pitch=0.8", "turning_diameter", ("benches 0 and 15 touch", "13.286258 s after")),
         ("/shortest-turn?benches=2001", "benches", ("at most 2000",)),

@@ -59,9 +59,11 @@ def dance(tmp_path: Path) -> Path:
         (["turn"], "/turn"),
         (["turn", "--pitch", "1.5", "--ratio", "1"], "/turn?pitch=1.5&ratio=1"),
         (["shortest-turn", "--benches", "20"], "/shortest-turn?benches=20"),
+        (["shortest-turn", "--benches", "20", "--exit-opposite"], "/shortest-turn?benches=20&exit_opposite=true"),
+        (["turn", "--entry-radius", "4.3", "--exit-radius", "4.5"], "/turn?entry_radius=4.3&exit_radius=4.5"),
         (
-            ["shortest-turn", "--ratio", "1", "--margin", "0.2", "--benches", "40"],
-            "/shortest-turn?ratio=1&margin=0.2&benches=40",
+            ["shortest-turn", "--ratio", "1", "--margin", "0.2", "--benches", "40", "--exit-opposite"],
+            "/shortest-turn?ratio=1&margin=0.2&benches=40&exit_opposite=true",
         ),
         (["maximum-head-speed", "--benches", "20"], "/maximum-head-speed?benches=20"),
         (

@@ -81,7 +81,10 @@ def test_a_file_is_asked_as_a_body_is(
         (["minimum-pitch", "--start-turns", "6", "--turning-diameter", "4"],
          {"margin": 0.2, "start_turns": 6, "turning_diameter": 4}),
         (["minimum-pitch", "--margin", "0.1", "--cross-check", "none"], {"margin": 0.1, "cross_check": "none"}),
-        (["shortest-turn", "--pitch", "2", "--ratio", "1"], {"margin": 0.2, "pitch": 2, "ratio": 1}),
+        (
+            ["shortest-turn", "--pitch", "2", "--ratio", "1", "--exit-opposite"],
+            {"margin": 0.2, "pitch": 2, "ratio": 1, "exit_opposite": True},
+        ),
         (["tolerance-curve", "--samples", "2"], {"samples": 2}),
     ],
     ids=lambda part: " ".join(part) if isinstance(part, list) else None,

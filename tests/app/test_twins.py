@@ -27,8 +27,11 @@ SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"benches": 30, "start": 10, "stop": 20, "step": 5},
         {"dragon": SMALL, "times": {"start": 10, "stop": 20, "step": 5}},
     ),
-    "turn": ({"ratio": 3, "entry_radius": 4.2}, {"path": {"kind": "turn", "ratio": 3, "entry_radius": 4.2}}),
-    "shortest_turn": ({"benches": 20, "ratio": 1}, {"dragon": {"benches": 20}, "ratio": 1}),
+    "turn": (
+        {"ratio": 3, "entry_radius": 4.2, "exit_radius": 4.4},
+        {"path": {"kind": "turn", "ratio": 3, "entry_radius": 4.2, "exit_radius": 4.4}},
+    ),
+    "shortest_turn": ({"benches": 20}, {"dragon": {"benches": 20}}),
     "maximum_head_speed": (
         {"benches": 30, "ratio": 1.5, "speed_limit": 1.5},
         {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5}, "speed_limit": 1.5},

@@ -204,6 +204,7 @@ def test_without_a_start_a_question_asks_from_the_default_start(
         ("Spiral(0.55)", "Spiral(0.56)"),
         ("Turn(1.7)", "Turn(1.7, 4.4)"),
         ("Turn(1.7, 4.4)", "Turn(1.7, 4.5, entry_radius=4.4)"),
+        ("Turn(1.7, entry_radius=4.4)", "Turn(1.7, entry_radius=4.4, exit_radius=4.3)"),
         ("Route([Line((0.0, 0.0), (600.0, 0.0))], 500.0)", "Route([Line((0.0, 0.0), (600.0, 0.0))], 501.0)"),
         ("Legs([(0.0, 0.0), (600.0, 0.0)], start=500.0)", "Legs([(0.0, 0.0), (600.0, 1.0)], start=500.0)"),
     ],

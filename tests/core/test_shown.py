@@ -53,6 +53,8 @@ def results() -> Iterator[Any]:
     yield core.sharpest_bend(DANCE, stop=10.0)
     yield core.minimum_pitch(Dragon())
     yield core.shortest_turn(Dragon(3), 1.7)
+    yield core.deepest_turn(Dragon(3), 1.7)
+    yield core.turn_time(Dragon(3), Turn(1.7))
     yield core.pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 2), start_turns=8.0)
     report = core.check(DANCE, venue=SQUARE)
     yield from (report, *report.failures, report.venue)

@@ -54,6 +54,10 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
+    core.deepest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
+    core.quickest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "speed_limit": 2.0},
+    core.turn_length_bounds: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0},
+    core.turn_time: {"dragon": DRAGON, "path": core.Turn(1.7), "speed_limit": 2.0},
     core.tolerance: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.tolerance_curve: {"dragon": DRAGON, "pitches": [0.9], "turning_radius": 4.5, "start_turns": 6.0},
     core.trajectory: {"dance": DANCE, "times": [0.0]},
@@ -110,9 +114,15 @@ WRONG = {
 # None stands for a default there, and these are right there.
 ALLOWED = {
     ("nothing", name)
-    for name in ("venue", "speed_limit", "start", "step", "stop", "entry_radius", "start_heading", "end_heading")
-}
+    for name in ("venue", "speed_limit", "start", "step", "stop", "entry_radius", "exit_radius", "ratio")
+} | {("nothing", name) for name in ("start_heading", "end_heading")}
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
+
+
+# Places where nothing is refused although it is taken elsewhere.
+SPELLED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
+SPELLED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
+SPELLED |= {(core.deepest_turn, "ratio"), (core.turn_length_bounds, "ratio")}
 
 
 def spoken(call: Callable[..., Any]) -> str:
@@ -141,7 +151,7 @@ def test_every_public_function_is_called() -> None:
 @pytest.mark.parametrize("call", CALLS, ids=spoken)
 def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any]) -> None:
     for name, (kind, wrong) in product(CALLS[call], WRONG.items()):
-        if (kind, name) in ALLOWED and not (call in (core.Legs, core.Line, core.Route) and name == "start"):
+        if (kind, name) in ALLOWED and (call, name) not in SPELLED:
             continue
         expected = SPOKEN.get(call, {}).get(name, name)
         refused = refusal(call, **{**CALLS[call], name: wrong})

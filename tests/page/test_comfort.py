@@ -140,14 +140,15 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     shows(page, "#head-speed .value", f"{fastest['head_speed']:.9f} m/s")
     asked = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
     shortest = polite.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
-    shows(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
+    shows(page, "#shortest-turn .value", f"{shortest['length']:.6f} m")
     # Boxes that are drawn anew under the mouse take no click; and another entry has another speed.
     settled(page)
     page.get_by_role("button", name="Dance at this speed").click()
     assert float(page.locator("#head_speed").input_value()) == pytest.approx(fastest["head_speed"], abs=1e-6)
     settled(page)
-    page.get_by_role("button", name="Begin the turn there").click()
-    assert float(page.locator("#entry_radius").input_value()) == shortest["entry_bracket"][1]
+    page.get_by_role("button", name="Dance this turn").click()
+    assert float(page.locator("#entry_radius").input_value()) == shortest["entry_radius"]
+    assert float(page.locator("#exit_radius").input_value()) == shortest["exit_radius"]
     shows(page, "#first-contact .value", "Nothing touches")
     settled(page)
     page.get_by_role("button", name="Dance the spiral of this pitch").click()

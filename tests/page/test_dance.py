@@ -359,7 +359,7 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, server: str) 
     text_of(page, "#highest-speed .value", f"{report['highest_speed']['speed']:.6f} m/s")
     text_of(page, "#clock", f"{report['stop']:.6f} s")
     shortest = polite.get(f"{server}/shortest-turn", params={"pitch": 1.7, "benches": 20}).raise_for_status().json()
-    text_of(page, "#shortest-turn .value", f"{shortest['entry_radius']:.6f} m")
+    text_of(page, "#shortest-turn .value", f"{shortest['length']:.6f} m")
     reached(page.locator("#keep"))
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()

@@ -192,7 +192,7 @@ def test_the_second_workbook_holds_the_dance_at_first_contact(chinese: Path) -> 
 
 def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, Path]) -> None:
     given = json.loads((kit[1] / "answers.json").read_bytes())
-    assert [one["question"] for one in given] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 4, 5]
+    assert [one["question"] for one in given] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 4, 4, 4, 4, 5]
     contact = next(one for one in given if one["question"] == 2)
     pitch = next(one for one in given if one["question"] == 3)
     speed = next(one for one in given if one["question"] == 5)
@@ -203,11 +203,16 @@ def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, P
         low, high = one["bracket"]
         assert low <= one["value"] <= high
         assert high - low < 2e-9
-    length, shorter = [one["value"] for one in given if one["question"] == 4][:2]
+    length, shorter, saved, even, own_time, short_time, quick_time = (
+        one["value"] for one in given if one["question"] == 4
+    )
     assert length == pytest.approx(13.6212449, abs=5e-8)
-    assert shorter < length
-    # bench-dragon shortest-turn --pitch 1.7 --turning-diameter 9 --ratio 1
-    assert [one["value"] for one in given if one["question"] == 4][3] == pytest.approx(8.452013342, abs=1e-9)
+    # bench-dragon shortest-turn --pitch 1.7 --turning-diameter 9, and with --ratio 1
+    assert shorter == pytest.approx(11.799152353, abs=1e-8)
+    assert saved == length - shorter
+    assert even == pytest.approx(8.223983925, abs=1e-8)
+    assert quick_time < own_time < short_time
+    assert (own_time, short_time) == (pytest.approx(10.92964, abs=1e-5), pytest.approx(12.09719, abs=1e-5))
     assert all(one["how"] for one in given)
 
 
@@ -250,7 +255,7 @@ def test_the_report_ties_everything_together(kit: tuple[str, Path]) -> None:
     links = re.findall(r"\]\(([^)]+)\)", page)
     assert {link for link in links if not (folder / link).is_file()} == set()
     assert len(links) > 40
-    for number in ("412.473837682", "0.450337393", "13.6212449", "8.4520133", "1.246266358"):
+    for number in ("412.473837682", "0.450337393", "13.6212449", "8.2239839", "1.246266358"):
         assert number in page
     assert ("板凳" in page) is (language == "zh")
     rows = {

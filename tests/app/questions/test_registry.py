@@ -44,7 +44,7 @@ def maximum_head_speed() -> dict[str, Any]:
 
 
 def shortest_turn() -> dict[str, Any]:
-    found = core.shortest_turn(Dragon(14, 1.6, 1.6), 1.2, margin=0.1)
+    found = core.deepest_turn(Dragon(14, 1.6, 1.6), 1.2, margin=0.1)
     assert found.limited_by is core.TurnLimit.CONTACT
     return told(found, "entry_bracket", "benches", "time", "evaluations") | {"length": found.turn.length}
 
@@ -57,7 +57,12 @@ ASKED: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
     "course": ({"dragon": {"benches": 20}, "path": {"kind": "waypoints", "points": POINTS}}, course),
     "maximum_head_speed": ({"dragon": {"benches": 20}, "speed_limit": 1.5}, maximum_head_speed),
     "shortest_turn": (
-        {"dragon": {"benches": 14, "head_length": 1.6, "body_length": 1.6}, "pitch": 1.2, "margin": 0.1},
+        {
+            "dragon": {"benches": 14, "head_length": 1.6, "body_length": 1.6},
+            "pitch": 1.2,
+            "margin": 0.1,
+            "exit_opposite": True,
+        },
         shortest_turn,
     ),
 }

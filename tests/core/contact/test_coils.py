@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-import core.design.shortest_turn
+import core.design.deepest_turn
 from core import (
     Dance,
     Dragon,
@@ -63,7 +63,7 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart
     for margin in np.linspace(0.0, min(0.5 * pitch - 0.35, 0.55), 5):
-        clear = rings_clear(dragon, core.design.shortest_turn.coils_of(danced), margin)
+        clear = rings_clear(dragon, core.design.deepest_turn.coils_of(danced), margin)
         assert clear is not None
         radii.append(clear)
         one = shapely.STRtree(poses_on(Spiral(pitch, 16), 0.0, 60, clear))
@@ -71,4 +71,4 @@ def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(
             other = poses_on(Spiral(pitch, 16), math.pi, 60, clear + shift)
             assert one.query_nearest(other, return_distance=True)[1].min() > margin
     assert radii == sorted(radii)
-    assert rings_clear(dragon, core.design.shortest_turn.coils_of(danced), 0.5 * pitch - 0.3) is None
+    assert rings_clear(dragon, core.design.deepest_turn.coils_of(danced), 0.5 * pitch - 0.3) is None

@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from core import (
+    Coil,
     Dance,
     Dragon,
     InvalidValue,
+    Route,
     Turn,
     first_contact,
     least_clearance,
@@ -37,9 +39,20 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference value
         ),
         ({"pitch": 1e-3, "turning_radius": 1e-3}, "turning_radius", 1e-3),
         ({"pitch": 1e-3, "turning_radius": 0.01, "entry_radius": 1e-3}, "entry_radius", 1e-3),
+        ({"pitch": 1.7, "exit_radius": 4.6}, "exit_radius", 4.6),
+        ({"pitch": 1.7, "ratio": 100, "entry_radius": 1.0, "exit_radius": 4.0}, "exit_radius", 4.0),
         ({"pitch": 1e4, "start_turns": 200.0}, "start_turns", 200.0),
     ],
-    ids=["inside the circle", "on the circle", "an arc too small", "the circle", "the entry", "a coil too long"],
+    ids=[
+        "inside the circle",
+        "on the circle",
+        "an arc too small",
+        "the circle",
+        "the entry",
+        "the exit",
+        "arcs outside",
+        "a coil too long",
+    ],
 )
 def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
     with pytest.raises(InvalidValue) as refused:
@@ -63,6 +76,57 @@ def test_turns_with_the_same_pieces_differ_by_their_turning_circles() -> None:
     assert one == same
     assert one.pieces == wider.pieces
     assert one != wider
+
+
+# Turns with their own exit, found on a grid: ratio, radii of entry and exit, length of both arcs [m].
+FREE = [
+    (2.0, 4.290, 4.498, 11.8105),
+    (1.5, 4.044, 4.486, 9.4153),
+    (1.2, 3.954, 4.474, 8.6309),
+    (1.0, 4.462, 3.900, 8.2271),
+    (0.8, 4.310, 3.828, 8.7917),
+]
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize(("ratio", "entry", "leaving", "length"), FREE, ids=lambda value: f"{value:g}")
+def test_a_free_exit_leaves_on_the_coil_outwards_in_its_direction(
+    ratio: float, entry: float, leaving: float, length: float
+) -> None:
+    turn = Turn(1.7, ratio=ratio, entry_radius=entry, exit_radius=leaving)
+    assert (turn.entry_radius, turn.exit_radius) == (entry, leaving)
+    assert turn.length == pytest.approx(length, abs=5e-5)
+    assert turn.radii[0] / turn.radii[1] == pytest.approx(ratio, rel=1e-14)
+    coil = Route([Coil(1.7, leaving / 1.7, 16.0, rotation=np.pi)])
+    s = turn.joints[2] - turn.joints[0]
+    assert turn.position(s) == pytest.approx(coil.position(0.0), abs=1e-12)
+    assert turn.tangent(s) == pytest.approx(coil.tangent(0.0), abs=1e-12)
+    places = np.linspace(0.0, turn.length, 20_001)
+    furthest = np.linalg.norm(turn.position(places), axis=-1).max()
+    assert furthest <= 4.5 + 1e-9
+    assert first_contact(Dance(Dragon(), turn), start=-100.0, stop=500.0).time is None
+
+
+@pytest.mark.uncompiled
+def test_an_exit_equal_to_the_entry_is_the_default() -> None:
+    assert Turn(1.7, entry_radius=4.3, exit_radius=4.3) == Turn(1.7, entry_radius=4.3)
+    near = Turn(1.7, entry_radius=4.3, exit_radius=4.3 + 1e-9)
+    assert near.length == pytest.approx(Turn(1.7, entry_radius=4.3).length, abs=1e-7)
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize(
+    ("ratio", "entry", "leaving"), [(2.598, 1.853, 4.403), (0.288, 4.395, 1.672), (3.921, 1.557, 4.317)]
+)
+def test_arcs_that_leave_the_circle_are_refused_with_their_distance(ratio: float, entry: float, leaving: float) -> None:
+    """On a larger circle the same arcs are accepted, and samples of them say how far they go."""
+    arcs = Turn(1.7, 20.0, ratio, entry_radius=entry, exit_radius=leaving)
+    furthest = np.linalg.norm(arcs.position(np.linspace(0.0, arcs.length, 200_001)), axis=-1).max()
+    with pytest.raises(InvalidValue, match=r"^exit_radius must leave the arcs inside the circle") as refused:
+        Turn(1.7, 4.5, ratio, entry_radius=entry, exit_radius=leaving)
+    assert f"up to {furthest:.6g} m from its centre, more than 4.5 m" in refused.value.message
+    just = Turn(1.7, furthest + 1e-6, ratio, entry_radius=entry, exit_radius=leaving)
+    assert just.length == arcs.length
 
 
 @pytest.mark.uncompiled

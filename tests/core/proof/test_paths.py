@@ -7,8 +7,9 @@ import math
 
 import numpy as np
 import pytest
+from flint import arb
 
-from core import Arc, Coil, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints
+from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, trajectory
 from core.proof.chain import Chain
 from core.proof.paths import chain_on, core_path, described, recorded_path
 from core.proof.route import RouteChain
@@ -17,6 +18,10 @@ BEND = Arc((30.0, 3.0), 3.0, -math.pi / 2, 1.0)
 PATHS: dict[str, tuple[Spiral | Route, str]] = {
     "spiral": (Spiral(0.55, 16.0), "the spiral of pitch 0.55 m inwards from 16 turns"),
     "turn": (Turn(1.7, ratio=1.5, entry_radius=4.2), "the turn of ratio 1.5, which it enters 4.2 m from the centre"),
+    "free turn": (
+        Turn(1.7, ratio=1.2, entry_radius=3.96, exit_radius=4.47),
+        "which it enters 3.96 m from the centre at 0 s and leaves 4.47 m from it",
+    ),
     "route": (
         Route([Line((0.0, 0.0), (30.0, 0.0)), BEND], 7.0),
         "2 pieces (line, arc), joined exactly, its s = 0 at 7",
@@ -40,6 +45,19 @@ def test_a_path_reads_back_from_json_to_the_last_bit(path: Spiral | Route, words
 def test_a_spiral_has_its_own_chain_and_everything_else_that_of_a_route(path: Spiral | Route, _: str) -> None:
     chain = chain_on(Dragon(5), recorded_path(path), 0.0)
     assert type(chain) is (Chain if isinstance(path, Spiral) else RouteChain)
+
+
+@pytest.mark.parametrize("leaving", [4.49, 3.9, 4.2])
+def test_the_arcs_of_a_turn_with_its_own_exit_are_those_of_core(leaving: float) -> None:
+    """The chain in balls has the separations of handles that core computes: it does not depend on the frame."""
+    turn, dragon = Turn(1.7, ratio=1.1, entry_radius=4.3, exit_radius=leaving), Dragon(4)
+    chain = chain_on(dragon, recorded_path(turn), 0.0)
+    for time in (-3.0, 2.0, 6.0, 9.0, 14.0):
+        pose = chain.pose_at(0, arb(-time))
+        pose.grow_to(dragon.benches)
+        known = trajectory(Dance(dragon, turn), [time]).position[0]
+        places = np.array([-float(place) for place in pose.places[: dragon.benches + 1]])
+        assert turn.position(places) == pytest.approx(known, abs=1e-9)
 
 
 @pytest.mark.parametrize("before", [0, 1])

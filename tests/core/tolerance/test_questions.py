@@ -16,10 +16,10 @@ from core import (
     Stray,
     Turn,
     check,
+    deepest_turn,
     first_contact,
     least_clearance,
     minimum_pitch,
-    shortest_turn,
     tolerance,
     venue_clearance,
 )
@@ -71,7 +71,7 @@ QUESTIONS: dict[str, Any] = {
     "through the turn": lambda **given: first_contact(Dance(Dragon(30), Turn(0.9)), **given),
     "least clearance": lambda **given: least_clearance(DANCE, stop=300.0, **given),
     "minimum pitch": lambda **given: minimum_pitch(Dragon(), **given),
-    "shortest turn": lambda **given: shortest_turn(Dragon(3), 1.7, **given).turn.entry_radius,
+    "shortest turn": lambda **given: deepest_turn(Dragon(3), 1.7, **given).turn.entry_radius,
     "venue": lambda **given: venue_clearance(Dance(LAPPING, LAP), VENUE, **given),
     "check": lambda **given: check(DANCE, **given),
 }

@@ -1,0 +1,190 @@
+"""The quickest turn: how long the head takes through a turn if no handle may exceed a speed.
+
+The head goes at one speed, as fast as the limit allows: the limit over the highest rate, the speed of the fastest
+handle over that of the head (core/motion/speed.py). So a turn of length L takes the time L rate / limit. A short turn
+bends tightly, and where the curvature jumps from one arc to the other, handles behind the head are the fastest: so the
+shortest turn is not the quickest.
+
+Scanned, not proven: the time is computed on a grid of entries and exits by samples of the rate, and then lowered from
+the best places of the grid by steps that halve. The rate of the answer is proven, and so is that nothing touches.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from core.contact.answer import Outcome
+from core.contact.search import MARGIN_MAX
+from core.dance import Dance
+from core.design.deepest_turn import contact_in, refuse_bend
+from core.design.turn_boxes import sizes_of
+from core.design.turn_moves import least_bend
+from core.dragon import Dragon, told_chords
+from core.errors import InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities, too_much
+from core.kernels import Budget, Halted
+from core.motion.speed import checked_limit, maximum_head_speed
+from core.motion.trajectory import trajectory
+from core.paths.following import follows
+from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
+from core.shown import Readable, worded
+
+# Step of the grid of entry and exit radii, as a part of the circle's radius [1].
+GRID = 0.02
+# Step of the samples of a rate [m of head travel]; handles after the first ones do not go faster on a turn.
+SAMPLE, LEADING = 0.1, 16
+# Places of the grid from which the time is lowered, and the width to which [m].
+PLACES, WIDTH = 4, 1e-4
+# Travel of the head before and after the turn in which the highest rate is looked for [m].
+BESIDE = 100.0
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class TurnTime(Readable):
+    """How long a turn takes: length [m]; head_speed: the largest at which no handle exceeds the limit [m/s]; time: of
+    the head from the entry to the exit at that speed [s]; handles: those that reach the limit, at once."""
+
+    turn: Turn
+    length: float
+    head_speed: float
+    time: float
+    handles: tuple[int, ...]
+
+    def _line(self) -> str:
+        places = f"entry {worded(self.turn.entry_radius, 'm')}, exit {worded(self.turn.exit_radius, 'm')}"
+        speed = f"head at most at {worded(self.head_speed, 'm/s')}"
+        return f"{worded(self.time, 's')} for {worded(self.length, 'm')}, {speed}, {places}"
+
+
+@asked_of("dragon", Dragon)
+def turn_time(dragon: Dragon, path: Turn, speed_limit: float = 2.0, *, budget: Budget | None = None) -> TurnTime:
+    """How long the head takes through a turn if no handle may exceed a speed.
+
+    path: the turn; speed_limit: [m/s]
+    raises: InvalidValue for a bend that a bench cannot follow; TooMuchWork
+
+    >>> answer = turn_time(Dragon(), Turn(1.7))
+    >>> round(answer.length, 4), round(answer.head_speed, 4), round(answer.time, 3)
+    (13.6212, 1.2463, 10.93)
+    """
+    limit = checked_limit(speed_limit)
+    dance = Dance(dragon, path)
+    start, stop = max(-BESIDE, dance.begin), min(path.length + BESIDE, path.end)
+    found = maximum_head_speed(dance, limit, start=start, stop=stop, budget=budget)
+    return TurnTime(path, path.length, found.head_speed, path.length / found.head_speed, found.handles)
+
+
+@asked_of("dragon", Dragon)
+def quickest_turn(
+    dragon: Dragon,
+    pitch: float,
+    turning_radius: float = 4.5,
+    ratio: float = 2.0,
+    *,
+    speed_limit: float = 2.0,
+    start_turns: float = 16.0,
+    margin: float = 0.0,
+    budget: Budget | None = None,
+) -> TurnTime:
+    """The quickest turn of two arcs inside the circle that was found on a grid of entries and exits, then refined.
+
+    pitch, turning_radius, margin [m]; speed_limit: of every handle [m/s]; ratio: radius of the first arc over that of
+    the second; start_turns: of the coils
+    It is proven that nothing touches in it, and that no handle exceeds the limit; not that no turn is quicker.
+    raises: TooMuchWork; InvalidValue (turning_radius) if none of the tried turns can be danced
+    """
+    radius, pitch, limit = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch), speed_limit
+    limit = checked_limit(limit)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
+    Turn(pitch, radius, ratio, start_turns=start_turns)  # refuses what no turn can have
+    search = _Times(dragon, (pitch, radius, ratio, start_turns), margin, budget or Budget())
+    try:
+        turn = search.quickest()
+    except Halted as halted:
+        rule = "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to"
+        told = told_chords(dragon)
+        raise too_much(
+            search.budget, "turning_radius", rule + " {longest} long", Quantity(radius, "m"), **told
+        ) from halted
+    if turn is None:
+        refuse_bend(dragon, Turn(pitch, radius, ratio, start_turns=start_turns))
+        why = "in every turn that was tried inside it benches come within {margin}"
+        raise InvalidValue(
+            "turning_radius", f"must be larger, or the pitch: {why}", **quantities("m", got=radius, margin=margin)
+        )
+    return turn_time(dragon, turn, limit, budget=budget)
+
+
+class _Times:
+    """Search for the quickest turn: times are computed for a speed limit of 1 m/s."""
+
+    def __init__(self, dragon: Dragon, asked: tuple[float, float, float, float], margin: float, budget: Budget) -> None:
+        self.dragon, self.margin, self.budget = dragon, margin, budget
+        self.pitch, self.radius, self.ratio, self.start_turns = asked
+        self.front = dragon.leading(min(dragon.benches, LEADING))
+        self.known: dict[tuple[float, float], float] = {}
+
+    def quickest(self) -> Turn | None:
+        """The quickest turn that can be danced; None if none of the tried ones can."""
+        timed = sorted((self.time(place), place) for place in self._grid())
+        best: tuple[float, Turn] | None = None
+        tried = 0
+        for time, place in timed:
+            if tried >= PLACES or (best is not None and time >= best[0] * (1.0 + GRID)):
+                break
+            lowered, at = self._lowered(time, place)
+            turn = self._turn(at)
+            if turn is None or (best is not None and lowered >= best[0]):
+                continue
+            touch = contact_in(self.budget, self.dragon, turn, self.margin, 0.0)
+            if touch.outcome is Outcome.CLEAR:
+                best, tried = (lowered, turn), tried + 1
+        return None if best is None else best[1]
+
+    def _grid(self) -> list[tuple[float, float]]:
+        """Entry and exit radii of turns that benches can follow [m]."""
+        growth, radii = self.pitch / (2.0 * math.pi), self.radius * np.arange(1.0, 0.2, -GRID)
+        entry, leaving = (axis.ravel() for axis in np.meshgrid(radii, radii))
+        log_ratio = np.full(entry.size, math.log(self.ratio))
+        sizes = sizes_of(growth, entry, (leaving - entry) / growth, log_ratio)
+        fits = np.flatnonzero(sizes[:2].min(axis=0) >= least_bend(self.dragon))
+        return [(float(entry[k]), float(leaving[k])) for k in fits]
+
+    def time(self, place: tuple[float, float]) -> float:
+        """Length of the turn at a place times the highest sampled rate [m]; infinite if it cannot be followed."""
+        if place not in self.known:
+            self.budget.look()
+            turn = self._turn(place)
+            self.known[place] = math.inf if turn is None else turn.length * self._rate(turn)
+        return self.known[place]
+
+    def _rate(self, turn: Turn) -> float:
+        times = np.arange(0.0, turn.length + float(self.front.chords.sum()), SAMPLE)
+        return float(trajectory(Dance(self.front, turn), times, budget=self.budget).speed.max())
+
+    def _turn(self, place: tuple[float, float]) -> Turn | None:
+        """The turn at a place; None if it is refused or a bench cannot follow it."""
+        entry, leaving = (min(radius, self.radius) for radius in place)
+        about = {"start_turns": self.start_turns, "entry_radius": entry, "exit_radius": leaving}
+        try:
+            turn = Turn(self.pitch, self.radius, self.ratio, **about)
+        except InvalidValue:
+            return None
+        return turn if follows(self.dragon, turn) else None
+
+    def _lowered(self, time: float, place: tuple[float, float]) -> tuple[float, tuple[float, float]]:
+        """The time lowered by steps along both radii and both diagonals, which halve down to WIDTH."""
+        step = 0.5 * GRID * self.radius
+        while step > WIDTH:
+            around = [(place[0] + step * x, place[1] + step * y) for x, y in product((-1, 0, 1), repeat=2) if x or y]
+            around = [(min(x, self.radius), min(y, self.radius)) for x, y in around if min(x, y) > 0.0]
+            lower, at = min((self.time(one), one) for one in around)
+            if lower < time:
+                time, place = lower, at
+            else:
+                step *= 0.5
+        return time, place

@@ -1,0 +1,125 @@
+"""Turns in boxes of parameters: what closed forms say about all turns of a box at once.
+
+The parameters are the entry radius a [m], the turn v from entry to exit [rad], which is the polar angle of the exit's
+place on its coil less that of the entry's, and the logarithm of the ratio. So the exit radius is b = a + g v, g the
+growth. A turn of a and b by one angle is nearly a rotation of the whole, so a and v are better directions of a box
+than a and b.
+
+In the frame that rotates with the entry (its direction is the x axis), with complex numbers for points:
+    E = a,  n = (i - t) / sqrt(1 + t^2),  t = a / g;
+    -X = b e^(iv),  n' = e^(iv) (i - t') / sqrt(1 + t'^2),  t' = b / g.
+With D, A, B, r2 as in core/paths/turn.py; w = C2 - C1 = -(D + r1 n + r2 n') has the length r1 + r2. The first arc turns
+clockwise from -n to w, the second one counter-clockwise from -w to n':
+    alpha1 = arg(-n conj(w)),  alpha2 = arg(-n' conj(w)),  from 0 to 2 pi,  length L = r1 alpha1 + r2 alpha2.
+
+Both angles are followed without jumps from their values at the middle of the box. A turn of the box whose angle so
+followed is outside [0, 2 pi) has it 2 pi larger or smaller; `whole` says that none is.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.design.spans import Known, Span, angle_slopes, mean_value, parameters
+from core.values import Floats
+
+# Rounding of all closed forms here [m], [rad]: sizes are below 1e4 m and their errors some 1e-16 of them.
+ROUNDING = 1e-11
+# Largest room that a constraint has where it just holds [m].
+JUST = 1e-6
+
+
+@dataclass(frozen=True)
+class Turns:
+    """What is known about all turns of each box, (N,): the sizes at the middles, and intervals over the boxes.
+
+    middle: (6, N) r1, r2 [m], alpha1, alpha2 [rad], length, exit radius [m] at the middles
+    radii [m], angles [rad], arcs [m]: of the first and second arc, their lengths; length, exit [m]
+    slopes: derivatives of r1, r2 and the length by the three parameters
+    whole: True where neither angle of a turn of the box leaves [0, 2 pi)
+    """
+
+    middle: Floats
+    radii: tuple[Span, Span]
+    angles: tuple[Span, Span]
+    arcs: tuple[Span, Span]
+    length: Span
+    exit: Span
+    slopes: tuple[tuple[Span, ...], ...]
+    whole: NDArray[np.bool_]
+
+
+def sizes_of(growth: float, entry: Floats, turned: Floats, log_ratio: Floats) -> Floats:
+    """r1, r2 [m], alpha1, alpha2 [rad], length, exit radius [m] of turns, (6, N)."""
+    ratio = np.exp(log_ratio)
+    leaving = entry + growth * turned
+    t, u, around = entry / growth, leaving / growth, np.exp(1j * turned)
+    n, m = (1j - t) / np.hypot(1.0, t), around * (1j - u) / np.hypot(1.0, u)
+    apart, both = entry + leaving * around, ratio * n + m
+    level, squared = (apart * both.conj()).real, np.abs(apart) ** 2
+    curved = 2.0 * ratio * (1.0 - (n * m.conj()).real)
+    root = np.sqrt(level**2 + curved * squared)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        least = np.where(level < 0.0, squared / (root - level), (root + level) / np.maximum(curved, 1e-30))
+        towards = -(apart + least * both)
+        angles = [np.angle(-normal * towards.conj()) % (2.0 * math.pi) for normal in (n, m)]
+    return np.array([ratio * least, least, *angles, ratio * least * angles[0] + least * angles[1], leaving])
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def turns_in(growth: float, centres: Floats, halves: Floats) -> Turns:
+    """What closed forms say about boxes. centres, halves: (3, N) of a [m], v [rad], log ratio [1].
+
+    Where they say nothing, a number is infinite or NaN, and no comparison with it holds.
+    """
+    middle = sizes_of(growth, *centres)
+    a, v, logarithm = parameters(centres, halves)
+    ratio = logarithm.exponential()
+    b = a + v.scaled(growth)
+    t, u, sine, cosine = a.scaled(1.0 / growth), b.scaled(1.0 / growth), v.sine(), v.cosine()
+    over, under = t.squared().plus(1.0).root().inverse(), u.squared().plus(1.0).root().inverse()
+    nx, ny = -t * over, over
+    mx, my = -(u * cosine + sine) * under, (cosine - u * sine) * under
+    dx, dy = a + b * cosine, b * sine
+    squared = a.squared() + b.squared() + (a * b * cosine).scaled(2.0)
+    level = ratio * (dx * nx + dy * ny) + dx * mx + dy * my
+    curved = -((ratio * (nx * mx + ny * my).plus(-1.0)).scaled(2.0))
+    root = (level.squared() + curved * squared).root()
+    least = squared / (root - level)
+    r2 = _on(middle[1], least, halves)
+    r1 = _on(middle[0], ratio * r2, halves)
+    wx, wy = -(dx + r1 * nx + r2 * mx), -(dy + r1 * ny + r2 * my)
+    length = (r1 + r2).value.squared()
+    angles = []
+    for k, (px, py) in enumerate(((nx, ny), (mx, my))):
+        x, y = -(px * wx + py * wy), -(py * wx - px * wy)  # of -n conj(w)
+        slopes = angle_slopes(x, y, length)
+        angles.append(Known(_allowed(mean_value(middle[2 + k], slopes, halves)), slopes))
+    arcs = [r * angle for r, angle in zip((r1, r2), angles, strict=True)]
+    total = arcs[0] + arcs[1]
+    lows, highs = (np.array([getattr(angle.value, end) for angle in angles]) for end in ("low", "high"))
+    return Turns(
+        middle,
+        (r1.value, r2.value),
+        (angles[0].value, angles[1].value),
+        (_on(middle[0] * middle[2], arcs[0], halves).value, _on(middle[1] * middle[3], arcs[1], halves).value),
+        _on(middle[4], total, halves).value,
+        b.value,
+        (r1.slopes, r2.slopes, total.slopes),
+        np.asarray((lows >= 0.0).all(axis=0) & (highs < 2.0 * math.pi).all(axis=0)),
+    )
+
+
+def _on(at: Floats, known: Known, halves: Floats) -> Known:
+    """The quantity with its value also from the mean value form, where that is narrower."""
+    form = mean_value(at, known.slopes, halves)
+    low, high = np.fmax(form.low, known.value.low), np.fmin(form.high, known.value.high)
+    return Known(_allowed(Span(low, high)), known.slopes)
+
+
+def _allowed(span: Span) -> Span:
+    return Span(span.low - ROUNDING, span.high + ROUNDING)

@@ -1,0 +1,55 @@
+"""Turns in boxes: every turn of a box has its sizes within the box's, and is not shorter than its lower bounds."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import Turn
+from core.design.turn_bounds import Multipliers, lower_lengths
+from core.design.turn_boxes import sizes_of, turns_in
+
+GROWTH = 1.7 / (2.0 * math.pi)
+BOXES, PLACES = 1_500, 30
+LEAST = 1.43 / 0.999  # [m], the bend that the contest's head can follow
+ROUNDED = 1e-9  # [m], [rad]
+
+
+def boxes(rng: np.random.Generator, largest: float) -> tuple[np.ndarray, np.ndarray]:
+    middles = [rng.uniform(1.5, 4.5, BOXES), rng.uniform(-6.0, 6.0, BOXES), rng.uniform(-0.6, 0.8, BOXES)]
+    centres, halves = np.array(middles), rng.uniform(0.0, largest, (3, BOXES))
+    inside = centres[0] + GROWTH * centres[1] > 1.2
+    return centres[:, inside], halves[:, inside]
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize(("ratio", "entry", "leaving"), [(2.0, 4.3, 4.5), (0.8, 4.3, 3.83), (1.3, 2.3, 4.4)])
+def test_the_sizes_are_those_of_the_turn(ratio: float, entry: float, leaving: float) -> None:
+    turn = Turn(1.7, 9.0, ratio, entry_radius=entry, exit_radius=leaving)
+    found = sizes_of(GROWTH, *np.array([[entry], [(leaving - entry) / GROWTH], [math.log(ratio)]]))[:, 0]
+    assert found == pytest.approx([*turn.radii, *turn.angles, turn.length, leaving], abs=ROUNDED)
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize("largest", [0.002, 0.05, 0.3])
+def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: float) -> None:
+    rng = np.random.default_rng(3)
+    centres, halves = boxes(rng, largest)
+    turns, followed = turns_in(GROWTH, centres, halves), 0
+    lows = lower_lengths(turns)
+    weighted = Multipliers(GROWTH, LEAST, 4.5, np.array([2.0, 5.0, 0.3, 0.1])).lower(turns, centres, halves)
+    for _ in range(PLACES):
+        at = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
+        sizes = sizes_of(GROWTH, *at)
+        for span, size in zip((*turns.radii, turns.exit), (sizes[0], sizes[1], sizes[5]), strict=True):
+            assert not ((size < span.low - ROUNDED) | (size > span.high + ROUNDED)).any()
+        for span, size in zip((*turns.angles, turns.length), sizes[2:5], strict=True):
+            outside = (size < span.low - ROUNDED) | (size > span.high + ROUNDED)
+            assert not (outside & turns.whole).any()
+        followed += int(turns.whole.sum())
+        assert (sizes[4] >= lows - ROUNDED).all()
+        counts = (sizes[:2].min(axis=0) >= LEAST) & (np.maximum(at[0], sizes[5]) <= 4.5)
+        assert (sizes[4] >= weighted - ROUNDED)[counts].all()
+    assert followed > 0.05 * PLACES * centres.shape[1]

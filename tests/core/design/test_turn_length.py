@@ -1,0 +1,40 @@
+"""Lengths between which the shortest turn is justifiable: what others found is between, what cannot be is not."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import Dragon, InvalidValue, Turn, turn_length_bounds
+from core.design.turn_boxes import sizes_of
+
+GROWTH = 1.7 / (2.0 * math.pi)
+TIGHTEST = 1.43  # [m], half the chord of the contest's head
+GRID = 0.004  # [m]
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize("ratio", [2.0, 1.5, 1.1])
+def test_no_turn_on_a_grid_is_shorter_than_the_lower_bound(ratio: float) -> None:
+    low, high = turn_length_bounds(Dragon(), 1.7, ratio=ratio)
+    assert high == Turn(1.7, ratio=ratio).length
+    entry, leaving = (axis.ravel() for axis in np.meshgrid(*[np.arange(1.3, 4.5 + 1e-12, GRID)] * 2))
+    sizes = sizes_of(GROWTH, entry, (leaving - entry) / GROWTH, np.full(entry.size, math.log(ratio)))
+    shortest = sizes[4][sizes[:2].min(axis=0) >= TIGHTEST].min()
+    assert low <= shortest <= low + 15.0 * GRID
+
+
+@pytest.mark.uncompiled
+def test_lengths_that_others_found_are_between() -> None:
+    low, high = turn_length_bounds(Dragon(), 1.7)
+    for length in (11.7915, 11.8105, 11.8336, 12.9494379, 13.6212449):
+        assert low <= length <= high + 5e-8
+    assert low > 11.77
+
+
+@pytest.mark.uncompiled
+def test_a_turn_too_tight_for_any_arc_is_refused() -> None:
+    with pytest.raises(InvalidValue, match="turning_radius"):
+        turn_length_bounds(Dragon(), 1e-3, 1e-3)
