@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from core import kernels
 from core.dragon import Dragon
+from core.error_free import paired, two_product, two_sum
 from core.errors import (
     Given,
     InvalidValue,
@@ -122,6 +123,20 @@ class Clock:
         travels = np.array(self.travels)[node] + (times - np.array(self.times)[node]) * np.array(self.speeds)[k]
         found: Floats = travels / self.head_speed
         return found
+
+    def exact_travels(self, times: Floats) -> Floats:
+        """Travels of the head at times (T,) in double-double (T, 2) [m].
+
+        Those at the ends of passages are doubles, so that only these have a rounding.
+        """
+        if not self.passages:
+            return paired(*two_product(times, np.full_like(times, self.head_speed)))
+        k = np.searchsorted(self.times, times, side="right")
+        node, speeds = np.maximum(k - 1, 0), np.array(self.speeds)[k]
+        since, lost = two_sum(times, -np.array(self.times)[node])
+        way, more = two_product(since, speeds)
+        travel, rest = two_sum(np.array(self.travels)[node], way)
+        return paired(travel, rest + (more + lost * speeds))
 
     def of_steady(self, time: float) -> float:
         """First time at which the head is at its place at a time of the steady dance [s]."""

@@ -164,7 +164,7 @@ def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
     shape = (held.size, dragon.benches + 1)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-    s, last, columns = held * dance.head_speed, dance.end.theta or 0.0, (position, velocity, speed)
+    s, last, columns = dance.clock.exact_travels(held), dance.end.theta or 0.0, (position, velocity, speed)
     budget.afford(float(speed.size))
     before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, columns, budget)
     budget.look()

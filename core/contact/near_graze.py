@@ -1,6 +1,6 @@
 """Two benches to 30 digits, for contacts so near a graze that the rounding of doubles hides their beginning.
 
-The model is that of the kernels: their doubles (growth, chords, the table of a route) are taken as exact, and the chain
+The model is that of the kernels: their doubles (chords, the table of a route) are taken as exact, and the chain
 is solved again in decimal arithmetic, starting from the kernels' result. Curves through waypoints are not covered,
 because their arc length is itself a quadrature.
 
@@ -30,7 +30,9 @@ from core.kernels.constants import (
     CENTRE_Y,
     CHORD,
     COIL_ARC,
+    COIL_ARC_LOW,
     COIL_GROWTH,
+    COIL_GROWTH_LOW,
     COIL_ROTATION,
     CREST,
     CUBIC,
@@ -43,7 +45,9 @@ from core.kernels.constants import (
     LINE_Y,
     PIECE_KIND,
     S_START,
+    S_START_LOW,
     SIGN,
+    SPIRAL,
     TX,
     UX,
 )
@@ -130,10 +134,13 @@ class ExactPair:
         self.search, self.pair = search, pair
         path = search.path
         self.pieces = [[Decimal(number) for number in row] for row in path.as_route(path.end).table.tolist()]
-        if path.spiral is not None:  # growth and start_theta are doubles, but their arc length is not
-            with localcontext() as context:
-                context.prec = DIGITS
-                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * _arc(Decimal(path.spiral.start_theta))
+        with localcontext() as context:
+            context.prec = DIGITS
+            for row in self.pieces:
+                row[S_START] += row[S_START_LOW]
+                if row[PIECE_KIND] == SPIRAL:
+                    row[COIL_ARC] += row[COIL_ARC_LOW]
+                    row[COIL_GROWTH] += row[COIL_GROWTH_LOW]
         kinds = {int(row[PIECE_KIND]) for row in self.pieces}
         self.can_follow = pair[1] <= LAST_BENCH and not kinds & {CUBIC, CREST}
 

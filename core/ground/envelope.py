@@ -47,6 +47,7 @@ from numpy.typing import NDArray
 from core import kernels
 from core.dance import Dance
 from core.dragon import Dragon
+from core.error_free import paired
 from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
@@ -263,7 +264,7 @@ class _Lone:
         """Corners (N, 4, 2) at places (N,) [m]."""
         shape = (s.size, 2)
         position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-        self.path.handles(s, self.last, self.dragon.chords, 1.0, (position, velocity, speed), self.budget)
+        self.path.handles(paired(s), self.last, self.dragon.chords, 1.0, (position, velocity, speed), self.budget)
         self.budget.look()
         return bench_outlines(self.dragon, position)[:, 0]
 

@@ -128,18 +128,18 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     (224, 2)
     """
     dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
-    time, handles = dance.clock.steady(asked.reshape(-1)), dragon.benches + 1
-    shape = (time.size, handles)
+    travels, handles = dance.clock.exact_travels(asked.reshape(-1)), dragon.benches + 1
+    shape = (len(travels), handles)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     block = dance.path.block
     batch = block * max(1, BATCH_WORK // (block * handles))
-    for first in range(0, time.size, batch):
-        rows = slice(first, first + batch)
-        budget.afford(float(handles * time[rows].size))
-        s, columns = time[rows] * dance.head_speed, (position[rows], velocity[rows], speed[rows])
+    for first in range(0, len(travels), batch):
+        s, rows = travels[first : first + batch], slice(first, first + batch)
+        budget.afford(float(handles * len(s)))
+        columns = position[rows], velocity[rows], speed[rows]
         before_fold = dance.path.handles(s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, columns, budget)
         budget.look()
-        if before_fold < time[rows].size:
+        if before_fold < len(s):
             raise dance.after_the_end(asked, first + before_fold)
     if dance.passages:
         share = dance.clock.speed(asked.reshape(-1)) / dance.head_speed

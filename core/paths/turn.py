@@ -80,11 +80,10 @@ class Turn(Route):
             Coil(pitch, here, turns, rotation=math.pi),
         )
         try:
-            route = Route(pieces)
-        except InvalidValue as error:  # every piece is valid, so the fault is in a joint
-            rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
-            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns")) from error
-        super().__init__(pieces, start=route.joints[0])
+            super().__init__(pieces, start=Route(pieces).joints[0])
+        except InvalidValue as error:  # every piece is valid, and every joint closes
+            rule, long = "must be smaller: no route may be {coil} long before its s = 0", Quantity(coil, "m", 6)
+            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), coil=long) from error
         self.pitch, self.turning_radius, self.ratio, self.entry_radius = pitch, radius, ratio, inner
         self.radii, self.centres, self.angles = radii, (_point(first), _point(second)), angles
         self.entry, self.tangent_point, self.exit = _point(entry), _point(middle), _point(-entry)
