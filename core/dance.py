@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 
 from core import kernels
 from core.dragon import Dragon
-from core.error_free import paired, two_product, two_sum
 from core.errors import (
     Given,
     InvalidValue,
@@ -33,7 +32,7 @@ from core.errors import (
     quantities,
     said,
 )
-from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes, words
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, exact_travels, nodes, words
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
@@ -125,18 +124,8 @@ class Clock:
         return found
 
     def exact_travels(self, times: Floats) -> Floats:
-        """Travels of the head at times (T,) in double-double (T, 2) [m].
-
-        Those at the ends of passages are doubles, so that only these have a rounding.
-        """
-        if not self.passages:
-            return paired(*two_product(times, np.full_like(times, self.head_speed)))
-        k = np.searchsorted(self.times, times, side="right")
-        node, speeds = np.maximum(k - 1, 0), np.array(self.speeds)[k]
-        since, lost = two_sum(times, -np.array(self.times)[node])
-        way, more = two_product(since, speeds)
-        travel, rest = two_sum(np.array(self.travels)[node], way)
-        return paired(travel, rest + (more + lost * speeds))
+        """Travels of the head at times (T,), in double-double (T, 2) [m]."""
+        return exact_travels(times, self.times, self.travels, self.speeds)
 
     def of_steady(self, time: float) -> float:
         """First time at which the head is at its place at a time of the steady dance [s]."""

@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
+from itertools import product
 from threading import Lock
 from typing import NamedTuple
 
@@ -30,9 +31,7 @@ from core.kernels.constants import (
     CENTRE_Y,
     CHORD,
     COIL_ARC,
-    COIL_ARC_LOW,
     COIL_GROWTH,
-    COIL_GROWTH_LOW,
     COIL_ROTATION,
     CREST,
     CUBIC,
@@ -45,9 +44,7 @@ from core.kernels.constants import (
     LINE_Y,
     PIECE_KIND,
     S_START,
-    S_START_LOW,
     SIGN,
-    SPIRAL,
     TX,
     UX,
 )
@@ -76,6 +73,8 @@ LAST_BENCH = 60
 # Largest relative error of a bound on a second derivative, and of its product with h^2 [1].
 CURVATURE_ROUNDING = 1e-12
 INTERVALS_MAX = 60
+# Columns of what a column of a piece has lost in rounding.
+LOWS = {S_START: kernels.S_START_LOW, COIL_ARC: kernels.COIL_ARC_LOW, COIL_GROWTH: kernels.COIL_GROWTH_LOW}
 # Groups of columns in a chain row of the kernels.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 
@@ -136,11 +135,8 @@ class ExactPair:
         self.pieces = [[Decimal(number) for number in row] for row in path.as_route(path.end).table.tolist()]
         with localcontext() as context:
             context.prec = DIGITS
-            for row in self.pieces:
-                row[S_START] += row[S_START_LOW]
-                if row[PIECE_KIND] == SPIRAL:
-                    row[COIL_ARC] += row[COIL_ARC_LOW]
-                    row[COIL_GROWTH] += row[COIL_GROWTH_LOW]
+            for row, column in product(self.pieces, LOWS):
+                row[column] += row[LOWS[column]]
         kinds = {int(row[PIECE_KIND]) for row in self.pieces}
         self.can_follow = pair[1] <= LAST_BENCH and not kinds & {CUBIC, CREST}
 

@@ -29,7 +29,7 @@ from core.venue import Area, Venue
 # Length of a spiral beyond the last instant, so that rounding cannot put that instant outside it [m].
 SPARE = 1e-3
 # Distance by which a computed place must be beyond a radius [m], and as a part of that radius [1]: places of handles
-# are good to 1e-12 of their distance from the centre (trajectory()).
+# are good to 1e-12 of their distance from the centre, on spirals of any length (trajectory()).
 SURELY, SURELY_OF_RADIUS = 1e-9, 1e-11
 
 

@@ -1,4 +1,4 @@
-"""The ground that benches sweep: polygons proven to hold every pose of every bench, and hardly more.
+"""The ground that benches sweep: polygons that hold every pose of every bench, and hardly more.
 
 All benches of one size together sweep the ground that a lone bench of that size sweeps over all their places
 (tracks.py).
@@ -131,7 +131,7 @@ def envelope(
     excess: float = 1e-3,
     budget: Budget | None = None,
 ) -> Envelope:
-    """The ground that benches sweep, as polygons that are proven to hold every pose of every bench.
+    """The ground that benches sweep, as polygons that hold every pose of every bench.
 
     start, stop: [s]; defaults: dance.begin and the end of the run
     excess: largest distance of any point of the polygons from ground that a bench covers [m]; a larger excess costs

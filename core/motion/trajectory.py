@@ -114,7 +114,8 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
         the part of a route before its s = 0
     returns: see Trajectory; positions up to 20 m from the centre are good to 1e-11 m, further ones to 1e-12 of that
-        distance, speeds to 1e-11 m/s up to 0.01 s before a fold; these come from the rigid links, not from differences;
+        distance, on spirals and coils of up to 100,000 turns (off the origin also to the rounding of the coordinates);
+        speeds to 1e-11 m/s up to 0.01 s before a fold; these come from the rigid links, not from differences;
         at a time when the head changes its speed, they are those after the change
     raises: OutsideRun (times) after the end of the run, or if the tail would be before the beginning of a route;
         TooMuchWork
