@@ -32,7 +32,7 @@ from core.errors import (
     quantities,
     said,
 )
-from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, exact_travels, nodes, words
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes, words
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
@@ -122,10 +122,6 @@ class Clock:
         travels = np.array(self.travels)[node] + (times - np.array(self.times)[node]) * np.array(self.speeds)[k]
         found: Floats = travels / self.head_speed
         return found
-
-    def exact_travels(self, times: Floats) -> Floats:
-        """Travels of the head at times (T,), in double-double (T, 2) [m]."""
-        return exact_travels(times, self.times, self.travels, self.speeds)
 
     def of_steady(self, time: float) -> float:
         """First time at which the head is at its place at a time of the steady dance [s]."""

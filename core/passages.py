@@ -7,12 +7,8 @@ from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from typing import NamedTuple
 
-import numpy as np
-
-from core.error_free import paired, two_product, two_sum
 from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number, said
 from core.shown import Readable
-from core.values import Floats
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]
@@ -79,21 +75,6 @@ def nodes(passages: Sequence[Passage]) -> tuple[list[float], list[float]]:
             times.append(float(node[0]))
             travels.append(float(node[1]))
     return times, travels
-
-
-def exact_travels(
-    times: Floats, node_times: Sequence[float], node_travels: Sequence[float], speeds: Sequence[float]
-) -> Floats:
-    """Travels of the head in double-double (T, 2) [m], at times (T,) [s].
-
-    speeds: speeds[k] holds from node k - 1 to node k [m/s]. Only the nodes are rounded, none without passages.
-    """
-    k = np.searchsorted(node_times, times, side="right") if len(node_times) > 1 else np.ones(times.size, dtype=np.int64)
-    node, speed = np.maximum(k - 1, 0), np.array(speeds)[k]
-    since, lost = two_sum(times, -np.array(node_times)[node])
-    way, more = two_product(since, speed)
-    travel, rest = two_sum(np.array(node_travels)[node], way)
-    return paired(travel, rest + (more + lost * speed))
 
 
 def _ended(k: int, passage: Passage, time: Decimal, travel: Decimal) -> tuple[Decimal, Decimal]:

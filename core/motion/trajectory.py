@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import plots
-from core.dance import Dance
+from core.dance import Clock, Dance
+from core.error_free import paired, two_product, two_sum
 from core.errors import asked_of
 from core.kernels import Budget
 from core.paths.frame import WORLD
@@ -107,6 +108,16 @@ class Trajectory(WithArrays):
         return ahead
 
 
+def exact_travels(clock: Clock, times: Floats) -> Floats:
+    """Travels of the head at times (T,) in double-double (T, 2) [m]; only those at the ends of passages are rounded."""
+    k = np.searchsorted(clock.times, times, side="right") if clock.passages else np.ones(times.size, dtype=np.int64)
+    node, speeds = np.maximum(k - 1, 0), np.array(clock.speeds)[k]
+    since, lost = two_sum(times, -np.array(clock.times)[node])
+    way, more = two_product(since, speeds)
+    travel, rest = two_sum(np.array(clock.travels)[node], way)
+    return paired(travel, rest + (more + lost * speeds))
+
+
 @asked_of("dance", Dance, "the trajectory was not computed")
 def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
@@ -129,7 +140,7 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     (224, 2)
     """
     dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
-    travels, handles = dance.clock.exact_travels(asked.reshape(-1)), dragon.benches + 1
+    travels, handles = exact_travels(dance.clock, asked.reshape(-1)), dragon.benches + 1
     shape = (len(travels), handles)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     block = dance.path.block
