@@ -47,7 +47,7 @@ from core.kernels.chain import (
 )
 from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at, meet
 from core.kernels.constants import *
-from core.kernels.double_double import coil_arc, growth_pair, spiral_thetas
+from core.kernels.double_double import coil_arc, coil_theta, growth_pair, spiral_thetas
 from core.kernels.excess import Excess
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
 from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature

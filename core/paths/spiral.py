@@ -226,9 +226,10 @@ class Spiral(Readable):
 
     def head(self, s: float) -> HeadState:
         """The head at arc length s [m]."""
-        theta, cos, sin = (float(value) for value in self._directions(s))
-        radius = self.growth * theta
-        x, y = radius * cos, radius * sin
+        growth_low, length_low = self._lows
+        theta, low = kernels.coil_theta(self.growth, growth_low, self.length, length_low, -s, 0.0)
+        cos, sin, radius = math.cos(theta), math.sin(theta), self.growth * theta
+        x, y = radius * (cos - low * sin), radius * (sin + low * cos)
         return HeadState(theta, radius, *((x, y) if self.frame == WORLD else self.frame.point(x, y)))
 
     def handles(
