@@ -1476,6 +1476,8 @@ def turn_path(path):
     if any(r < low or r > high or r * angle < SHORTEST for r in (first, second)):
         raise Refused(f"{MALFORMED}: an arc of the turn is too small or too large")
     pieces = [Coil(growth, start, theta), Piece(first * angle, first, -1), Piece(second * angle, second, 1)]
+    if pieces[0].length > exactly(10**9):
+        raise Refused(f"{MALFORMED}: the coil of the turn must be at most 1e9 m long")
     return Path([*pieces, Coil(growth, ZERO - theta, ZERO - start)], 1, ZERO, Complex(ZERO), Complex(ONE))
 
 
