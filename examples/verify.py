@@ -1619,8 +1619,8 @@ def check_claim(certificate):
     prove, form = CLAIMS[kind]
     more = {"shown" if strays else "margin": float}
     check_form(claim, form | {"kind": str} | (more if claim.keys() & more else {}), "claim")
-    if path := claim.get("path"):
-        check_path(path)
+    if "path" in claim:
+        check_path(claim["path"])
     if ends:
         overlap = certificate["overlap"]
         which = 0 if overlap.keys() == {"start_within_circle"} else 1 if "folds" in overlap else 2

@@ -358,6 +358,14 @@ def test_a_width_of_0_is_refused_by_both(verify: ModuleType) -> None:
         core_verify(edit(put_at("dragon", 0, 2, put=0.0))(made("contact")))
 
 
+def test_a_path_of_nothing_is_refused_by_both(verify: ModuleType) -> None:
+    nowhere = edit(put_at("claim", "path", put={}))(made("clear"))
+    with pytest.raises(verify.Refused, match=r"claim\.path\.kind is another"):
+        verify.verified(nowhere)
+    with pytest.raises(ProofRefused, match="path"):
+        core_verify(nowhere)
+
+
 @pytest.mark.parametrize("name", MAKERS)
 def test_every_kind_of_claim_is_verified_and_no_other_number_of_it(verify: ModuleType, name: str) -> None:
     """A little larger stop, time or way, or a stray above the proven one, is refused."""
