@@ -14,6 +14,7 @@ from importlib import import_module
 CAMPAIGNS = {
     "tests.core.hunt_contacts": "first contacts, least clearances and verdicts on any path, with passages",
     "tests.core.hunt_venues": "walls and obstacles, up to the fold",
+    "tests.core.proof.differential": "certificates with a changed number, judged by both verifiers",
     "tests.app.grade.hunt_grades": "sheets and typed numbers that are nearly right",
 }
 SECONDS = 1200.0  # of all campaigns together

@@ -24,6 +24,7 @@ ORDER = (
     "core.kernels.budget",
     "core.kernels.fold",
     "core.kernels.spiral",
+    "core.kernels.double_double",
     "core.kernels.rectangles",
     "core.kernels.hulls",
     "core.kernels.boxes",
@@ -49,6 +50,7 @@ ORDER = (
     "core.kernels.excess",
     "core.kernels",
     "core.values",
+    "core.error_free",
     "core.errors",
     "core.names",
     "core.extras",
@@ -325,7 +327,6 @@ PATHS = {"Spiral", "Route", "Turn", "Legs", "SpiralPath", "TurnPath", "RoutePath
 ON_SPIRALS = {
     "core.dance": 1,  # its end: a fold
     "core.contact.search": 3,  # bounds by radius instead of place
-    "core.contact.near_graze": 2,  # the exact arc length of its start
     "core.tolerance.curve": 1,  # the time on a circle around the centre
     "core.tolerance.wobble": 1,  # an error of the pitch
     "core.tolerance.chance": 2,

@@ -35,9 +35,9 @@ EXACTLY = 1e-6
 OVERLAP_MOST = 0.1
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
-# Shortest turn that counts as possible [m]. Question 4 leaves open where the dance enters the circle and leaves it. With
-# both free, core.shortest_turn proves 11.799152 m to be the shortest at ratio 2 and 8.223984 m at ratio 1, the shortest of
-# all ratios that were tried; no bound over all ratios is proven yet.
+# Shortest turn that counts as possible [m]: question 4 leaves open where the dance enters and leaves the circle. With
+# both free, core.shortest_turn proves 11.799152 m to be the shortest at ratio 2 and 8.223984 m at ratio 1, the least of
+# the ratios that were tried; no bound over all ratios is proven yet.
 TURN_LENGTH_LEAST = 8.2
 
 

@@ -56,7 +56,7 @@ class Envelope(Answer):
     """The ground that benches sweep."""
 
     envelope: Annotated[Polygon | MultiPolygon, Field(discriminator="type")] = Field(
-        description="GeoJSON geometry in metres that is proven to hold every pose of every bench, holes kept"
+        description="GeoJSON geometry in metres that holds every pose of every bench, holes kept"
     )
     excess: float = measure("m", "Proven: no point of it is further than this from ground that a bench covers")
     area: float = measure("m2", "Area of it")
@@ -88,7 +88,7 @@ def swept(asked: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope
 
 
 def envelope(asked: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | bytes:
-    """The ground that benches sweep, as polygons proven to hold every pose and to reach at most 1 mm further."""
+    """The ground that benches sweep, as polygons that hold every pose and reach at most 1 mm further."""
     found = swept(asked, terms)
     return FORMS[form](found) if form in FORMS else Envelope.of(found, asked)
 

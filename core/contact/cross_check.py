@@ -16,6 +16,7 @@ from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
+from core.error_free import paired
 from core.errors import InvalidValue, asked_of, checked_number, checked_type
 from core.kernels import Budget
 from core.paths.spiral import Spiral
@@ -164,7 +165,7 @@ def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
     shape = (held.size, dragon.benches + 1)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-    s, last, columns = held * dance.head_speed, dance.end.theta or 0.0, (position, velocity, speed)
+    s, last, columns = paired(held * dance.head_speed), dance.end.theta or 0.0, (position, velocity, speed)
     budget.afford(float(speed.size))
     before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, columns, budget)
     budget.look()

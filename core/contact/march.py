@@ -12,9 +12,9 @@ BRACKET_MIN = 2e-11
 # that rounding hides the gap. The first gives a bracket of 1e-9 s at 1 m/s, to which core/contact/near_graze.py narrows
 # the wider ones. Below 1 m/s the same numbers in seconds come first.
 BRACKETS_GRAZING = (4.9e-10, 5e-9, 5e-8, 5e-7, 5e-6, 5e-5)
-# Largest relative error of a travel [1], u = 2^-53: 5 u for the length of a spiral, 10 u for two differences from it
-# and the polar angle there (spiral_theta() ends within 7 u of the remaining arc length), and 2 u for a travel that
-# becomes a time and a travel again.
+# Largest relative error of a travel [1], u = 2^-53: 2 u for two differences from the length of a spiral, whose own
+# rounding and the polar angle there are known in double-double, and 2 u for a travel that becomes a time and a travel
+# again; where a place comes from a spiral_arc() in doubles, as in Search.travel_at(), 9 u.
 TRAVEL_ROUNDING = 2e-15
 # Length of the last part before a fold that only the bound on the remaining motion covers [m].
 FOLD_SLIVER = 1e-9

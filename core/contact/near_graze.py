@@ -1,6 +1,6 @@
 """Two benches to 30 digits, for contacts so near a graze that the rounding of doubles hides their beginning.
 
-The model is that of the kernels: their doubles (growth, chords, the table of a route) are taken as exact, and the chain
+The model is that of the kernels: their doubles (chords, the table of a route) are taken as exact, and the chain
 is solved again in decimal arithmetic, starting from the kernels' result. Curves through waypoints are not covered,
 because their arc length is itself a quadrature.
 """
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from decimal import Decimal, localcontext
+from itertools import product
 from threading import Lock
 
 from core import kernels
@@ -20,7 +21,6 @@ from core.contact.decimal_shapes import (
     Bench,
     Vector,
     beyond,
-    coil_arc,
     coil_theta,
     cos_sin,
     crosses,
@@ -71,6 +71,8 @@ LAST_BENCH = 60
 # Largest relative error of a bound on a second derivative, and of its product with h^2 [1].
 CURVATURE_ROUNDING = 1e-12
 INTERVALS_MAX = 60
+# Columns of what a column of a piece has lost in rounding.
+LOWS = {S_START: kernels.S_START_LOW, COIL_ARC: kernels.COIL_ARC_LOW, COIL_GROWTH: kernels.COIL_GROWTH_LOW}
 # Groups of columns in a chain row of the kernels.
 TANGENT, LINK = slice(TX, TX + 2), slice(UX, UX + 2)
 
@@ -108,10 +110,10 @@ class ExactPair:
         self.last = pair[0] if self.edge >= 0 else pair[1]
         path = search.path
         self.pieces = [[Decimal(number) for number in row] for row in path.as_route(path.end).table.tolist()]
-        if path.spiral is not None:  # growth and start_theta are doubles, but their arc length is not
-            with localcontext() as context:
-                context.prec = DIGITS
-                self.pieces[0][COIL_ARC] = self.pieces[0][COIL_GROWTH] * coil_arc(Decimal(path.spiral.start_theta))
+        with localcontext() as context:
+            context.prec = DIGITS
+            for row, column in product(self.pieces, LOWS):
+                row[column] += row[LOWS[column]]
         kinds = {int(row[PIECE_KIND]) for row in self.pieces}
         self.can_follow = self.last <= LAST_BENCH and not kinds & {CUBIC, CREST}
 

@@ -183,7 +183,7 @@ class Search:
 
     def theta_at(self, travel: float) -> float:
         """Head angle on a spiral after a travel [rad]."""
-        return float(kernels.spiral_theta((self.place - travel) / self.growth))
+        return float(kernels.head_theta(self.curve, self.place - travel))
 
     def march(
         self, stop: float, half_bracket: float, *, start: float = 0.0, opening: bool = True, dips: bool = False

@@ -1,4 +1,4 @@
-"""The ground that benches sweep: polygons proven to hold every pose of every bench, and hardly more.
+"""The ground that benches sweep: polygons that hold every pose of every bench, and hardly more.
 
 All benches of one size together sweep the ground that a lone bench of that size sweeps over all their places
 (tracks.py).
@@ -47,6 +47,7 @@ from numpy.typing import NDArray
 from core import kernels
 from core.dance import Dance
 from core.dragon import Dragon
+from core.error_free import paired
 from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
@@ -130,7 +131,7 @@ def envelope(
     excess: float = 1e-3,
     budget: Budget | None = None,
 ) -> Envelope:
-    """The ground that benches sweep, as polygons that are proven to hold every pose of every bench.
+    """The ground that benches sweep, as polygons that hold every pose of every bench.
 
     start, stop: [s]; defaults: dance.begin and the end of the run
     excess: largest distance of any point of the polygons from ground that a bench covers [m]; a larger excess costs
@@ -263,7 +264,7 @@ class _Lone:
         """Corners (N, 4, 2) at places (N,) [m]."""
         shape = (s.size, 2)
         position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-        self.path.handles(s, self.last, self.dragon.chords, 1.0, (position, velocity, speed), self.budget)
+        self.path.handles(paired(s), self.last, self.dragon.chords, 1.0, (position, velocity, speed), self.budget)
         self.budget.look()
         return bench_outlines(self.dragon, position)[:, 0]
 

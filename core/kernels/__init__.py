@@ -17,6 +17,7 @@ Angles are in radians, lengths on a spiral in units of its growth unless a name 
 constants    columns of the arrays, shared numbers        records        values with names that inner loops hand on
 budget       limit of the work, and the flag to stop      results        what a march hands to its caller
 fold         bisection; the end of a run                  spiral         arc length, next handle, trajectory
+double_double  long arc lengths, to twice the digits of a double
 rectangles   signed separation of two                     boxes          pairs that may touch
 route        points and chain on a table of pieces        chain          of a spiral, and of either kind
 rounding     largest errors of all of these               scene          dragon, path, intervals of head travel
@@ -37,6 +38,7 @@ from core.kernels.chain import (
     Curve,
     chain_rounding,
     extend_chain,
+    head_theta,
     place_chain,
     route_curve,
     route_trajectory,
@@ -45,6 +47,7 @@ from core.kernels.chain import (
 )
 from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at, meet
 from core.kernels.constants import *
+from core.kernels.double_double import coil_arc, coil_theta, growth_pair, spiral_thetas
 from core.kernels.excess import Excess
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
 from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature
@@ -64,7 +67,6 @@ from core.kernels.spiral import (
     spiral_arc,
     spiral_curvature,
     spiral_theta,
-    spiral_thetas,
     spiral_trajectory,
 )
 from core.kernels.stretches import steepest_curvature

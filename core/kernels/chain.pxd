@@ -1,6 +1,7 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.spiral cimport first_guess, next_handle, spiral_theta
+from core.kernels.double_double cimport coil_theta
+from core.kernels.spiral cimport first_guess, next_handle
 from core.kernels.route cimport extend_route, start_route
 from core.kernels.rounding cimport route_rounding, spiral_rounding
 
@@ -8,10 +9,12 @@ from core.kernels.rounding cimport route_rounding, spiral_rounding
 cdef class Curve:
     cdef readonly bint is_spiral
     cdef readonly double growth
+    cdef double growth_low, place_low
     cdef Pieces pieces
 
-cpdef Curve spiral_curve(double growth)
+cpdef Curve spiral_curve(double growth, double growth_low=*, double place_low=*)
 cpdef Curve route_curve(Pieces pieces)
+cpdef double head_theta(Curve curve, double place) noexcept nogil
 cpdef void start_chain(double theta, Rows chain) noexcept nogil
 
 @cython.locals(k=cython.Py_ssize_t, alike=cython.Py_ssize_t)
@@ -26,6 +29,6 @@ cpdef void chain_rounding(Curve curve, Py_ssize_t last, Rows sizes, Rows chain) 
 
 @cython.locals(last=cython.Py_ssize_t)
 cpdef void route_trajectory(
-    Pieces pieces, double[::1] s, double head_speed, Rows sizes, Rows chain, Tables position, Tables velocity,
+    Pieces pieces, Pairs s, double head_speed, Rows sizes, Rows chain, Tables position, Tables velocity,
     Rows speed
 ) noexcept

@@ -8,31 +8,40 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
+    from core.kernels.double_double import coil_theta
     from core.kernels.rounding import route_rounding, spiral_rounding
     from core.kernels.route import extend_route, start_route
-    from core.kernels.spiral import first_guess, next_handle, spiral_theta
+    from core.kernels.spiral import first_guess, next_handle
 
 
 class Curve:
     """A path. is_spiral: else a route; pieces: the table of a route
 
     growth: of the spiral [m/rad], 1 on a route: metres along the path for each unit of LAG, at least
+    growth_low, place_low: what growth and the origin of places on a spiral have lost in rounding [m/rad], [m]
     """
 
-    def __init__(self, is_spiral, growth, pieces):
+    def __init__(self, is_spiral, growth, growth_low, place_low, pieces):
         self.is_spiral = is_spiral
         self.growth = growth
+        self.growth_low = growth_low
+        self.place_low = place_low
         self.pieces = pieces
 
 
-def spiral_curve(growth):
+def spiral_curve(growth, growth_low=0.0, place_low=0.0):
     """The spiral of a growth [m/rad]."""
-    return Curve(True, growth, None)
+    return Curve(True, growth, growth_low, place_low, None)
 
 
 def route_curve(pieces):
     """The route of a table of pieces."""
-    return Curve(False, 1.0, pieces)
+    return Curve(False, 1.0, 0.0, 0.0, pieces)
+
+
+def head_theta(curve, place):
+    """Polar angle of the head on a spiral at a place."""
+    return coil_theta(curve.growth, curve.growth_low, place, curve.place_low, 0.0, 0.0)[0]
 
 
 def start_chain(theta, chain):
@@ -119,9 +128,9 @@ def extend(curve, first, last, sizes, chain):
 def start(curve, place, chain):
     """Fill in row 0 of a chain: the head at a place."""
     if curve.is_spiral:
-        start_chain(spiral_theta(place / curve.growth), chain)
+        start_chain(head_theta(curve, place), chain)
     else:
-        start_route(curve.pieces, -place, chain)
+        start_route(curve.pieces, -place, 0.0, chain)
 
 
 def place_chain(curve, place, last, sizes, chain):
@@ -139,11 +148,11 @@ def chain_rounding(curve, last, sizes, chain):
 
 
 def route_trajectory(pieces, s, head_speed, sizes, chain, position, velocity, speed):
-    """spiral_trajectory() on a route. s: (T,) of the head [m]; chain: (n + 1, CHAIN_COLUMNS) scratch"""
+    """spiral_trajectory() on a route. s: (T, 2) of the head, pairs [m]; chain: (n + 1, CHAIN_COLUMNS) scratch"""
     last = position.shape[1] - 1
     with cython.nogil:
         for row in range(s.shape[0]):
-            start_route(pieces, s[row], chain)
+            start_route(pieces, s[row, HIGH], s[row, LOW], chain)
             extend_route(pieces, 0, last, FREE, sizes, chain)
             for k in range(last + 1):
                 position[row, k, X] = chain[k, PX]

@@ -23,7 +23,7 @@ cdef extern from *:
     const double SPIRAL_CURVATURE_MOST "1.0887"
 
 cdef enum:
-    COS = 0, SIN = 1, PX = 0, PY = 1, TX = 2, TY = 3, LAG = 4, THETA = 4, PLACE = 4, RATE = 5, REST = 18
+    COS = 0, SIN = 1, PX = 0, PY = 1, TX = 2, TY = 3, LAG = 4, THETA = 4, PLACE = 4, RATE = 5, REST = 18, PLACE_REST = 19
     MX = 6, MY = 7, UX = 8, UY = 9
     CURVATURE = 10, PIECE = 11, PIECE_THETA = 12, CLIMB = 13, SLIP = 14, ERROR = 15, SWAY = 16, FILLED = 17
     CENTRE_SPEED = 0, CORNER_SPEED = 1, CENTRE_PULL = 2, CORNER_PULL = 3, OMEGA = 4, OMEGA_PULL = 5, HANDLE_SPEED = 6
@@ -34,10 +34,11 @@ cdef enum:
     FRAME_X = 0, FRAME_Y = 1, FRAME_UX = 2, FRAME_UY = 3, FRAME_HALF_LENGTH = 4, FRAME_HALF_WIDTH = 5
     SEPARATION = 0, WITNESS_AX = 1, WITNESS_AY = 2, WITNESS_BX = 3, WITNESS_BY = 4, NORMAL_X = 5, NORMAL_Y = 6
     FEATURE_A = 7, FEATURE_B = 8
-    DIRECTIONS = 64, HULLS = 3, X = 0, Y = 1, PAIR_A = 0, PAIR_B = 1, SINE = 0, COSINE = 1, FRONT_END = 0, MIDDLE = 1
+    DIRECTIONS = 64, HULLS = 3, X = 0, Y = 1, HIGH = 0, LOW = 1, PAIR_A = 0, PAIR_B = 1, SINE = 0, COSINE = 1, FRONT_END = 0, MIDDLE = 1
     FRONT_LEFT = 0, FRONT_RIGHT = 1, REAR_RIGHT = 2, REAR_LEFT = 3, FRONT = 4, RIGHT = 5, REAR = 6, LEFT = 7
     X_LOW = 0, Y_LOW = 1, X_HIGH = 2, Y_HIGH = 3
     PIECE_KIND = 0, S_START = 1, S_END = 2, K_START = 3, K_END = 4, K_SLOPE = 14, PART = 15, LOOSE = 16, CURVATURE_SLACK = 17
+    S_START_LOW = 18, S_END_LOW = 19, COIL_ARC_LOW = 20, COIL_GROWTH_LOW = 21
     LINE_X = 5, LINE_Y = 6, LINE_DX = 7, LINE_DY = 8, CENTRE_X = 5, CENTRE_Y = 6, ARC_RADIUS = 7, ARC_ANGLE = 8, SIGN = 9
     COIL_GROWTH = 7, COIL_ROTATION = 8, COIL_ARC = 10
     X0 = 5, X1 = 6, X2 = 7, X3 = 8, Y0 = 9, Y1 = 10, Y2 = 11, Y3 = 12, T_END = 13
@@ -57,4 +58,5 @@ cdef enum Judged:
 # The loops' arrays: rows of the columns above; a table of pieces; instants, handles, and x and y.
 ctypedef double[:, ::1] Rows
 ctypedef const double[:, ::1] Pieces
+ctypedef const double[:, ::1] Pairs
 ctypedef double[:, :, ::1] Tables

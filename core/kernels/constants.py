@@ -39,8 +39,10 @@ SLIP = 14  # largest distance of the handle along the path from its true place [
 ERROR = 15  # largest distance of either handle of the bench behind it from its true point [m]
 SWAY = 16  # largest error of that bench's direction [1]
 FILLED = 17  # in row 0: the last handle whose rounding is filled in
-REST = 18  # on a spiral: the sum of all delta less THETA [rad]
-CHAIN_COLUMNS = 19
+# What THETA on a spiral, and PIECE_THETA on a route, has lost in rounding [rad]; the same of PLACE on a route [m].
+REST = 18
+PLACE_REST = 19
+CHAIN_COLUMNS = 20
 
 # Columns of a motion row, one for each bench: bounds over an interval.
 CENTRE_SPEED, CORNER_SPEED, CENTRE_PULL, CORNER_PULL, OMEGA = range(5)
@@ -82,6 +84,8 @@ AT_REST = -1  # in place of the number of a hull, or of its first corner: an edg
 
 # Columns of a point [m] or a vector, and of the two benches of a pair. Rows of samples of an angle.
 X, Y = range(2)
+# Columns of a number in double-double (double_double.py).
+HIGH, LOW = range(2)
 PAIR_A, PAIR_B = range(2)
 SINE, COSINE = range(2)
 # Rows of the supports of a bench: of its front end and of its middle [m].
@@ -136,7 +140,9 @@ PART = 15  # number of the part of the route; within a part curvature does not j
 BLEND = 1.0
 LOOSE = 16  # largest distance of the piece from the path, whose tangent is continuous at the joints [m]
 CURVATURE_SLACK = 17  # largest difference between its curvature and that of the path [1/m]
-PIECE_COLUMNS = 18
+# What S_START, S_END and COIL_ARC [m], and COIL_GROWTH [m/rad], have lost in rounding.
+S_START_LOW, S_END_LOW, COIL_ARC_LOW, COIL_GROWTH_LOW = range(18, 22)
+PIECE_COLUMNS = 22
 LINE, ARC, SPIRAL, CUBIC, CREST = range(5)
 PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
 

@@ -1,9 +1,9 @@
 cimport cython
 from core.kernels.constants cimport *
 from core.kernels.records cimport Laid
-from core.kernels.spiral cimport spiral_curvature, spiral_theta
+from core.kernels.spiral cimport spiral_curvature
 from core.kernels.route cimport extend_route, stands_first, start_route
-from core.kernels.chain cimport chain_rounding, extend_chain, start_chain
+from core.kernels.chain cimport chain_rounding, extend_chain, head_theta, start_chain
 from core.kernels.bounds cimport followed_error
 from core.kernels.rings cimport coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
 from core.kernels.scene cimport Interval, Scene

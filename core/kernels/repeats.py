@@ -5,12 +5,12 @@ from cython.cimports.libc.math import fabs
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.bounds import followed_error
-    from core.kernels.chain import chain_rounding, extend_chain, start_chain
+    from core.kernels.chain import chain_rounding, extend_chain, head_theta, start_chain
     from core.kernels.constants import *
     from core.kernels.records import Laid
     from core.kernels.rings import coil_place, coil_radius, coil_reach, drift, leaders_reach, radius_beyond
     from core.kernels.route import extend_route, stands_first, start_route
-    from core.kernels.spiral import spiral_curvature, spiral_theta
+    from core.kernels.spiral import spiral_curvature
 
 # A handle counts as having passed a place once it is this far beyond it, relative to 1 + |LAG| [1], and
 # further than the errors of both. On a spiral where no handle is followed this is more than SLIP: that is at most
@@ -30,7 +30,7 @@ def chain_between(scene, place, leaders, allowance, reversing, chain):
     if not scene.curve.is_spiral:
         return route_between(scene, place, leaders, allowance, chain)
     growth = scene.curve.growth
-    theta = spiral_theta(place / growth)
+    theta = head_theta(scene.curve, place)
     start_chain(theta, chain)
     scene.turn_edges(chain)
     clear = scene.rings.clear_radius + (allowance if reversing else 0.0)
@@ -44,7 +44,7 @@ def chain_between(scene, place, leaders, allowance, reversing, chain):
 
 def route_between(scene, place, leaders, allowance, chain):
     """chain_between() on a route: as far as rings.py says if the route begins with a coil inwards, else all benches."""
-    start_route(scene.curve.pieces, -place, chain)
+    start_route(scene.curve.pieces, -place, 0.0, chain)
     if scene.rings.clear_place >= FREE:
         return Laid(extend_route(scene.curve.pieces, 0, scene.room, FREE, scene.sizes, chain), leaders)
     leading = extend_route(scene.curve.pieces, 0, leaders, scene.rings.clear_place, scene.sizes, chain)

@@ -10,7 +10,9 @@ cdef double spiral_error(double growth, Py_ssize_t last, double longest, Rows ch
 cdef double cubic_size(Pieces pieces, Py_ssize_t p) noexcept nogil
 cdef double spot_error(Pieces pieces, Py_ssize_t p, double s, double theta, double x, double y) noexcept nogil
 cdef double slide_error(Pieces pieces, Py_ssize_t p, double s) noexcept nogil
-cdef (double, double, double, double, double) piece_end(Pieces pieces, Py_ssize_t p, double s) noexcept nogil
+cdef (double, double, double, double, double) piece_end(
+    Pieces pieces, Py_ssize_t p, double s, double low
+) noexcept nogil
 @cython.locals(p=cython.Py_ssize_t, q=cython.Py_ssize_t)
 cpdef void joint_misses(Pieces pieces, Rows out) noexcept
 cpdef void piece_slides(Pieces pieces, double[::1] out) noexcept

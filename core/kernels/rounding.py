@@ -116,21 +116,23 @@ def spiral_error(growth, last, longest, chain):
 # On a route. The assumptions above, SLIP, E and the second order serve here too. The table is exact. The path of the
 # dance is the smooth one that its pieces nearly form: they may miss each other at a joint by up to 1e-9 m and rad, and
 # the path leaves them by at most LOOSE, and only within BLEND of a joint (see Route). The place of a handle is defined
-# by the double of its piece: s - S_START on a line, the angle on an arc, theta on a spiral, t on a cubic. Its s is only
-# where the search for it began. E - SLIP is the distance of the computed point from the point of the piece there:
+# by the numbers of its piece: s - S_START on a line, on an arc the angle and on a spiral theta in double-double, t on a
+# cubic. Its s is only where the search for it began. E - SLIP is the distance of the computed point from the point of
+# the piece there:
 #   line     one product and the sum:                                             u (|x| + |y| + |s - S_START|)
-#   arc      cos and sin 2 u each, a product, the sum:                            u (|x| + |y| + 5 radius)
-#   spiral   the same, growth theta, and theta + rotation to u unless that is 0:  u (|x| + |y| + r (6 + |angle|))
+#   arc      cos and sin 3 u each with the low part, a product, the sum:          u (|x| + |y| + 6 radius)
+#   spiral   the same, and growth theta:                                          u (|x| + |y| + 7 r)
 #   cubic    the sum of |c_k| end^k, k >= 1, of both coordinates =: C:            u (|x| + |y| + 12 C)
 # From link to link the distance of the computed points misses the chord by a difference that is measured, however the
 # search for it ended, and by the points' own errors:
 #     local = (|distance - chord| + (E - SLIP)[a] + (E - SLIP)[b] + 8 u chord) / cos alpha_b.
 # A place that rounding puts beyond a joint is taken on the piece before the joint, extended that far: the error of its
 # point is the square of that.
-# The head's double is not exactly that of its s: slide_error() below, an error of the travel, not of the shape.
+# The head's place is not exactly that of its s: slide_error() below, an error of the travel, not of the shape.
 #   line     s - S_START:                                                         u |s - S_START|
-#   arc      that, the division, the angle:                                       u (3 |s - S_START| + radius |angle|)
-#   spiral   that, the division by growth, the inverse of the arc length A:       10 u A
+#   arc      no more than the point itself, with |c| for both coordinates of the centre: u (8 radius + |c|)
+#   spiral   the same, r <= sqrt(2 growth A); asinh, up to 14, in the arc lengths A of both ends and of the place; all
+#            else is of double-double (double_double.py):          u (100 growth + 1e-6 A + 8 sqrt(2 growth A) + |c|)
 #   cubic    |r'| end and the length are at most 3 C; the quadrature, a sum of 8, is good to 57 u C, and the Newton
 #            steps that invert it end within 30 u C:                              100 u C
 # The error of the quadrature itself, 1e-13 of the arc length (core/paths/cubics.py), is left out: s on a cubic is
@@ -154,10 +156,9 @@ def spot_error(pieces, p, s, theta, x, y):
     if kind == LINE:
         error += fabs(s - pieces[p, S_START])
     elif kind == ARC:
-        error += 5.0 * pieces[p, ARC_RADIUS]
+        error += 6.0 * pieces[p, ARC_RADIUS]
     elif kind == SPIRAL:
-        turned = 6.0 if pieces[p, COIL_ROTATION] == 0.0 else 6.0 + fabs(theta + pieces[p, COIL_ROTATION])
-        error += pieces[p, COIL_GROWTH] * theta * turned
+        error += 7.0 * pieces[p, COIL_GROWTH] * theta
     else:
         error += 12.0 * cubic_size(pieces, p)
     if s < pieces[p, S_START] + BLEND or s > pieces[p, S_END] - BLEND:
@@ -172,16 +173,18 @@ def slide_error(pieces, p, s):
     if kind == LINE:
         return ULP * away
     if kind == ARC:
-        return ULP * (4.0 * away + pieces[p, ARC_RADIUS] * fabs(pieces[p, ARC_ANGLE]))
+        return ULP * (8.0 * pieces[p, ARC_RADIUS] + fabs(pieces[p, CENTRE_X]) + fabs(pieces[p, CENTRE_Y]))
     if kind == SPIRAL:
-        return 10.0 * ULP * (fabs(pieces[p, COIL_ARC]) + away)
+        arc = fabs(pieces[p, COIL_ARC]) + away
+        error = 100.0 * pieces[p, COIL_GROWTH] + 1e-6 * arc + 8.0 * sqrt(2.0 * pieces[p, COIL_GROWTH] * arc)
+        return ULP * (error + fabs(pieces[p, CENTRE_X]) + fabs(pieces[p, CENTRE_Y]))
     return 100.0 * ULP * cubic_size(pieces, p)
 
 
-def piece_end(pieces, p, s):
+def piece_end(pieces, p, s, low):
     """route_point() at either end of a piece, on a cubic without a search for t."""
     if pieces[p, PIECE_KIND] <= SPIRAL:
-        return route_point(pieces, p, s)
+        return route_point(pieces, p, s, low)
     return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, T_END])
 
 
@@ -192,23 +195,22 @@ def joint_misses(pieces, out):
     """Fill in upper bounds of the gap between every piece and the one before it: across and along the path [m], in
     direction [rad], in curvature [1/m]. out: (rows, MISS_COLUMNS), of which the first row stays as it is
 
-    A tangent is good to 10 u, and to u |angle| more on a turned spiral; on a cubic to 15 u C / (|r'| end), and there
-    the curvature is good to 72 u (C / (|r'| end))^2 / C.
+    A tangent is good to 10 u; on a cubic to 15 u C / (|r'| end), and there the curvature is good to
+    72 u (C / (|r'| end))^2 / C.
     """
     for p in range(1, pieces.shape[0]):
         s = pieces[p, S_START]
-        x, y, tx, ty, curvature = piece_end(pieces, p - 1, s)
-        x_on, y_on, tx_on, ty_on, curvature_on = piece_end(pieces, p, s)
+        low = pieces[p, S_START_LOW]
+        x, y, tx, ty, curvature = piece_end(pieces, p - 1, s, low)
+        x_on, y_on, tx_on, ty_on, curvature_on = piece_end(pieces, p, s, low)
         across = fabs(tx * (y_on - y) - ty * (x_on - x))
         along = fabs(tx * (x_on - x) + ty * (y_on - y))
         kink = sqrt((tx_on - tx) * (tx_on - tx) + (ty_on - ty) * (ty_on - ty)) + 20.0 * ULP
         step = fabs(curvature_on - curvature) + 10.0 * ULP * (fabs(curvature_on) + fabs(curvature))
         for q in range(p - 1, p + 1):
-            theta = theta_at(pieces, q, s) if pieces[q, PIECE_KIND] == SPIRAL else 0.0
+            theta = theta_at(pieces, q, s, low)[0] if pieces[q, PIECE_KIND] == SPIRAL else 0.0
             across += spot_error(pieces, q, s, theta, x, y)
             along += slide_error(pieces, q, s)
-            if pieces[q, PIECE_KIND] == SPIRAL and pieces[q, COIL_ROTATION] != 0.0:
-                kink += ULP * fabs(theta + pieces[q, COIL_ROTATION])
             if pieces[q, PIECE_KIND] > SPIRAL:
                 size = cubic_size(pieces, q)
                 ratio = size / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))

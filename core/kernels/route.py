@@ -5,7 +5,15 @@ from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.spiral import next_arc, spiral_arc, spiral_curvature, spiral_theta
+    from core.kernels.double_double import coil_theta, quotient
+    from core.kernels.spiral import next_arc
+
+
+def two_sum(a, b):
+    """two_sum() of double_double.py: the compiler inlines it only here, and a chain on a coil takes 5 % less time."""
+    total = a + b
+    added = total - a
+    return total, (a - (total - added)) + (b - added)
 
 
 def cubic_speed(pieces, p, t):
@@ -56,27 +64,21 @@ def piece_of(pieces, s, near):
     return low
 
 
-def route_point(pieces, p, s):
-    """x, y [m], unit tangent, curvature [1/m] at arc length s on piece p."""
+def route_point(pieces, p, s, low):
+    """x, y [m], unit tangent, curvature [1/m] at arc length s + low on piece p."""
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
-    u = s - pieces[p, S_START]
+    if kind == SPIRAL:
+        theta, rest = theta_at(pieces, p, s, low)
+        return spiral_point(pieces, p, theta, rest)
+    u, rest = two_sum(s, -pieces[p, S_START])
+    rest += low - pieces[p, S_START_LOW]
+    if kind == ARC:
+        return arc_point(pieces, p, u, rest)
+    u += rest
     if kind == LINE:
         dx = pieces[p, LINE_DX]
         dy = pieces[p, LINE_DY]
         return pieces[p, LINE_X] + u * dx, pieces[p, LINE_Y] + u * dy, dx, dy, 0.0
-    if kind == ARC:
-        a = pieces[p, ARC_ANGLE] + pieces[p, SIGN] * u / pieces[p, ARC_RADIUS]
-        c = cos(a)
-        d = sin(a)
-        return (
-            pieces[p, CENTRE_X] + pieces[p, ARC_RADIUS] * c,
-            pieces[p, CENTRE_Y] + pieces[p, ARC_RADIUS] * d,
-            -pieces[p, SIGN] * d,
-            pieces[p, SIGN] * c,
-            pieces[p, SIGN] / pieces[p, ARC_RADIUS],
-        )
-    if kind == SPIRAL:
-        return spiral_point(pieces, p, theta_at(pieces, p, s))
     a = u / (pieces[p, S_END] - pieces[p, S_START]) * pieces[p, T_END]
     for i in range(30):
         d = (cubic_arc(pieces, p, a) - u) / cubic_speed(pieces, p, a)
@@ -84,6 +86,28 @@ def route_point(pieces, p, s):
         if fabs(d) <= 1e-15 * pieces[p, T_END]:
             break
     return cubic_point(pieces, p, a)
+
+
+def cos_sin(angle, low):
+    """cos and sin of angle + low, which rounding would take from a large angle [rad]."""
+    c = cos(angle)
+    d = sin(angle)
+    return c - low * d, d + low * c
+
+
+def arc_point(pieces, p, u, low):
+    """route_point() on an arc, u + low from its beginning."""
+    sign = pieces[p, SIGN]
+    a, rest = quotient(sign * u, sign * low, pieces[p, ARC_RADIUS], 0.0)
+    a, lost = two_sum(pieces[p, ARC_ANGLE], a)
+    c, d = cos_sin(a, lost + rest)
+    return (
+        pieces[p, CENTRE_X] + pieces[p, ARC_RADIUS] * c,
+        pieces[p, CENTRE_Y] + pieces[p, ARC_RADIUS] * d,
+        -sign * d,
+        sign * c,
+        sign / pieces[p, ARC_RADIUS],
+    )
 
 
 def cubic_point(pieces, p, a):
@@ -101,38 +125,52 @@ def cubic_point(pieces, p, a):
     )
 
 
-def theta_at(pieces, p, s):
-    """theta on a spiral piece at arc length s."""
-    return spiral_theta((pieces[p, COIL_ARC] + pieces[p, SIGN] * (s - pieces[p, S_START])) / pieces[p, COIL_GROWTH])
+def theta_at(pieces, p, s, low):
+    """theta on a spiral piece at arc length s + low, as a pair."""
+    way, rest = two_sum(s, -pieces[p, S_START])
+    rest += low - pieces[p, S_START_LOW]
+    sign = pieces[p, SIGN]
+    return coil_theta(
+        pieces[p, COIL_GROWTH],
+        pieces[p, COIL_GROWTH_LOW],
+        pieces[p, COIL_ARC],
+        pieces[p, COIL_ARC_LOW],
+        sign * way,
+        sign * rest,
+    )
 
 
-def spiral_point(pieces, p, theta):
-    """route_point() on a spiral piece at theta."""
-    c = cos(theta + pieces[p, COIL_ROTATION])
-    d = sin(theta + pieces[p, COIL_ROTATION])
-    scale = pieces[p, SIGN] / sqrt(1.0 + theta * theta)
+def spiral_point(pieces, p, theta, low):
+    """route_point() on a spiral piece at theta + low."""
+    a, rest = two_sum(theta, pieces[p, COIL_ROTATION])
+    c, d = cos_sin(a, rest + low)
+    square = 1.0 + theta * theta
+    length = sqrt(square)
+    scale = pieces[p, SIGN] / length
     return (
         pieces[p, CENTRE_X] + pieces[p, COIL_GROWTH] * theta * c,
         pieces[p, CENTRE_Y] + pieces[p, COIL_GROWTH] * theta * d,
         scale * (c - theta * d),
         scale * (d + theta * c),
-        pieces[p, SIGN] * spiral_curvature(theta) / pieces[p, COIL_GROWTH],
+        pieces[p, SIGN] * ((1.0 + square) / (square * length)) / pieces[p, COIL_GROWTH],  # spiral_curvature()
     )
 
 
 def route_points(pieces, s, out):
-    """Fill in the point at every s. out: (S, POINT_COLUMNS) PX, PY, TX, TY, POINT_CURVATURE"""
+    """Fill in the point at every s. s: (S, 2) pairs; out: (S, POINT_COLUMNS) PX, PY, TX, TY, POINT_CURVATURE"""
     p = 0
     with cython.nogil:
         for i in range(s.shape[0]):
-            p = piece_of(pieces, s[i], p)
-            (out[i, PX], out[i, PY], out[i, TX], out[i, TY], out[i, POINT_CURVATURE]) = route_point(pieces, p, s[i])
+            p = piece_of(pieces, s[i, HIGH], p)
+            (out[i, PX], out[i, PY], out[i, TX], out[i, TY], out[i, POINT_CURVATURE]) = route_point(
+                pieces, p, s[i, HIGH], s[i, LOW]
+            )
 
 
 def set_piece_theta(pieces, p, k, chain):
     """Fill in theta of handle k if it stands on a spiral."""
     if pieces[p, PIECE_KIND] == SPIRAL:
-        chain[k, PIECE_THETA] = theta_at(pieces, p, -chain[k, PLACE])
+        chain[k, PIECE_THETA], chain[k, REST] = theta_at(pieces, p, -chain[k, PLACE], -chain[k, PLACE_REST])
 
 
 def stands_first(pieces, k, chain):
@@ -145,11 +183,12 @@ def first_place(pieces):
     return BLEND - pieces[0, S_END]
 
 
-def start_route(pieces, s, chain):
-    """Fill in row 0 of a chain on a route: the head at s."""
+def start_route(pieces, s, low, chain):
+    """Fill in row 0 of a chain on a route: the head at s + low."""
     p = piece_of(pieces, s, 0)
-    put_handle(0, route_point(pieces, p, s), chain)
+    put_handle(0, route_point(pieces, p, s, low), chain)
     chain[0, PLACE] = -s
+    chain[0, PLACE_REST] = -low
     chain[0, PIECE] = p
     chain[0, RATE] = 1.0
     chain[0, FILLED] = chain[0, SLIP] = 0.0
@@ -163,7 +202,7 @@ def start_route(pieces, s, chain):
 #
 # Input:  a chain on a route up to handle `first` (start_route() lays out the head), the pieces, and the chords.
 # State:  the links before this one on the same spiral: `alike`, their number (those of the same chord, plus one); d1 to
-#         d5, the angles that they span, the last one first; `begin`, the arc length at their end.
+#         d5, the angles that they span, the last one first.
 # Output: the rows of the handles up to the last one or the place `until`, and of the benches between them.
 def extend_route(pieces, first, last, until, sizes, chain):
     """Place handles after `first` up to the `last`, each at the first point behind its leader at the bench's chord.
@@ -171,7 +210,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
     returns: last, or a handle before it that stands at the place `until` or further back
     """
     alike = 0
-    d1 = d2 = d3 = d4 = d5 = begin = 0.0
+    d1 = d2 = d3 = d4 = d5 = 0.0
     for k in range(first, last):
         if chain[k, PLACE] >= until:
             return k
@@ -188,9 +227,7 @@ def extend_route(pieces, first, last, until, sizes, chain):
             # on an outward spiral the follower is further in: the same equation with theta negative
             theta = -pieces[p, SIGN] * chain[k, PIECE_THETA]
             distance = chord / pieces[p, COIL_GROWTH]
-            if alike == 0:
-                begin = spiral_arc(theta)
-            elif not same:
+            if alike > 0 and not same:
                 alike = 1
             if alike > 5:
                 delta = 5.0 * (d1 - d4) + 10.0 * (d3 - d2) + d5
@@ -198,14 +235,16 @@ def extend_route(pieces, first, last, until, sizes, chain):
                 delta = 3.0 * (d1 - d2) + d3
             else:
                 delta = step / (pieces[p, COIL_GROWTH] * sqrt(1.0 + theta * theta))
-            delta, rear = next_arc(theta, distance * distance, delta)
-            arc = (rear - begin) * pieces[p, COIL_GROWTH] if delta > 0.0 else NO_ROOT
+            delta, arc = next_arc(theta, distance * distance, delta)
+            arc = arc * pieces[p, COIL_GROWTH] if delta > 0.0 else NO_ROOT
             if chord <= arc <= 0.5 * PI * chord:
                 step = arc
                 if p == 0 or s - arc >= pieces[p, S_START]:
-                    chain[k + 1, PIECE_THETA] = fabs(theta + delta)
-                    put_handle(k + 1, spiral_point(pieces, p, fabs(theta + delta)), chain)
-                    chain[k + 1, PLACE] = step - s
+                    rear, lost = two_sum(theta, delta - pieces[p, SIGN] * chain[k, REST])
+                    chain[k + 1, PIECE_THETA] = fabs(rear)
+                    chain[k + 1, REST] = lost if rear > 0.0 else -lost
+                    put_handle(k + 1, spiral_point(pieces, p, fabs(rear), chain[k + 1, REST]), chain)
+                    put_place(k, step, chain)
                     chain[k + 1, PIECE] = p
                     finish_link(k, chord, chain)
                     alike += 1
@@ -214,7 +253,6 @@ def extend_route(pieces, first, last, until, sizes, chain):
                     d3 = d2
                     d2 = d1
                     d1 = delta
-                    begin = rear
                     continue
         alike = 0
         seek_rear(pieces, k, p, step, chord, chain)
@@ -225,6 +263,11 @@ def extend_route(pieces, first, last, until, sizes, chain):
 def put_handle(k, point, chain):
     """Handle k at a point of the path, as route_point() returns it."""
     chain[k, PX], chain[k, PY], chain[k, TX], chain[k, TY], chain[k, CURVATURE] = point
+
+
+def put_place(k, step, chain):
+    """Place of handle k + 1, a step along the path behind handle k [m]."""
+    chain[k + 1, PLACE], chain[k + 1, PLACE_REST] = two_sum(chain[k, PLACE], step + chain[k, PLACE_REST])
 
 
 # Input:  a chain up to handle k, and a first guess of the step along the path to the next one.
@@ -242,7 +285,7 @@ def seek_rear(pieces, k, p, step, chord, chain):
         if not (low <= step <= high):
             step = 0.5 * (low + high)
         p = piece_of(pieces, s - step, p)
-        put_handle(k + 1, route_point(pieces, p, s - step), chain)
+        put_handle(k + 1, route_point(pieces, p, s, -chain[k, PLACE_REST] - step), chain)
         dx = chain[k, PX] - chain[k + 1, PX]
         dy = chain[k, PY] - chain[k + 1, PY]
         distance = sqrt(dx * dx + dy * dy)
@@ -255,7 +298,7 @@ def seek_rear(pieces, k, p, step, chord, chain):
         if fabs(distance - chord) <= close or high - low <= 1e-15 * chord:
             break
         step += (chord - distance) / slope if slope > 0.1 else 2.0 * high
-    chain[k + 1, PLACE] = step - s
+    put_place(k, step, chain)
     chain[k + 1, PIECE] = p
     set_piece_theta(pieces, p, k + 1, chain)
 

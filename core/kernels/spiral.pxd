@@ -9,13 +9,13 @@ cdef Py_ssize_t LANES
 cpdef double spiral_arc(double theta) noexcept nogil
 @cython.locals(i=cython.int)
 cpdef double spiral_theta(double arc) noexcept nogil
-cpdef void spiral_thetas(double[::1] arcs, double[::1] thetas) noexcept
 cdef double half_sine(double half) noexcept nogil
 cdef double half_cosine(double half) noexcept nogil
 cdef (double, double, double) halley_step(double theta, double chord2, double delta, double s, double c) noexcept nogil
 @cython.locals(i=cython.int)
 cdef (double, double, double) next_handle(double theta, double chord2, double guess) noexcept nogil
 cdef (double, double) next_arc(double theta, double chord2, double guess) noexcept nogil
+cdef double arc_between(double a, double b, double delta) noexcept nogil
 cdef double theta_ratio(double theta, double delta, double s, double c) noexcept nogil
 cdef double first_guess(double theta, double chord2) noexcept nogil
 
@@ -26,7 +26,7 @@ cdef class Block:
     cdef double[8] theta, x, y, rate, guess, d1, d2, d3, delta, sine, cosine
 
     @cython.locals(lane=cython.Py_ssize_t)
-    cdef Py_ssize_t start(self, Py_ssize_t row, double[::1] thetas, double head_speed) noexcept nogil
+    cdef Py_ssize_t start(self, Py_ssize_t row, Pairs thetas, double head_speed) noexcept nogil
     cdef void expect(self, double chord2, bint alike) noexcept nogil
     cdef void solve(self, double chord2) noexcept nogil
     cdef void advance(self) noexcept nogil
@@ -40,7 +40,7 @@ cdef void write_handles(
     row=cython.Py_ssize_t, k=cython.Py_ssize_t, lanes=cython.Py_ssize_t, alike=cython.Py_ssize_t, block=Block
 )
 cpdef Py_ssize_t spiral_trajectory(
-    double growth, double[::1] thetas, const double[::1] chords, double head_speed, Tables position, Tables velocity,
+    double growth, Pairs thetas, const double[::1] chords, double head_speed, Tables position, Tables velocity,
     Rows speed, Budget budget
 ) noexcept
 

@@ -5,7 +5,7 @@ Its derivative sqrt(1 + theta^2) increases, so Newton from theta = sqrt(2 arc) >
 """
 
 import cython
-from cython.cimports.libc.math import asinh, cos, fabs, sin, sqrt
+from cython.cimports.libc.math import asinh, atanh, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
@@ -36,13 +36,6 @@ def spiral_theta(arc):
         if fabs(step) <= 1e-15 * theta:
             break
     return theta
-
-
-def spiral_thetas(arcs, thetas):
-    """Fill in the polar angle for every arc length from the centre, in units of growth."""
-    with cython.nogil:
-        for i in range(arcs.shape[0]):
-            thetas[i] = spiral_theta(arcs[i])
 
 
 def half_sine(half):
@@ -101,11 +94,31 @@ def next_handle(theta, chord2, guess):
 
 
 def next_arc(theta, chord2, guess):
-    """delta of the next handle and spiral_arc() there; delta is NO_ROOT when the chain folds or turns at the centre."""
+    """delta of the next handle and the arc to it, in units of growth; delta is NO_ROOT when the chain folds or turns at
+    the centre.
+    """
     delta, _, _ = next_handle(theta, chord2, guess)
     if delta > 0.0 and theta * (theta + delta) > 0.0:
-        return delta, spiral_arc(theta + delta)
+        return delta, arc_between(fabs(theta), fabs(theta + delta), delta)
     return NO_ROOT, 0.0
+
+
+def arc_between(a, b, delta):
+    """Arc between two polar angles that are delta apart, in units of growth, without cancellation.
+
+    With l = sqrt(1 + theta^2), l_b - l_a = (b - a) (b + a) / (l_b + l_a), and asinh b - asinh a is the logarithm of
+    q = (b + l_b) / (a + l_a), or 2 atanh y, y = (q - 1) / (q + 1): up to 0.05 by its series.
+    """
+    far = max(a, b)
+    near = min(a, b)
+    length = sqrt(1.0 + near * near)
+    rise = delta * (far + near) / (sqrt(1.0 + far * far) + length)
+    y = (delta + rise) / (2.0 * (near + length) + delta + rise)
+    if y > 0.05:
+        return 0.5 * (far * rise + delta * length + 2.0 * atanh(y))
+    z = y * y
+    series = z * (1.0 / 3.0 + z * (1.0 / 5.0 + z * (1.0 / 7.0 + z * (1.0 / 9.0 + z * (1.0 / 11.0)))))
+    return 0.5 * (far * rise + delta * length) + y + y * series
 
 
 def theta_ratio(theta, delta, s, c):
@@ -165,9 +178,11 @@ class Block:
         lanes = min(thetas.shape[0] - row, LANES)
         self.standing = lanes
         for lane in range(lanes):
-            self.theta[lane] = thetas[row + lane]
-            self.x[lane] = cos(self.theta[lane])
-            self.y[lane] = sin(self.theta[lane])
+            self.theta[lane] = thetas[row + lane, HIGH]
+            cosine = cos(self.theta[lane])
+            sine = sin(self.theta[lane])
+            self.x[lane] = cosine - thetas[row + lane, LOW] * sine
+            self.y[lane] = sine + thetas[row + lane, LOW] * cosine
             self.rate[lane] = -head_speed / sqrt(1.0 + self.theta[lane] * self.theta[lane])
             self.d1[lane] = self.d2[lane] = self.d3[lane] = 0.0
         return lanes
@@ -247,14 +262,14 @@ def write_handles(block, row, k, position, velocity, speed):
         speed[row + lane, k] = pace[lane]
 
 
-# Input:  a growth, the angle of the head at every instant, the chords, and the speed of the head.
+# Input:  a growth, the angle of the head at every instant in double-double, the chords, and the speed of the head.
 # State:  `row`, the first instant of the block; `block`, the state of its lanes at handle k; `alike`, the number of
 #         equal chords up to this one, whose deltas predict the next one.
 # Output: a row of each table for every instant before a fold, and their number.
 def spiral_trajectory(growth, thetas, chords, head_speed, position, velocity, speed, budget):
     """Fill in position, velocity and speed of every handle for every head angle; returns how many rows precede a fold.
 
-    thetas: (T,) head angles; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
+    thetas: (T, 2) head angles, pairs; chords: (n,) [m]; position, velocity: (T, n + 1, 2); speed: (T, n + 1)
     budget: ends it before it is done, as if no row folded
     """
     row = 0

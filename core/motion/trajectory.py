@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import plots
-from core.dance import Dance
+from core.dance import Clock, Dance
+from core.error_free import paired, two_product, two_sum
 from core.errors import asked_of
 from core.kernels import Budget
 from core.paths.frame import WORLD
@@ -107,6 +108,16 @@ class Trajectory(WithArrays):
         return ahead
 
 
+def exact_travels(clock: Clock, times: Floats) -> Floats:
+    """Travels of the head at times (T,) in double-double (T, 2) [m]; only those at the ends of passages are rounded."""
+    k = np.searchsorted(clock.times, times, side="right") if clock.passages else np.ones(times.size, dtype=np.int64)
+    node, speeds = np.maximum(k - 1, 0), np.array(clock.speeds)[k]
+    since, lost = two_sum(times, -np.array(clock.times)[node])
+    way, more = two_product(since, speeds)
+    travel, rest = two_sum(np.array(clock.travels)[node], way)
+    return paired(travel, rest + (more + lost * speeds))
+
+
 @asked_of("dance", Dance, "the trajectory was not computed")
 def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
@@ -114,7 +125,8 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     times: (T,) or one [s], 0 at the start; at negative times the head is on the outward extension of the spiral, or on
         the part of a route before its s = 0
     returns: see Trajectory; positions up to 20 m from the centre are good to 1e-11 m, further ones to 1e-12 of that
-        distance, speeds to 1e-11 m/s up to 0.01 s before a fold; these come from the rigid links, not from differences;
+        distance, on spirals and coils of up to 100,000 turns (off the origin also to the rounding of the coordinates);
+        speeds to 1e-11 m/s up to 0.01 s before a fold; these come from the rigid links, not from differences;
         at a time when the head changes its speed, they are those after the change
     raises: OutsideRun (times) after the end of the run, or if the tail would be before the beginning of a route;
         TooMuchWork
@@ -128,18 +140,18 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     (224, 2)
     """
     dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
-    time, handles = dance.clock.steady(asked.reshape(-1)), dragon.benches + 1
-    shape = (time.size, handles)
+    travels, handles = exact_travels(dance.clock, asked.reshape(-1)), dragon.benches + 1
+    shape = (len(travels), handles)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     block = dance.path.block
     batch = block * max(1, BATCH_WORK // (block * handles))
-    for first in range(0, time.size, batch):
-        rows = slice(first, first + batch)
-        budget.afford(float(handles * time[rows].size))
-        s, columns = time[rows] * dance.head_speed, (position[rows], velocity[rows], speed[rows])
+    for first in range(0, len(travels), batch):
+        s, rows = travels[first : first + batch], slice(first, first + batch)
+        budget.afford(float(handles * len(s)))
+        columns = position[rows], velocity[rows], speed[rows]
         before_fold = dance.path.handles(s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, columns, budget)
         budget.look()
-        if before_fold < time[rows].size:
+        if before_fold < len(s):
             raise dance.after_the_end(asked, first + before_fold)
     if dance.passages:
         share = dance.clock.speed(asked.reshape(-1)) / dance.head_speed

@@ -86,7 +86,8 @@ class Path(Protocol):
     ) -> int:
         """Fill in all handles in the own frame; returns the number of places before a fold.
 
-        s: (T,) of the head [m]; last: least polar angle of the head on a spiral [rad]; chords: (n,) [m]
+        s: (T, 2) of the head, in double-double [m]; last: least polar angle of the head on a spiral [rad]
+        chords: (n,) [m]
         columns: to fill: position (T, n + 1, 2) [m]; velocity (T, n + 1, 2), speed (T, n + 1) [m/s]
         budget: ends it before it is done; the caller looks at it afterwards
         """

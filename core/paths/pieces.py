@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
+from core.error_free import two_product, two_sum
 from core.errors import InvalidValue, Quantity, checked_angle, checked_number, checked_point, checked_size, listed
 from core.kernels import Budget
-from core.kernels.constants import S_END, S_START
+from core.kernels.constants import COIL_ARC_LOW, COIL_GROWTH_LOW, S_END, S_END_LOW, S_START, S_START_LOW
 from core.paths.cubics import cut
 from core.shown import REPR_MOST, Readable
 from core.values import Floats, Point
@@ -43,10 +44,12 @@ def checked_points(name: str, value: object) -> tuple[Point, ...]:
     return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(given))
 
 
-def _row(kind: str, start: float, end: float, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
+def _row(kind: str, start: float, length: Point, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:
+    """The row of a piece from an arc length on. length: in double-double, so that the next piece begins at its end"""
     row = np.zeros((1, kernels.PIECE_COLUMNS))
+    end, low = two_sum(start, length[0])
     known = (_KINDS[kind], start, end, *curvature, *parameters)
-    row[0, : len(known)], row[0, kernels.K_SLOPE] = known, slope
+    row[0, : len(known)], row[0, kernels.K_SLOPE], row[0, S_END_LOW] = known, slope, low + length[1]
     return row
 
 
@@ -68,7 +71,7 @@ class Line(Readable):
         length = math.hypot(end[0] - x, end[1] - y)
         _refuse_short(name, length)
         dx, dy = (end[0] - x) / length, (end[1] - y) / length
-        return _row("line", s, s + length, (0.0, 0.0), x, y, dx, dy)
+        return _row("line", s, (length, 0.0), (0.0, 0.0), x, y, dx, dy)
 
 
 @dataclass(frozen=True)
@@ -94,7 +97,8 @@ class Arc(Readable):
         _refuse_short(name, radius * abs(sweep))
         sign = math.copysign(1.0, sweep)
         curvature = sign / radius
-        return _row("arc", s, s + radius * abs(sweep), (curvature, curvature), x, y, radius, angle, sign)
+        length = two_product(radius, abs(sweep))
+        return _row("arc", s, length, (curvature, curvature), x, y, radius, angle, sign)
 
 
 @dataclass(frozen=True)
@@ -119,15 +123,20 @@ class Coil(Readable):
 
     def rows(self, name: str, s: float, budget: Budget) -> Floats:
         """Rows of the kernels' table from arc length s on."""
-        growth = self.pitch / (2.0 * math.pi)
+        growth, growth_low = kernels.growth_pair(self.pitch)
         start, end = 2.0 * math.pi * self.start_turns, 2.0 * math.pi * self.end_turns
         (x, y), rotation = self.centre, self.rotation
-        arc, end_arc = growth * kernels.spiral_arc(start), growth * kernels.spiral_arc(end)
+        arc, arc_low = kernels.coil_arc(self.pitch, self.start_turns)
+        end_arc, end_low = kernels.coil_arc(self.pitch, self.end_turns)
         _refuse_short(name, abs(end_arc - arc))
         sign = 1.0 if end > start else -1.0
+        way, lost = two_sum(end_arc, -arc)
+        length = sign * way, sign * (lost + (end_low - arc_low))
         curvatures = (sign * kernels.spiral_curvature(start) / growth, sign * kernels.spiral_curvature(end) / growth)
         slope = kernels.steepest_curvature(min(start, end)) / growth**2
-        return _row("spiral", s, s + abs(end_arc - arc), curvatures, x, y, growth, rotation, sign, arc, slope=slope)
+        row = _row("spiral", s, length, curvatures, x, y, growth, rotation, sign, arc, slope=slope)
+        row[0, COIL_ARC_LOW], row[0, COIL_GROWTH_LOW] = arc_low, growth_low
+        return row
 
 
 @dataclass(frozen=True, repr=False)
@@ -168,8 +177,11 @@ class Waypoints(Readable):
         knots = np.concatenate([[0.0], np.cumsum(steps)])
         spline = CubicSpline(knots, points, bc_type=headings)
         rows = cut(f"{name}.points", np.moveaxis(spline.c[::-1], 1, 0), np.diff(knots), budget)
-        ends = np.cumsum([s, *rows[:, S_END]])
+        lengths = rows[:, S_END].copy()
+        ends = np.cumsum([s, *lengths])
+        lost = np.cumsum(two_sum(ends[:-1], lengths)[1])
         rows[:, S_START], rows[:, S_END] = ends[:-1], ends[1:]
+        rows[1:, S_START_LOW], rows[:, S_END_LOW] = lost[:-1], lost
         return rows
 
     @staticmethod

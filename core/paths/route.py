@@ -9,9 +9,22 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.error_free import paired
 from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_number, listed, said, too_much
 from core.kernels import Budget, Halted
-from core.kernels.constants import K_END, K_START, POINT_CURVATURE, PX, PY, S_END, S_START, TX, TY
+from core.kernels.constants import (
+    K_END,
+    K_START,
+    POINT_CURVATURE,
+    PX,
+    PY,
+    S_END,
+    S_END_LOW,
+    S_START,
+    S_START_LOW,
+    TX,
+    TY,
+)
 from core.paths.frame import WORLD
 from core.paths.path import Columns, HeadState
 from core.paths.pieces import Arc, Coil, Line, Piece
@@ -57,7 +70,7 @@ class Route(Readable):
             raise InvalidValue("path.pieces", "must hold at least one piece")
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
         rows: list[Floats] = []
-        joints, count, s = [], 0, -self.start
+        joints, count, s, low = [], 0, -self.start, 0.0
         for k, piece in enumerate(self.pieces):
             name = f"path.pieces.{k}"
             if not isinstance(piece, Piece):
@@ -70,7 +83,9 @@ class Route(Readable):
                 rule = "must come after fewer pieces, or have fewer points: the route was not laid out {then}"
                 raise too_much(budget, name, rule, k) from halted
             rows[-1][:, kernels.PART] = k
-            count, s = count + len(rows[-1]), float(rows[-1][-1, S_END])
+            rows[-1][:, [S_START_LOW, S_END_LOW]] += low
+            count += len(rows[-1])
+            s, low = float(rows[-1][-1, S_END]), float(rows[-1][-1, S_END_LOW])
         self.table = np.concatenate(rows)
         self.joints = tuple(s for s, _ in joints[1:])
         self.begin, self.end = float(self.table[0, S_START]), s
@@ -108,8 +123,9 @@ class Route(Readable):
 
     def _refuse_joint(self, k: int, s: float, row: int) -> None:
         ends = np.empty((2, kernels.POINT_COLUMNS))
+        place = np.array([[s, self.table[row, S_START_LOW]]])
         for side, part in enumerate((self.table[:row], self.table[row:])):
-            kernels.route_points(np.ascontiguousarray(part), np.array([s]), ends[side : side + 1])
+            kernels.route_points(np.ascontiguousarray(part), place, ends[side : side + 1])
         (x, y, tx, ty, _), (x2, y2, tx2, ty2, _) = ends
         gap = math.hypot(x2 - x, y2 - y)
         kink = abs(math.atan2(tx * ty2 - ty * tx2, tx * tx2 + ty * ty2))
@@ -152,8 +168,8 @@ class Route(Readable):
         return [*rows, ("begin", worded(self.begin, "m", TABLE_DIGITS)), ("end", worded(self.end, "m", TABLE_DIGITS))]
 
     def _points(self, s: Floats | float) -> Floats:
-        flat = np.ascontiguousarray(np.asarray(s, dtype=np.float64).reshape(-1))
-        out = np.empty((flat.size, kernels.POINT_COLUMNS))
+        flat = paired(np.asarray(s, dtype=np.float64).reshape(-1))
+        out = np.empty((len(flat), kernels.POINT_COLUMNS))
         kernels.route_points(self.table, flat, out)
         return out.reshape(*np.shape(s), kernels.POINT_COLUMNS)
 
@@ -184,7 +200,7 @@ class Route(Readable):
         sizes[:, kernels.CHORD] = chords
         chain = np.empty((chords.size + 1, kernels.CHAIN_COLUMNS))
         kernels.route_trajectory(self.table, s, head_speed, sizes, chain, *columns)
-        return s.size
+        return len(s)
 
     def lags(self, s: Floats, last: float) -> Floats:
         """Minus the arc lengths s (T,) [m]."""

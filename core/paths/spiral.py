@@ -13,6 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.dragon import Dragon
+from core.error_free import paired
 from core.errors import Given, InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
 from core.paths.frame import WORLD, Frame
 from core.paths.path import Columns, HeadState
@@ -71,6 +72,13 @@ class Spiral(Readable):
         object.__setattr__(self, "start_theta", 2.0 * math.pi * turns)
         object.__setattr__(self, "length", self.growth * float(kernels.spiral_arc(self.start_theta)))
 
+    @cached_property
+    def _lows(self) -> tuple[float, float]:
+        """What growth [m/rad] and length [m] have lost in rounding."""
+        _, growth_low = kernels.growth_pair(self.pitch)
+        high, low = kernels.coil_arc(self.pitch, self.start_turns)
+        return growth_low, (high - self.length) + low
+
     def __repr__(self) -> str:
         given = f"pitch={self.pitch!r}, start_turns={self.start_turns!r}"
         if self.frame != WORLD:
@@ -112,14 +120,30 @@ class Spiral(Readable):
     @property
     def curve(self) -> kernels.Curve:
         """The spiral in the form of the kernels."""
-        return kernels.spiral_curve(self.growth)
+        return kernels.spiral_curve(self.growth, *self._lows)
 
     def theta(self, s: Floats | float) -> Floats:
         """Polar angle at arc length s in its own frame. s: (...) [m], at most length; returns (...) [rad]."""
-        from_centre: Floats = (self.length - np.asarray(s, dtype=np.float64)) / self.growth
-        theta: Floats = np.empty(from_centre.size)
-        kernels.spiral_thetas(from_centre.reshape(-1), theta)
-        return theta.reshape(from_centre.shape)
+        return self._turned(s)[0]
+
+    def _turned(self, s: Floats | float) -> tuple[Floats, Floats]:
+        """theta(), and what it has lost in rounding [rad]."""
+        flat = np.asarray(s, dtype=np.float64)
+        high, low = self._thetas(paired(flat.reshape(-1))).T.reshape(2, *flat.shape)
+        return high, low
+
+    def _thetas(self, s: Floats) -> Floats:
+        """Polar angles [rad] at arc lengths [m]; both in double-double (S, 2)."""
+        thetas = np.empty_like(s)
+        growth_low, length_low = self._lows
+        kernels.spiral_thetas(self.growth, growth_low, self.length, length_low, s, thetas)
+        return thetas
+
+    def _directions(self, s: Floats | float) -> tuple[Floats, Floats, Floats]:
+        """theta() with its cosine and sine, each (...)."""
+        theta, low = self._turned(s)
+        cos, sin = np.cos(theta), np.sin(theta)
+        return theta, cos - low * sin, sin + low * cos
 
     def travel_to(self, radius: float) -> float:
         """Arc length from the start to a radius [m]."""
@@ -192,22 +216,25 @@ class Spiral(Readable):
 
     def position(self, s: Floats | float) -> Floats:
         """Points at arc length s. s: (...) [m]; returns (..., 2) x, y [m]."""
-        theta = self.theta(s)
-        direction: Floats = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+        theta, cos, sin = self._directions(s)
+        direction: Floats = np.stack([cos, sin], axis=-1)
         return self.frame.points(direction * (self.growth * theta[..., None]))
 
     def head(self, s: float) -> HeadState:
         """The head at arc length s [m]."""
-        theta = float(kernels.spiral_theta((self.length - s) / self.growth))
-        radius = self.growth * theta
-        x, y = radius * math.cos(theta), radius * math.sin(theta)
+        growth_low, length_low = self._lows
+        theta, low = kernels.coil_theta(self.growth, growth_low, self.length, length_low, -s, 0.0)
+        cos, sin, radius = math.cos(theta), math.sin(theta), self.growth * theta
+        x, y = radius * (cos - low * sin), radius * (sin + low * cos)
         return HeadState(theta, radius, *((x, y) if self.frame == WORLD else self.frame.point(x, y)))
 
     def handles(
         self, s: Floats, last: float, chords: Floats, head_speed: float, columns: Columns, budget: kernels.Budget
     ) -> int:
         """Fill in all handles, see Path; not inside the polar angle `last` in spite of rounding."""
-        return kernels.spiral_trajectory(self.growth, self.lags(s, last), chords, head_speed, *columns, budget)
+        thetas = self._thetas(s)
+        thetas[thetas[:, kernels.HIGH] < last] = last, 0.0
+        return kernels.spiral_trajectory(self.growth, thetas, chords, head_speed, *columns, budget)
 
     def calm(self, curvature: float) -> float:
         """Polar angle from which outwards the |curvature| is at most this [1/m], as for gentle_lag() [rad]."""
@@ -234,8 +261,7 @@ class Spiral(Readable):
 
     def tangent(self, s: Floats | float) -> Floats:
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
-        theta = self.theta(s)
-        cos, sin = np.cos(theta), np.sin(theta)
+        theta, cos, sin = self._directions(s)
         along: Floats = np.stack([theta * sin - cos, -theta * cos - sin], axis=-1)
         return self.frame.vectors(along / np.sqrt(1.0 + theta**2)[..., None])
 

@@ -76,7 +76,7 @@ class Turn(Route):
         inner = radius if entry_radius is None else checked_number("entry_radius", entry_radius, "m", 1e-3, radius)
         outer = inner if exit_radius is None else checked_number("exit_radius", exit_radius, "m", 1e-3, radius)
         turns = checked_number("start_turns", start_turns, "turns", 0.0, 1e5, open_low=True)
-        _refuse_start(pitch, turns, radius, inner)
+        coil = _coil_length(pitch, turns, radius, inner)
         arcs = _arcs(pitch, ratio, inner, outer)
         radii, (first, second), angles = arcs.radii, arcs.centres, arcs.angles
         _refuse_arcs(arcs, ratio, radius, entry_radius, exit_radius)
@@ -87,11 +87,10 @@ class Turn(Route):
             Coil(pitch, outer / pitch, turns, rotation=math.pi),
         )
         try:
-            route = Route(pieces)
-        except InvalidValue as error:  # every piece is valid, so the fault is in a joint
-            rule = "must be smaller: on so long a coil rounding of arc lengths opens the joints of the turn"
-            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns")) from error
-        super().__init__(pieces, start=route.joints[0])
+            super().__init__(pieces, start=Route(pieces).joints[0])
+        except InvalidValue as error:  # every piece is valid, and every joint closes
+            rule, long = "must be smaller: no route may be {coil} long before its s = 0", Quantity(coil, "m", 6)
+            raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), coil=long) from error
         self.pitch, self.turning_radius, self.ratio = pitch, radius, ratio
         self.entry_radius, self.exit_radius, self.start_turns = inner, outer, turns
         self.radii, self.centres, self.angles = radii, (first, second), angles
@@ -175,12 +174,17 @@ def _half_sine(theta: float, phi: float) -> float:
     return math.sin(0.5 * (theta - phi + math.atan(theta) - math.atan(phi)))
 
 
-def _refuse_start(pitch: float, turns: float, radius: float, inner: float) -> None:
-    """Refuse coils that begin inside the circle, or so near to the entry that no piece remains."""
-    coil = kernels.spiral_arc(2.0 * math.pi * turns) - kernels.spiral_arc(2.0 * math.pi * inner / pitch)
-    if turns * pitch <= radius or pitch / (2.0 * math.pi) * coil < LENGTH_MIN:
+def _coil_length(pitch: float, turns: float, radius: float, inner: float) -> float:
+    """Length of the coil up to the entry [m].
+
+    raises: InvalidValue for coils that begin inside the circle, or so near to the entry that no piece remains
+    """
+    arcs = kernels.spiral_arc(2.0 * math.pi * turns) - kernels.spiral_arc(2.0 * math.pi * inner / pitch)
+    coil = pitch / (2.0 * math.pi) * arcs
+    if turns * pitch <= radius or coil < LENGTH_MIN:
         rule, least = "must be more than {least}, so that the coil begins outside the circle", radius / pitch
         raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), least=Quantity(least, "turns", 6))
+    return coil
 
 
 def _refuse_arcs(

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from core import kernels
 from core.dance import Dance
+from core.error_free import paired
 from core.errors import Given, InvalidValue, Quantity, asked_of, checked_type, said, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
@@ -258,8 +259,8 @@ class _Sampled:
         """As _nominal(), on a spiral of another pitch [m], up to its fold at most; no stray counts as safe."""
         spiral, chords = self.nominal.path.spiral, self.nominal.dragon.chords
         assert spiral is not None
-        theta = spiral.theta(self.times[rows] * self.nominal.head_speed) * (spiral.pitch / pitch)
-        shape = (theta.size, chords.size + 1)
+        theta = paired(spiral.theta(self.times[rows] * self.nominal.head_speed) * (spiral.pitch / pitch))
+        shape = (len(theta), chords.size + 1)
         places, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
         growth = pitch / (2.0 * math.pi)
         length = kernels.spiral_trajectory(growth, theta, chords, 1.0, places, velocity, speed, self.budget)

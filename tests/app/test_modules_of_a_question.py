@@ -107,6 +107,7 @@ SEARCH = {
 # The poses just before and after, and the four engines.
 CROSS_CHECK = {
     "core.contact.cross_check",
+    "core.error_free",
     "core.shapes.engines",
     "core.shapes.rectangles",
 }

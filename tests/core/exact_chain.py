@@ -99,6 +99,24 @@ def spiral_handles(growth: float, theta: float, chords: Floats) -> list[Point]:
     return handles
 
 
+def coil_handles(pitch: float, begin: float, way: arb, chords: Floats, rotation: float = 0.0) -> list[Point]:
+    """Handles of a dragon whose head has gone a way on a coil from `begin` turns [m].
+
+    The coil runs inwards, or outwards if `begin` is negative: angles and arc lengths from its centre are negative then.
+    """
+    flint.ctx.prec = BITS
+    growth, start = arb(pitch) / (2 * arb.pi()), 2 * arb.pi() * begin
+    arc = spiral_place(start) - way / growth
+    at = middle((2 * abs(arc)).sqrt() * (1 if arc > 0 else -1))
+    for _ in range(ROUTE_STEPS):
+        at = middle(at - (spiral_place(at) - arc) / (1 + at * at).sqrt())
+    handles = []
+    for chord in [*chords.tolist(), 0.0]:
+        handles.append((growth * abs(at) * (abs(at) + rotation).cos(), growth * abs(at) * (abs(at) + rotation).sin()))
+        at = middle(at + next_delta(at, arb(chord) / growth)) if chord else at
+    return handles
+
+
 class ExactRoute:
     """Points of a route by its table."""
 
@@ -110,7 +128,7 @@ class ExactRoute:
     def point(self, s: arb) -> tuple[Point, Point]:
         """Point [m] and unit tangent at arc length s."""
         row = self.rows[min(bisect_left(self.ends, float(s)), len(self.rows) - 1)]
-        u = s - row[c.S_START]
+        u = s - row[c.S_START] - row[c.S_START_LOW]
         if row[c.PIECE_KIND] == c.LINE:
             dx, dy = arb(row[c.LINE_DX]), arb(row[c.LINE_DY])
             return (row[c.LINE_X] + u * dx, row[c.LINE_Y] + u * dy), (dx, dy)
@@ -120,10 +138,11 @@ class ExactRoute:
             cos, sin = angle.cos(), angle.sin()
             return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (-sign * sin, sign * cos)
         if row[c.PIECE_KIND] == c.SPIRAL:
-            theta = self._theta((row[c.COIL_ARC] + sign * u) / row[c.COIL_GROWTH])
+            growth = arb(row[c.COIL_GROWTH]) + row[c.COIL_GROWTH_LOW]
+            theta = self._theta((arb(row[c.COIL_ARC]) + row[c.COIL_ARC_LOW] + sign * u) / growth)
             angle = theta + row[c.COIL_ROTATION]
             cos, sin = angle.cos(), angle.sin()
-            radius, scale = row[c.COIL_GROWTH] * theta, sign / (1 + theta * theta).sqrt()
+            radius, scale = growth * theta, sign / (1 + theta * theta).sqrt()
             return (row[c.CENTRE_X] + radius * cos, row[c.CENTRE_Y] + radius * sin), (
                 scale * (cos - theta * sin),
                 scale * (sin + theta * cos),

@@ -96,7 +96,7 @@ def test_a_speed_failure_is_at_the_first_instant_above_the_limit(
     assert above - kept < EXCESS_ERROR
     ends = trajectory(Dance(dragon, path, head_speed), [kept, above]).speed
     assert ends[0].max() <= limit * (1.0 + SPEED_ROUNDING) < ends[1].max()
-    assert ends[1].argmax() == speed.benches[0]
+    assert ends[1][speed.benches[0]] >= ends[1].max() * (1.0 - SPEED_ROUNDING)  # on one arc handles are equally fast
     before = np.concatenate([np.linspace(start, kept, 2_000), kept - np.geomspace(1e-8, 1.0, 200)])
     assert trajectory(Dance(dragon, path, head_speed), before).speed.max() <= limit * (1.0 + SPEED_ROUNDING)
     assert f"first exceeds {limit:g} m/s at {speed.time:.6f} s" in speed.message

@@ -57,6 +57,8 @@ EXPRESSIONS = {
     "route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13), (2, 14)))]).table",
     "places on a route": "core.Route([core.Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))]).position([21.0, 3.0, 14.0])",
     "trajectory on a turn": "core.trajectory(Dance(Dragon(20), Turn(1.7)), [0.0, 14.0, 30.0])",
+    "long spiral": "core.trajectory(Dance(Dragon(6), Spiral(0.3, 1e4), 1.3), [1e4])",
+    "long coil": "core.trajectory(Dance(Dragon(6), core.Route([core.Coil(0.3, 1e4, 9.0, rotation=1.0)]), 1.3), [1e4])",
     "first excess": "core.motion.speed.first_excess(Dance(Dragon(20), Turn(1.7)), 1.5, start=0.0, stop=30.0)",
     "first excess before a fold": "core.motion.speed.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)",
     "minimum pitch": "core.minimum_pitch(Dragon(10), turning_radius=2.5, start_turns=5.0)",

@@ -88,7 +88,8 @@ def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claime
 def exact_theta(spiral: Spiral, time: float, head_speed: float = 1.0) -> arb:
     """Place of the head at a time [s], a double taken as exact."""
     flint.ctx.prec = BITS
-    arc = spiral_place(arb(spiral.start_theta)) - arb(time) * head_speed / spiral.growth
+    start, growth = 2 * arb.pi() * spiral.start_turns, spiral.pitch / (2 * arb.pi())
+    arc = spiral_place(start) - arb(time) * head_speed / growth
     theta = arb(float(spiral.theta(time * head_speed)))
     for _ in range(STEPS):
         theta = middle(theta - (spiral_place(theta) - arc) / (1 + theta * theta).sqrt())
@@ -98,10 +99,11 @@ def exact_theta(spiral: Spiral, time: float, head_speed: float = 1.0) -> arb:
 def exact_gap(dragon: Dragon, spiral: Spiral, time: float, head_speed: float, pair: tuple[int, int]) -> float:
     """Separation of two benches at a time [s], a double taken as exact [m]."""
     theta = exact_theta(spiral, time, head_speed)
-    at, handles = theta, [(spiral.growth * theta, arb(0))]
+    growth = middle(spiral.pitch / (2 * arb.pi()))
+    at, handles = theta, [(growth * theta, arb(0))]
     for chord in dragon.chords[: pair[1] + 1].tolist():
-        at = middle(at + next_delta(at, arb(chord) / spiral.growth))
-        handles.append((spiral.growth * at * (at - theta).cos(), spiral.growth * at * (at - theta).sin()))
+        at = middle(at + next_delta(at, arb(chord) / growth))
+        handles.append((growth * at * (at - theta).cos(), growth * at * (at - theta).sin()))
     sizes = [np.array([dragon.chords[k], 0.5 * dragon.lengths[k], 0.5 * dragon.widths[k]]) for k in pair]
     first, second = ((handles[k], handles[k + 1]) for k in pair)
     return float(separation(first, second, (sizes[0], sizes[1])))

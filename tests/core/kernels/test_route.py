@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from core import Arc, Coil, Line, Route, Waypoints, kernels
+from core.error_free import paired
 
 PATHS = {
     "line and arc": Route([Line((0.0, 0.0), (7.0, 0.0)), Arc((7.0, 3.0), 3.0, -0.5 * np.pi, 2.0)]),
@@ -23,7 +24,7 @@ def test_tangent_and_curvature_are_the_derivatives_of_the_points(name: str) -> N
     s = s[np.abs(s[:, None] - table[1:, kernels.S_START]).min(axis=1, initial=1.0) > 3.0 * STEP]
     points = np.empty((3, s.size, kernels.POINT_COLUMNS))
     for side in range(3):
-        kernels.route_points(table, s + (side - 1) * STEP, points[side])
+        kernels.route_points(table, paired(s + (side - 1) * STEP), points[side])
     place, tangent = points[..., kernels.PX : kernels.PY + 1], points[1, :, kernels.TX : kernels.TY + 1]
     assert (place[2] - place[0]) / (2 * STEP) == pytest.approx(tangent, abs=QUOTIENT)
     heading = np.unwrap(np.arctan2(points[..., kernels.TY], points[..., kernels.TX]), axis=0)

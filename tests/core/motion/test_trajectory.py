@@ -23,6 +23,7 @@ from core import (
     kernels,
     trajectory,
 )
+from core.error_free import paired
 from core.kernels import LANES_PER_BLOCK
 from tests.core.slow_search import SlowDance
 
@@ -179,7 +180,9 @@ def first_folded_row(heads: list[float], chords: list[float]) -> tuple[int, np.n
     position, velocity = np.zeros((2, len(heads), len(chords) + 1, 2))
     speed = np.zeros(position.shape[:2])
     budget = kernels.Budget()
-    row = kernels.spiral_trajectory(1.0, np.array(heads), np.array(chords), 1.0, position, velocity, speed, budget)
+    row = kernels.spiral_trajectory(
+        1.0, paired(np.array(heads)), np.array(chords), 1.0, position, velocity, speed, budget
+    )
     return row, position
 
 

@@ -75,8 +75,10 @@ def test_every_shape_of_s_keeps_its_axes() -> None:
 
 def test_the_centre_is_at_the_full_length() -> None:
     spiral = Spiral()
-    assert spiral.theta(spiral.length) == 0.0
-    assert spiral.position(spiral.length).tolist() == [0.0, 0.0]
+    off = np.hypot(*spiral.position(spiral.length))
+    assert spiral.growth * spiral.theta(spiral.length) == pytest.approx(off)
+    assert off <= np.spacing(spiral.length)  # the length is a double
+    assert spiral.theta(np.nextafter(spiral.length, np.inf)) == 0.0
 
 
 def test_the_dance_goes_inwards_and_clockwise() -> None:

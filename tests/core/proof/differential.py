@@ -1,0 +1,270 @@
+"""The two checkers of certificates against each other: they must have one verdict on changed ones with fitted digests.
+
+python -m tests.core.proof.differential [CASES] [SEED] checks 100,000 changed certificates and prints those about which
+core/proof and examples/verify.py disagree; exit code 1 if there is any.
+
+A stretch that one of them cannot show at once may be shown in parts: their enclosures differ, and verify.py halves
+stretches. So where only one proves a certificate, the same one with finer stretches must be proven by both.
+"""
+
+from __future__ import annotations
+
+import copy
+import importlib.util
+import itertools
+import json
+import math
+import random
+import sys
+import time
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, first_contact, minimum_pitch
+from core.errors import ProofRefused
+from core.proof import (
+    Certificate,
+    prove_clear,
+    prove_collision_time,
+    prove_contact,
+    prove_minimum_pitch,
+    prove_tolerance,
+    verify,
+)
+from core.proof.certificate import digest
+from core.tolerance.tolerance import tolerance
+
+VERIFY = Path(__file__).parents[3] / "examples" / "verify.py"
+# Parts of each stretch, where only one of the two proves a certificate.
+PARTS = (8, 64)
+# Factors and values that a number may get.
+FACTORS = (0.0, -1.0, 0.5, 2.0, 1e3, 1e-3, 1.0 + 1e-12, 1.0 - 1e-12, 1.0 + 1e-6, 1.0 - 1e-6, 1.01, 0.99)
+ODD = (0, -0.0, 1e-320, 1e308, math.nan, math.inf, True, None, "", [], {}, 10**30, "x", 0.001, 10_000)
+
+
+@cache
+def second() -> ModuleType:
+    """examples/verify.py as a module."""
+    spec = importlib.util.spec_from_file_location("second_verifier", VERIFY)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _short(certificate: Certificate) -> Certificate:
+    return json.loads(json.dumps(certificate))  # type: ignore[no-any-return]
+
+
+def _contact(dragon: Dragon, path: Any, before: float, margin: float = 0.0) -> Certificate:
+    dance = Dance(dragon, path)
+    when = first_contact(dance, margin=margin, start=dance.default_start).time
+    assert when is not None
+    return prove_contact(dance, when, start=when - before, margin=margin)
+
+
+def _pitch(dragon: Dragon, radius: float, turns: float, margin: float = 0.0) -> Certificate:
+    pitch = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin).pitch + 1e-9
+    return prove_minimum_pitch(dragon, pitch, turning_radius=radius, start_turns=turns, margin=margin)
+
+
+def _collision() -> Certificate:
+    dance = Dance(Dragon(4, 3.61, 2.4, 0.12, 0.1), Spiral(0.48, 3.4))
+    when = first_contact(dance).time
+    assert when is not None
+    return prove_collision_time(dance, when)
+
+
+def _strayed(shown: bool) -> Certificate:
+    dance = Dance(Dragon(6), Spiral(0.7, 5.0))
+    found = tolerance(dance, start=44.0, stop=44.9)
+    stray = found.stray if shown else 0.02
+    return prove_tolerance(dance, stray, exhibit=found.exhibit if shown else None, start=44.0, stop=44.9)
+
+
+MAKERS: dict[str, Callable[[], Certificate]] = {
+    "collision time": _collision,
+    "contact": lambda: _contact(Dragon(9), Spiral(0.55, 6.0), 0.5),
+    "contact with a margin": lambda: _contact(Dragon(9), Spiral(0.55, 6.0), 0.5, 0.04),
+    "minimum pitch": lambda: _pitch(Dragon(4), 1.8, 3.0),
+    "minimum pitch with a margin": lambda: _pitch(Dragon(4), 1.8, 3.0, 0.02),
+    "minimum pitch at a fold": lambda: _pitch(Dragon(4, 2.21, 1.47, 0.06, 0.12), 0.85, 2.5),
+    "minimum pitch at the start": lambda: prove_minimum_pitch(Dragon(2), 0.28125),
+    "clear": lambda: prove_clear(Dance(Dragon(4), Spiral(0.8, 5.0)), 3.0, start=1.0),
+    "clear with a margin": lambda: prove_clear(Dance(Dragon(4), Spiral(0.8, 5.0)), 3.0, start=-1.0, margin=0.1),
+    "clear to the fold": lambda: prove_clear(Dance(Dragon(4), Spiral(0.9, 3.0)), start=14.0),
+    "clear to the centre": lambda: prove_clear(Dance(Dragon(3), Spiral(9.0, 0.7))),
+    "turn": lambda: prove_clear(Dance(Dragon(3), Turn(1.7, start_turns=5.0)), 3.0, start=-1.0),
+    "turn with a margin": lambda: prove_clear(Dance(Dragon(3), Turn(1.7)), 16.0, start=14.0, margin=0.3),
+    "route": lambda: prove_clear(
+        Dance(Dragon(3), Route([Line((0, 0), (10, 0)), Arc((10, 3), 3.0, -math.pi / 2, 2.0)], start=1.0)), start=10.0
+    ),
+    "coil outwards": lambda: prove_clear(Dance(Dragon(3), Route([Coil(1.5, 1.5, 2.2, (1, 2), 0.5)])), start=8.5),
+    "stray": lambda: _strayed(False),
+    "stray with a pose": lambda: _strayed(True),
+}
+
+
+@cache
+def made(name: str) -> Certificate:
+    """A true certificate with few stretches."""
+    return _short(MAKERS[name]())
+
+
+def fitted(content: dict[str, Any]) -> Certificate:
+    """The content with a digest that fits it."""
+    content = {name: value for name, value in content.items() if name != "digest"}
+    return content | {"digest": digest(content)}
+
+
+def proven_by_core(certificate: Certificate) -> tuple[bool, str]:
+    """Whether core/proof proves it, and the statement or the reason."""
+    try:
+        return True, verify(copy.deepcopy(certificate)).statement
+    except ProofRefused as refused:
+        return False, refused.message
+
+
+def proven_by_second(certificate: Certificate) -> tuple[bool, str]:
+    """The same of examples/verify.py."""
+    module = second()
+    try:
+        return True, module.verified(copy.deepcopy(certificate))
+    except module.Refused as refused:
+        return False, str(refused)
+
+
+def cut(certificate: Certificate, parts: int) -> Certificate:
+    """The same certificate, each stretch in so many parts."""
+    content = copy.deepcopy(certificate)
+    for sweep in content["sweeps"]:
+        tiles, sweep["stretches"] = sweep["stretches"], []
+        for high, low, *faces in tiles:
+            places = [high, *(high + (low - high) * k / parts for k in range(1, parts)), low]
+            sweep["stretches"] += [[start, end, *faces] for start, end in itertools.pairwise(places)]
+    return fitted(content)
+
+
+def _stops_at_the_end(certificate: Certificate, stop: float) -> bool:
+    """Whether core/proof does not refuse the stop that is four last digits earlier for coming after the end."""
+    earlier = copy.deepcopy(certificate)
+    earlier["claim"]["stop"] = stop - 4.0 * math.ulp(stop)
+    return "when the path ends, got" not in proven_by_core(fitted(earlier))[1]
+
+
+def disagreement(certificate: Certificate) -> str:
+    """How the two checkers disagree about a certificate; empty if they agree."""
+    first, other = proven_by_core(certificate), proven_by_second(certificate)
+    # The end of a route is a double that core rounds on its way: a stop one digit later is no disagreement.
+    stop = certificate.get("claim", {}).get("stop") if isinstance(certificate.get("claim"), dict) else None
+    edge = "when the path ends, got" in first[1] and isinstance(stop, float)
+    if first[0] == other[0] or (edge and _stops_at_the_end(certificate, stop)):
+        return ""
+    for parts in PARTS:
+        finer = cut(certificate, parts)
+        finer_first, finer_other = proven_by_core(finer), proven_by_second(finer)
+        if finer_first[0] and finer_other[0]:
+            return ""
+    who = "core/proof" if first[0] else "verify.py"
+    return f"only {who} proves it: {first[1][:300]} | {other[1][:300]}"
+
+
+def places(value: Any, place: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
+    """The places of all members and entries inside a value."""
+    inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for name, entry in inside:
+        yield (*place, name)
+        yield from places(entry, (*place, name))
+
+
+def changed(certificate: Certificate, dice: random.Random) -> Certificate:
+    """A certificate with one change, sometimes two, and a digest that fits."""
+    content = copy.deepcopy({name: value for name, value in certificate.items() if name != "digest"})
+    for _ in range(dice.choice((1, 1, 1, 2))):
+        _change(content, dice)
+    try:
+        return fitted(content)
+    except TypeError:  # names that cannot be sorted
+        return certificate
+
+
+def _change(content: dict[str, Any], dice: random.Random) -> None:
+    # Half of the changes are outside of the stretches, which are most of a certificate.
+    found = list(
+        places({name: content[name] for name in content if name != "sweeps"} if dice.random() < 0.5 else content)
+    )
+    place = dice.choice(found)
+    inside: Any = content
+    for step in place[:-1]:
+        inside = inside[step]
+    name, value = place[-1], inside[place[-1]]
+    kind = dice.random()
+    if isinstance(value, float | int) and not isinstance(value, bool) and kind < 0.8:
+        inside[name] = _number(value, dice)
+    elif isinstance(value, str) and value.isdigit() and kind < 0.9:
+        k = dice.randrange(len(value))
+        inside[name] = dice.choice(
+            (value[:k] + dice.choice("0123456789") + value[k + 1 :], value[:k] + value[k + 1 :], value + value[k])
+        )
+    elif isinstance(value, list) and value and kind < 0.9:
+        k, other = dice.randrange(len(value)), dice.randrange(len(value))
+        dice.choice(
+            (
+                lambda: value.pop(k),
+                lambda: value.insert(other, copy.deepcopy(value[k])),
+                lambda: value.__setitem__(slice(None), value[::-1]),
+                lambda: value.__setitem__(k, copy.deepcopy(value[other])),
+                lambda: _join(value, k),
+            )
+        )()
+    elif isinstance(inside, dict) and kind < 0.9:
+        dice.choice((lambda: inside.pop(name), lambda: inside.__setitem__(str(name) + "s", value)))()
+    else:
+        inside[name] = dice.choice((*ODD, dice.choice(("stop", "fold", "centre", "end", "spiral", "turn", "clear"))))
+
+
+def _join(entries: list[Any], k: int) -> None:
+    """Joins two stretches, if these entries are any."""
+    if k + 1 < len(entries) and all(isinstance(entry, list) and len(entry) > 2 for entry in entries[k : k + 2]):
+        entries[k][1] = entries.pop(k + 1)[1]
+
+
+def _number(value: float, dice: random.Random) -> float:
+    if isinstance(value, int):
+        return value + dice.choice((-1, 1, 2, -value, 1000))
+    return dice.choice(
+        (
+            value * dice.choice(FACTORS),
+            math.nextafter(value, math.inf),
+            math.nextafter(value, -math.inf),
+            value + dice.choice((-1, 1)) * 10.0 ** dice.uniform(-12.0, 1.0),
+            round(value, dice.randrange(9)),
+        )
+    )
+
+
+def hunt(seed: int, seconds: float = math.inf, cases: float = math.inf) -> tuple[int, list[str]]:
+    """Number of changed certificates that were checked, and the disagreements about them."""
+    dice, count, faults, end = random.Random(seed), 0, [], time.monotonic() + seconds
+    while count < cases and time.monotonic() < end:
+        name = dice.choice(list(MAKERS))
+        certificate = changed(made(name), dice)
+        count += 1
+        try:
+            why = disagreement(certificate)
+        except Exception as error:  # a checker that ends in any other way is wrong too
+            why = repr(error)
+        if why:
+            faults.append(f"{name}, case {count} of seed {seed}: {why}")
+    return count, faults
+
+
+if __name__ == "__main__":
+    asked = [int(text) for text in sys.argv[1:]]
+    count, faults = hunt(asked[1] if len(asked) > 1 else 0, cases=asked[0] if asked else 100_000)
+    print(f"{count} changed certificates, {len(faults)} disagreements", *faults, sep="\n")
+    sys.exit(bool(faults))
