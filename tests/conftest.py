@@ -50,6 +50,7 @@ NO_INDEX = "they ask the package index, which does not answer"
 NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
 
 
+@pytest.hookimpl(trylast=True)  # after -m and -k
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave the deep tests to `make deep`; leave out what this machine cannot run, in a line for each reason."""
     if not DEEP:
