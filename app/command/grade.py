@@ -30,6 +30,7 @@ from app.grade.report import (
     unreadable,
 )
 from app.grade.words import note, say
+from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 
 # Endings of the files that are graded in a folder.
@@ -112,7 +113,8 @@ def _summary(files: list[FileAnswer]) -> str:
     writer.writerow(SUMMARY)
     for file in files:
         errors = "; ".join(one.error for one in file.diagnosis)
-        writer.writerow([file.file, file.workbook or "", file.verdict.value, *_counts(file), errors, _decimals(file)])
+        name = text_to_cell(file.file)
+        writer.writerow([name, file.workbook or "", file.verdict.value, *_counts(file), errors, _decimals(file)])
     return sink.getvalue()
 
 

@@ -16,6 +16,7 @@ from app.extras import require
 from app.files.workbooks import Worksheet, workbook
 from app.wire.answers import Columns
 from app.wire.clocks import time_of_day
+from app.wire.texts import text_to_cell
 from core import InvalidValue, TooLarge, Trajectory
 from core.values import Floats
 
@@ -126,6 +127,7 @@ def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str
 
 def _quoted(name: str) -> bytes:
     """An entry of CSV."""
+    name = text_to_cell(name)
     return ('"' + name.replace('"', '""') + '"' if set(name) & {",", '"'} else name).encode()
 
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import orjson
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
@@ -19,6 +20,7 @@ import core
 from app.sweeps import shards
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
+from app.wire.texts import FORMULA
 from core import InvalidValue
 from core.errors import Given
 from core.shown import counted
@@ -113,7 +115,7 @@ class Sweep:
 
     def to_csv(self, file: Path) -> None:
         """Write the table as CSV, completely or not at all. raises: InvalidValue if parts are missing; OSError"""
-        self._write(file, self.tables(), pa_csv.CSVWriter)
+        self._write(file, map(without_formulas, self.tables()), pa_csv.CSVWriter)
 
     def to_json(self, file: Path) -> None:
         """Write the table as JSON, a list for each column, completely or not at all.
@@ -204,3 +206,12 @@ def summary(sweep: Sweep, value: str) -> Summary:
             for k in (int(np.nanargmin(numbers)), int(np.nanargmax(numbers)))
         )
     return Summary(table.num_rows, sweep.spec.designs, dict(codes), value, least, greatest)
+
+
+def without_formulas(table: pa.Table) -> pa.Table:
+    """A table whose texts no spreadsheet takes for formulas: as text_to_cell()."""
+    for k, field in enumerate(table.schema):
+        if pa.types.is_string(field.type) or pa.types.is_large_string(field.type):
+            cells = pc.replace_substring_regex(table.column(k), f"^({FORMULA.pattern})", r"'\1")
+            table = table.set_column(k, field, cells)
+    return table

@@ -13,6 +13,7 @@ from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
 from app.wire.question import LENGTHS, OVERHANGS, WIDTHS, Wire, check_limit
+from app.wire.texts import text_of_cell
 from core import Dragon, InvalidValue
 from core.errors import Given, Parameter, Quantity, from_to, quantities
 
@@ -81,7 +82,7 @@ def bench_table(text: str) -> BenchTable:
             rule = "must have {count} entries, as the first line has"
             raise _refused(number, rule, got=len(cells), count=len(columns))
         row = dict(zip(columns, cells, strict=True))
-        table.names.append(row.get("name", ""))
+        table.names.append(text_of_cell(row.get("name", "")))
         for column, sizes in zip(SIZES, table[1:4], strict=True):
             sizes.append(_size(column, row[column], number, separator != ","))
         table.lines.append(number)

@@ -25,6 +25,28 @@ CHINESE = "gb18030"
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
 
 
+# What a spreadsheet takes for the beginning of a formula (OWASP, CSV injection), perhaps behind our own mark.
+FORMULA = re.compile("'*[=+\\-@\t\r]")
+
+
+def text_to_cell(text: str) -> str:
+    """A text as an entry of CSV that no spreadsheet runs: with ' before it if it could be a formula.
+
+    >>> text_to_cell("=1+1"), text_to_cell("Li's"), text_to_cell("'=1")
+    ("'=1+1", "Li's", "''=1")
+    """
+    return f"'{text}" if FORMULA.match(text) else text
+
+
+def text_of_cell(cell: str) -> str:
+    """The text that text_to_cell() wrote; any other one unchanged.
+
+    >>> text_of_cell("'=1+1"), text_of_cell("'quoted'")
+    ('=1+1', "'quoted'")
+    """
+    return cell[1:] if cell.startswith("'") and FORMULA.match(cell) else cell
+
+
 class Unreadable(InvalidValue):
     """Bytes that are no text, or text in no known form; {text} in the template is the name of what was read."""
 

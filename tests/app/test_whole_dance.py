@@ -65,6 +65,17 @@ def test_a_table_has_places_speeds_names_and_the_time_of_day(client: httpx.Clien
     assert [row["clock"] for row in rows[::5]] == ["19:30:10", "19:30:50", "19:32:10"]
 
 
+def test_no_name_in_a_table_is_a_formula_for_a_spreadsheet_and_our_own_table_reads_back(client: httpx.Client) -> None:
+    names = ["=HYPERLINK(1)", "@SUM(A1)", "+1+1", "-2", "'quoted'"]
+    dragon = {"lengths": [2.2] * 5, "widths": [0.3] * 5, "overhangs": [0.275] * 5, "names": names}
+    asked = {"dragon": dragon, "times": [0.0]}
+    text = client.post("/trajectory", json=asked, headers={"accept": "text/csv"}).raise_for_status().text
+    cells = [row["name"] for row in csv.DictReader(io.StringIO(text))]
+    assert cells[:5] == ["'=HYPERLINK(1)", "'@SUM(A1)", "'+1+1", "'-2", "'quoted'"]
+    table = "\n".join(["name,length,width,overhang", *(f"{cell},2.2,0.3,0.275" for cell in cells[:5])])
+    assert list(bench_table(table).to_dragon().names) == names
+
+
 def test_failures_say_who_and_at_what_time_of_day(client: httpx.Client) -> None:
     square = {"type": "Polygon", "coordinates": [[[20, -18], [40, -18], [40, -6], [20, -6], [20, -18]]]}
     got = posted(client, "/check", venue=square, speed_limit=0.9, stop=150).raise_for_status().json()

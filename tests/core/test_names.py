@@ -16,6 +16,7 @@ pytestmark = pytest.mark.uncompiled
         (7, "must be a string, got 7"),
         ("n" * (NAME_MAX + 1), f"must have at most {NAME_MAX} characters, got {NAME_MAX + 1}"),
         ("a\nb", "must be one line of plain text, got 'a\\nb'"),
+        ("Li\u202e.csv", "must be one line of plain text, got 'Li\\u202e.csv'"),
         ("\ud800", "must be one line of plain text, got '\\ud800'"),
     ],
 )

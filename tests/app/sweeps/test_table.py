@@ -6,13 +6,14 @@ import csv
 from pathlib import Path
 
 import orjson
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
 from app.sweeps import shards
 from app.sweeps.run import begin
 from app.sweeps.spec import Spec
-from app.sweeps.table import Sweep
+from app.sweeps.table import Sweep, without_formulas
 from core import InvalidValue
 from tests.app.sweeps.odd_questions import LAND
 from tests.app.sweeps.test_run import spec_of
@@ -100,3 +101,9 @@ def test_a_spec_of_bodies_comes_back_from_its_folder(tmp_path: Path) -> None:
     spec = Spec.of(told | {"request": {"dragon": {"benches": 5}}})
     begin(tmp_path / "a", spec)
     assert Sweep.open(tmp_path / "a").spec.name == spec.name
+
+
+def test_no_text_of_a_table_is_a_formula_for_a_spreadsheet() -> None:
+    told = without_formulas(pa.table({"x": [-1.0, 2.0], "error.message": ["=1+1", "x must not be 13 m"]}))
+    assert told["x"].to_pylist() == [-1.0, 2.0]
+    assert told["error.message"].to_pylist() == ["'=1+1", "x must not be 13 m"]
