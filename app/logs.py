@@ -12,10 +12,23 @@ from typing import Any
 request_id: ContextVar[str] = ContextVar("request_id", default="")
 
 
+# Longest path or other word of a client in the log [characters].
+WORD_MAX = 1_000
+
+
+def _cut(word: object) -> object:
+    """A word of a record, cut where it is too long, with its length."""
+    if not isinstance(word, str) or len(word) <= WORD_MAX:
+        return word
+    return f"{word[:WORD_MAX]}... ({len(word)} characters)"
+
+
 class RequestName(logging.Filter):
-    """Adds the name of the request to a record."""
+    """Adds the name of the request to a record, and cuts what a client made long."""
 
     def filter(self, record: logging.LogRecord) -> bool:
+        if isinstance(record.args, tuple):
+            record.args = tuple(map(_cut, record.args))
         name = request_id.get()
         record.request_id, record.of_request = name, f" [{name}]" if name else ""
         return True

@@ -35,7 +35,7 @@ from core.shown import counted
 
 logger = logging.getLogger("uvicorn.error")
 
-SELF_ONLY = "default-src 'self'; frame-ancestors 'none'"
+SELF_ONLY = "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 # Swagger UI uses inline styles and icons from data: addresses.
 DOCS_POLICY = f"{SELF_ONLY}; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
 CLOSE = {"Connection": "close"}

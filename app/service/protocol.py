@@ -137,7 +137,8 @@ class Protocol(H11Protocol):
         self._refuse(400, "malformed-http", "The request is not valid HTTP/1.1.")
 
     def _refuse(self, status: int, code: str, words: str, **values: Any) -> None:
-        answer = problem(status, code, words, headers={"Connection": "close"}, **values)
+        headers = {"Connection": "close", "X-Content-Type-Options": "nosniff"}
+        answer = problem(status, code, words, headers=headers, **values)
         for event in (
             h11.Response(status_code=status, headers=answer.raw_headers, reason=b""),
             h11.Data(data=bytes(answer.body)),

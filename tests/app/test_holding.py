@@ -121,6 +121,7 @@ def test_malformed_http_is_a_problem(held: Service, sent: bytes, status: int) ->
     head, _, body = send(held, sent).partition(b"\r\n\r\n")
     assert head.startswith(f"HTTP/1.1 {status} ".encode())
     assert PROBLEM.encode() in head
+    assert head.lower().count(b"x-content-type-options: nosniff") == 1
     assert json.loads(body)["status"] == status
 
 
@@ -272,6 +273,13 @@ def test_a_request_keeps_its_name_and_the_log_has_it(held: Service) -> None:
     assert answers[1].headers["x-request-id"] != "no name!"
     lines = [json.loads(line) for line in held.log.read_text().splitlines()]
     assert [line["message"] for line in lines if line["request_id"] == "dance-7"]
+
+
+def test_a_long_path_is_cut_in_the_log(held: Service) -> None:
+    path = "/" + "a" * 60_000
+    assert httpx.get(held.url + path).status_code == 404
+    until(lambda: "aaa... (60001 characters)" in held.log.read_text())
+    assert max(map(len, held.log.read_text().splitlines())) < 5_000
 
 
 def test_no_python_is_served_and_no_page_frames_another(held: Service) -> None:

@@ -304,7 +304,7 @@ def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(op
 
 def test_the_policy_lets_the_page_load_from_its_service_alone(visit: Any, server: str) -> None:
     policy = polite.get(server).headers["content-security-policy"]
-    assert policy == "default-src 'self'; frame-ancestors 'none'"
+    assert policy == "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     page = visit()
     assert page.evaluate("document.querySelectorAll('script:not([src]), style, [style*=url], [onclick]').length") == 0
 
