@@ -228,6 +228,7 @@ import hashlib
 import json
 import math
 import re
+import sys
 from bisect import bisect_left
 from fractions import Fraction
 from functools import lru_cache
@@ -1707,12 +1708,24 @@ def members(pairs):
     return dict(pairs)
 
 
+def read(place):
+    """Bytes of a file, or of standard input for -. raises: OSError"""
+    if place == "-":
+        return sys.stdin.buffer.read(BYTES_MOST)
+    with open(place, "rb") as file:
+        return file.read(BYTES_MOST)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Verify a certificate of bench-dragon prove.")
-    parser.add_argument("certificate", type=argparse.FileType("rb"))
+    parser.add_argument("certificate")
+    place = parser.parse_args().certificate
     try:
-        data = parser.parse_args().certificate.read(BYTES_MOST)
-        print("Verified:", verified(json.loads(data, object_pairs_hook=members)))
-    except (ArithmeticError, RecursionError, ValueError) as why:
+        print("Verified:", verified(json.loads(read(place), object_pairs_hook=members)))
+    except OSError as why:
+        parser.error(f"argument certificate: can't open '{place}': {why}")
+    except RecursionError:
+        parser.exit(1, f"Refused: {MALFORMED}: objects and lists are nested too deeply\n")
+    except (ArithmeticError, ValueError) as why:
         what = "" if isinstance(why, Refused) else f"{MALFORMED}: it is no JSON of up to 16 MB: "
         parser.exit(1, f"Refused: {what}{why}\n")
