@@ -57,7 +57,7 @@ class Turn(Route):
     >>> [round(radius, 9) for radius in Turn(1.7).radii]
     [3.005417668, 1.502708834]
     >>> round(Turn(1.7, entry_radius=4.3, exit_radius=4.5).length, 6)
-    11.891012
+    11.899652
     """
 
     def __init__(

@@ -121,7 +121,7 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     form = page.locator("#controls")
     assert form.evaluate("one => one.scrollHeight <= one.clientHeight")
     fields = page.locator(".field")
-    assert fields.count() == 16
+    assert fields.count() == 17
     for k in range(fields.count()):
         expect(fields.nth(k).locator(".help")).to_be_visible()
         assert fields.nth(k).locator(".what").evaluate("one => one.scrollWidth <= one.clientWidth + 1")
