@@ -48,10 +48,15 @@ def families(language: Language) -> tuple[str, ...]:
 
 
 def _draws(entry: object) -> bool:
+    """True if the font of an entry in matplotlib's list is there and has our characters: the list may be older."""
     from matplotlib.ft2font import FT2Font
 
+    file = entry.fname  # type: ignore[attr-defined]
     try:
-        font = FT2Font(entry.fname, face_index=getattr(entry, "index", 0))  # type: ignore[attr-defined]
-    except TypeError:  # before matplotlib 3.11 a file had one face
-        font = FT2Font(entry.fname)  # type: ignore[attr-defined]
+        try:
+            font = FT2Font(file, face_index=getattr(entry, "index", 0))
+        except TypeError:  # before matplotlib 3.11 a file had one face
+            font = FT2Font(file)
+    except (OSError, RuntimeError):
+        return False
     return font.get_charmap().keys() >= set(map(ord, TRIED))

@@ -12,7 +12,9 @@ import numpy as np
 import pypdfium2
 import pypdfium2.raw as pdfium
 import pytest
+from matplotlib import font_manager
 
+from app.files import fonts
 from app.plan.sheet import MARGIN, RATIOS, scale_of
 from core import InvalidValue
 from tests.app.command import run
@@ -100,9 +102,9 @@ def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
 
 def test_every_font_is_in_the_file(pages: Any) -> None:
     for page in pages:
-        fonts = [one.get_font() for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_TEXT])]
-        assert fonts
-        assert all(font.is_embedded for font in fonts)
+        used = [one.get_font() for one in page.get_objects(filter=[pdfium.FPDF_PAGEOBJ_TEXT])]
+        assert used
+        assert all(font.is_embedded for font in used)
 
 
 def test_no_words_are_painted_over(pages: Any) -> None:
@@ -188,3 +190,9 @@ def test_a_wrong_paper_and_too_many_marks_are_refused(client: httpx.Client) -> N
     many = client.post("/plan", json={"spacing": 0.5, "path": {"pitch": 5, "start_turns": 30}})
     assert (many.status_code, many.json()["errors"][0]["pointer"]) == (422, "/spacing")
     assert "marks must be at most 2000 here" in many.json()["detail"]
+
+
+def test_a_font_that_is_gone_or_broken_draws_nothing(tmp_path: Path) -> None:
+    (tmp_path / "broken.ttf").write_bytes(b"no font")
+    for name in ("gone.ttf", "broken.ttf"):
+        assert not fonts._draws(font_manager.FontEntry(fname=str(tmp_path / name), name="Noto Sans CJK SC"))
