@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import http.client
+import json
 import os
 import shutil
 import signal
@@ -26,7 +27,9 @@ SHELL_VARIABLES = (
     *("all_proxy", "ftp_proxy", "http_proxy", "https_proxy", "no_proxy"),
     *("ALL_PROXY", "FTP_PROXY", "HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY"),
 )
-OUTER = tuple((name, value) for name in SHELL_VARIABLES if (value := os.environ.pop(name, None)) is not None)
+_DROPPED = {name: value for name in SHELL_VARIABLES if (value := os.environ.pop(name, None)) is not None}
+# Handed on to the other processes of a run.
+OUTER = tuple(json.loads(os.environ.setdefault("OUTER_VARIABLES", json.dumps(_DROPPED))).items())
 os.environ |= {"LC_ALL": "C.UTF-8", "TERM": "xterm"}
 
 from core import kernels  # noqa: E402

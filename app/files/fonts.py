@@ -38,7 +38,7 @@ def families(language: Language) -> tuple[str, ...]:
         if file not in known:
             manager.addfont(file)
     installed = {font.name: font for font in reversed(manager.ttflist)}
-    if name := next((name for name in CHINESE if name in installed and _draws(installed[name])), None):
+    if name := next((name for name in CHINESE if name in installed and draws_our_words(installed[name])), None):
         return (name, LATIN)
     raise MissingPackage.in_words(
         "language",
@@ -47,7 +47,7 @@ def families(language: Language) -> tuple[str, ...]:
     )
 
 
-def _draws(entry: object) -> bool:
+def draws_our_words(entry: object) -> bool:
     """True if the font of an entry in matplotlib's list is there and has our characters: the list may be older."""
     from matplotlib.ft2font import FT2Font
 

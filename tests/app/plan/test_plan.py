@@ -195,4 +195,4 @@ def test_a_wrong_paper_and_too_many_marks_are_refused(client: httpx.Client) -> N
 def test_a_font_that_is_gone_or_broken_draws_nothing(tmp_path: Path) -> None:
     (tmp_path / "broken.ttf").write_bytes(b"no font")
     for name in ("gone.ttf", "broken.ttf"):
-        assert not fonts._draws(font_manager.FontEntry(fname=str(tmp_path / name), name="Noto Sans CJK SC"))
+        assert not fonts.draws_our_words(font_manager.FontEntry(fname=str(tmp_path / name), name="Noto Sans CJK SC"))
