@@ -127,7 +127,7 @@ class Store:
         """
         if not self._file.is_file() or os.stat(self._file).st_ino != self._inode:
             raise OSError(errno.ENOENT, "the file of the jobs was removed or replaced: start the service anew")
-        with closing(sqlite3.connect(f"{self._file.as_uri()}?mode=ro", PATIENCE, uri=True)) as other:
+        with closing(sqlite3.connect(f"{self._file.as_uri()}?mode=ro", timeout=PATIENCE, uri=True)) as other:
             known = other.execute("SELECT count(*) FROM jobs WHERE id = ?", (job,)).fetchone()[0]
         if job is not None and not known:
             raise OSError(errno.EIO, "a job that was written is not there")
