@@ -294,6 +294,7 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
 
 
 def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_or_was_killed(tmp_path: Path) -> None:
+    run("--version")  # Without this the second run would first wait for the process that forks it.
     first = subprocess.Popen([COMMAND, "contest", tmp_path, "--no-films"], stderr=subprocess.DEVNULL)
     try:
         while not (tmp_path / UNFINISHED).is_dir():
