@@ -207,7 +207,9 @@ def test_a_store_that_fails_while_the_service_runs_promises_nothing(
         assert ready.status_code == 503
         assert "The store of the jobs failed" in ready.json()["detail"]
         assert service.client.get("/collision-time").status_code == 200
-        time.sleep(3.0)  # The keeper looks at the store each second, and says once what is wrong.
+        # The keeper looks at the store each second, and says once what is wrong.
+        wait_for(lambda: "and is tried again each second" in service.log.read_text(encoding="utf-8"))
+        time.sleep(3.0)  # time to say it again
         log = service.log.read_text(encoding="utf-8")
         assert "Traceback" not in log, log[log.find("Traceback") :]
         faults = Counter(line for line in log.splitlines() if "and is tried again each second" in line)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from core import (
     Coil,
@@ -163,3 +166,25 @@ def test_the_least_clearance_on_the_turn_is_the_reference_one() -> None:
     assert first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] - 1e-9).time is None
     graze = first_contact(Dance(Dragon(), TURN), start=start, stop=stop, margin=known["least"] + 1e-9)
     assert graze.time == pytest.approx(known["time"], abs=1e-3)
+
+
+def test_a_free_exit_gives_the_arcs_that_root_finding_gives() -> None:
+    """The radius at which the circles touch, from tangents and root finding alone."""
+    growth = 1.7 / (2.0 * math.pi)
+
+    def place(radius: float) -> tuple[Any, Any]:
+        theta = radius / growth
+        out, across = np.array([math.cos(theta), math.sin(theta)]), np.array([-math.sin(theta), math.cos(theta)])
+        ahead = growth * out + radius * across
+        return radius * out, ahead / np.linalg.norm(ahead)
+
+    (entry, inwards), (leaving, outwards) = place(4.3), place(4.5)
+    first = np.array([-inwards[1], inwards[0]])  # to the right of the way in, which is -inwards
+    second = np.array([-outwards[1], outwards[0]])  # to the left of the way out, turned by pi with its place
+
+    def gap(radius: float) -> float:
+        centres = entry + 2.0 * radius * first, -leaving - radius * second
+        return float(np.linalg.norm(centres[1] - centres[0])) - 3.0 * radius
+
+    small = brentq(gap, 0.5, 3.0)
+    assert Turn(1.7, entry_radius=4.3, exit_radius=4.5).radii == pytest.approx((2.0 * small, small), rel=1e-12)
