@@ -10,7 +10,8 @@ RUN apt-get update \
     && apt-get install -y --no-install-recommends gcc libc6-dev \
     && rm -rf /var/lib/apt/lists/*
 RUN python -m venv /opt/bench-dragon
-COPY requirements.lock requirements-test.lock pyproject.toml setup.py README.md LICENSE /src/
+COPY requirements.lock requirements-test.lock bench_dragon.py pyproject.toml setup.py README.md LICENSE \
+     /src/
 COPY core /src/core
 COPY app /src/app
 # Without pip, IPython (which only plots of uplot-python in notebooks need), tests and headers.

@@ -23,6 +23,7 @@ from types import FrameType
 from app.files.lock import FolderLock
 from app.jobs.store import Store
 from app.settings import SHARED_COUNTS, Settings
+from app.start import search_path
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -107,8 +108,9 @@ def start(module: str, *arguments: str, stdout: int | None = None, **more: str) 
 
     It runs in a new session, so signals from the service's terminal do not reach it. more: variables of its environment
     """
-    environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS} | more
-    command = [sys.executable, "-m", "app.start", module, *arguments]
+    environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS}
+    environment |= search_path() | more
+    command = [sys.executable, "-P", "-m", "app.start", module, *arguments]
     return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, start_new_session=True, stdout=stdout)
 
 

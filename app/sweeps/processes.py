@@ -16,6 +16,7 @@ from collections import deque
 from typing import Any, cast
 
 from app.settings import usable_cores
+from app.start import search_path
 from app.sweeps.engines import Done, arrived
 from app.sweeps.shards import ShardPiece
 from app.sweeps.worker import end, receive, send
@@ -48,7 +49,7 @@ class _Worker:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             start_new_session=True,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(place or os.getcwd() for place in sys.path)},
+            env={**os.environ, **search_path()},
         )
         threading.Thread(target=self._listen, daemon=True).start()
 

@@ -1,15 +1,21 @@
-"""The start of a process: imports without the garbage collector, which works again afterwards."""
+"""The start of a process: imports without the garbage collector, and none of another program's modules."""
 
 from __future__ import annotations
 
 import gc
+import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
+import httpx
 import pytest
 
 from app.start import importing
+from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.app.serving import free_port
+from tests.conftest import wait_until_live
 
 
 def test_the_garbage_collector_rests_during_imports_and_leaves_what_they_made_alone() -> None:
@@ -33,3 +39,60 @@ def test_a_module_is_called_with_its_own_arguments(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "app.start", "told", "a", "b"]
     done = subprocess.run(command, env={"PYTHONPATH": str(tmp_path)}, capture_output=True, text=True)
     assert (done.stdout, done.stderr) == ("False True ['told', 'a', 'b']\n", "")
+
+
+@pytest.fixture
+def other_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """PYTHONPATH of another program with packages called app and core, in whose folder a user stands."""
+    other, library = tmp_path / "another program", tmp_path / "library"
+    (other / "app").mkdir(parents=True)
+    library.mkdir()
+    (other / "app" / "__init__.py").write_text("raise ImportError('the app of another program')\n")
+    (other / "core.py").write_text("raise ImportError('the core of another program')\n")
+    (library / "sitecustomize.py").write_text("import os\nos.environ['LIBRARY'] = 'was imported'\n")
+    monkeypatch.chdir(other)
+    return os.pathsep.join([".", str(other), str(library), ""])
+
+
+@pytest.mark.parametrize(
+    "words", ["--version", "collision-time --benches 3 --json", "check --benches 3 --json", "no-such-command"]
+)
+def test_the_command_does_not_import_the_packages_of_another_program(words: str, other_program: str) -> None:
+    done, usual = run(*words.split(), PYTHONPATH=other_program), run(*words.split())
+    assert (done.returncode, done.stdout, done.stderr) == (usual.returncode, usual.stdout, usual.stderr)
+
+
+def test_nor_do_the_processes_of_a_sweep(other_program: str, tmp_path: Path) -> None:
+    (tmp_path / "spec.toml").write_text('question = "collision_time"\n[over]\npitch = [0.5, 0.55]\n')
+    words = ["sweep", "run", str(tmp_path / "spec.toml"), "--output", str(tmp_path / "table"), "--workers", "2"]
+    done = run(*words, PYTHONPATH=other_program)
+    assert done.returncode == 0, done.stderr
+
+
+def test_nor_do_the_processes_of_the_service(other_program: str, tmp_path: Path) -> None:
+    port = free_port()
+    environment = ENVIRONMENT | {"PYTHONPATH": other_program, "BENCH_DRAGON_DATA": str(tmp_path / "data")}
+    with (tmp_path / "log").open("w") as log:
+        command = [COMMAND, "serve", "--port", str(port), "--workers", "2"]
+        process = subprocess.Popen(command, env=environment, stdout=log, stderr=log)
+    try:
+        wait_until_live(process, port, tmp_path / "log")
+        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
+            map_type = {"Content-Type": "application/geo+json"}
+            square = '{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}'
+            assert client.post("/places", content=square, headers=map_type).status_code == 200
+            made = client.post("/jobs", json={"question": "collision_time", "request": {"benches": 3}})
+            assert made.status_code == 202
+            with client.stream("GET", made.headers["location"] + "/events") as events:
+                assert '"successful"' in events.read().decode()
+    finally:
+        process.send_signal(signal.SIGTERM)
+        process.wait(PATIENCE)
+    assert "Error" not in (tmp_path / "log").read_text()
+
+
+def test_a_library_of_the_user_is_still_imported(other_program: str) -> None:
+    code = "import bench_dragon, os; bench_dragon.leave_out_namesakes(); print(os.environ['LIBRARY'])"
+    command = [sys.executable, "-P", "-c", code + "; import app, core"]
+    done = subprocess.run(command, env=ENVIRONMENT | {"PYTHONPATH": other_program}, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("was imported\n", "")
