@@ -6,8 +6,9 @@ ARG EXTRAS=service
 
 FROM ${PYTHON_IMAGE} AS build
 ARG EXTRAS
+# python3-dev: the headers for an image with Debian's own Python; the official images have theirs.
 RUN apt-get update \
-    && apt-get install -y --no-install-recommends gcc libc6-dev \
+    && apt-get install -y --no-install-recommends gcc libc6-dev python3-dev \
     && rm -rf /var/lib/apt/lists/*
 RUN python -m venv /opt/bench-dragon
 COPY requirements.lock requirements-test.lock bench_dragon.py pyproject.toml setup.py README.md LICENSE \
