@@ -15,19 +15,24 @@ COPY requirements.lock requirements-test.lock bench_dragon.py pyproject.toml set
      /src/
 COPY core /src/core
 COPY app /src/app
-# Without pip, IPython (which only plots of uplot-python in notebooks need), tests and headers.
 RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check \
         -c /src/requirements.lock -c /src/requirements-test.lock "/src[${EXTRAS}]" \
-    && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED" \
-    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip ipython jedi parso \
-    && find /opt/bench-dragon -depth -type d \( -name tests -o -name __pycache__ -o -path '*/pyarrow/include' \) \
-        -exec rm -r {} +
+    && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED"
+# What the service never reads: pip, IPython (for plots of uplot-python in notebooks), tests, sources and symbols of
+# compiled modules, and the parts of pyarrow that talk to other servers.
+RUN cd /opt/bench-dragon/lib/python3*/site-packages \
+    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip ipython ipython-pygments-lexers jedi parso \
+        prompt_toolkit \
+    && rm -r pyarrow/include pyarrow/*flight* pyarrow/*s3* \
+    && find . -name '*.cpython-*.so' -exec strip --strip-unneeded {} + \
+    && find . ! -path './core/*' \( -name '*.[ch]' -o -name '*.pyx' -o -name '*.pxi' \) -delete \
+    && find . -depth -type d \( -name tests -o -name __pycache__ \) -exec rm -r {} +
 
 FROM ${PYTHON_IMAGE}
 # A font with Chinese characters, for figures and films in Chinese.
 RUN apt-get update \
     && apt-get install -y --no-install-recommends fonts-wqy-microhei \
-    && rm -rf /var/lib/apt/lists/*
+    && rm -rf /var/lib/apt/lists/* /var/cache/apt/*
 COPY --from=build /opt/bench-dragon /opt/bench-dragon
 RUN install -d -o 10001 -g 10001 -m 700 /data
 VOLUME /data

@@ -210,8 +210,10 @@ class Spiral(Readable):
 
     def curvature(self, s: Floats | float) -> Floats:
         """Curvature, counter-clockwise positive, so negative if clockwise. s: (...) [m]; returns (...) [1/m]."""
-        square = self.theta(s) ** 2
-        curvature: Floats = (2.0 + square) / (self.growth * (1.0 + square) ** 1.5)
+        theta = self.theta(s)
+        # No powers: those of one number and of an array may differ in the last digit.
+        grown = 1.0 + theta * theta
+        curvature: Floats = (1.0 + grown) / (self.growth * (grown * np.sqrt(grown)))
         return -curvature if self.clockwise else curvature
 
     def position(self, s: Floats | float) -> Floats:
@@ -263,7 +265,7 @@ class Spiral(Readable):
         """Unit tangents in the direction of travel. s: (...) [m]; returns (..., 2)."""
         theta, cos, sin = self._directions(s)
         along: Floats = np.stack([theta * sin - cos, -theta * cos - sin], axis=-1)
-        return self.frame.vectors(along / np.sqrt(1.0 + theta**2)[..., None])
+        return self.frame.vectors(along / np.sqrt(1.0 + theta * theta)[..., None])
 
 
 def end_theta(dragon: Dragon, path: Spiral) -> tuple[float, int | None]:

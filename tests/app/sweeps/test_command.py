@@ -101,10 +101,10 @@ def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same
     said = f"Stopped: the same command continues {tmp_path / 'a'}\n"
     assert stopped(spec, tmp_path / "a", interrupt, 2) == (130, said)
     assert len(children) == 2
-    assert not psutil.wait_procs(children, 5.0)[1]
+    assert not psutil.wait_procs(children, PATIENCE)[1]
     assert stopped(spec, tmp_path / "a", kill, 1)[0] == -signal.SIGKILL
     assert len(children) == 3
-    assert not psutil.wait_procs(children, 5.0)[1]
+    assert not psutil.wait_procs(children, PATIENCE)[1]
     assert table(spec, tmp_path / "a") == undisturbed
 
 
