@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from functools import cache
@@ -115,6 +116,16 @@ def test_no_modules_import_one_another_in_a_circle() -> None:
     # A package stands for its own file, which its modules do not import.
     order = TopologicalSorter({module: imports(module) & set(MODULES) - {module} for module in MODULES})
     order.prepare()  # graphlib.CycleError names the circle
+
+
+def test_no_scripts_of_the_page_import_one_another_in_a_circle() -> None:
+    page = ROOT / "app" / "page"
+    named = re.compile(r"""(?:from|import|import\() ?"(\.{1,2}/[\w./-]+\.js)\"""")
+    scripts = {path: path.read_text(encoding="utf-8") for path in page.rglob("*.js")}
+    used = {path: {(path.parent / name).resolve() for name in named.findall(text)} for path, text in scripts.items()}
+    assert {one for names in used.values() for one in names} <= set(scripts)
+    assert sum(map(len, used.values())) > len(scripts)
+    TopologicalSorter(used).prepare()
 
 
 def test_core_knows_no_http_json_files_or_clocks() -> None:
