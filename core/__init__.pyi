@@ -1,13 +1,14 @@
 from . import proof as proof
 from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
-from .contact.cross_check import ContactCheck, contact_check, pitch_check
+from .contact.cross_check import ContactCheck, contact_check
 from .contact.first_contact import first_contact
 from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, venue_clearance
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
 from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
 from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
+from .design.pitch_check import pitch_check
 from .design.pitch_scan import PitchScan, pitch_scan
 from .design.quickest_turn import TurnTime, quickest_turn, turn_time
 from .design.shortest_turn import ShortestTurn, shortest_turn
@@ -24,12 +25,8 @@ from .errors import (
     TooLarge,
     TooMuchWork,
 )
-from .failures import Failure, FailureKind
-from .ground.envelope import Envelope, SweepProof, envelope
-from .judgement import Judgement, Report, check, quick_check
-from .kernels import Budget
-from .motion.joints import SharpestBend, sharpest_bend
-from .motion.speed import (
+from .extremes.joints import SharpestBend, sharpest_bend
+from .extremes.speed import (
     FirstExcess,
     HighestSpeed,
     MaximumHeadSpeed,
@@ -37,6 +34,10 @@ from .motion.speed import (
     highest_speed,
     maximum_head_speed,
 )
+from .failures import Failure, FailureKind
+from .ground.envelope import Envelope, SweepProof, envelope
+from .judgement import Judgement, Report, check, quick_check
+from .kernels import Budget
 from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
 from .paths.legs import Legs

@@ -11,7 +11,7 @@ from core.contact.walls import AreaClearance, VenueClearance
 from core.dance import RunEnd
 from core.dragon import Dragon
 from core.errors import said, said_bound
-from core.motion.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
+from core.extremes.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
 from core.paths.path import HeadState
 from core.shown import Readable
 

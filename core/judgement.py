@@ -12,6 +12,8 @@ from core.contact.walls import VenueClearance, venue_clearance
 from core.dance import Dance, EndReason
 from core.dragon import Stray, checked_stray
 from core.errors import asked_of, checked_number, checked_type
+from core.extremes.joints import SharpestBend, sharpest_bend
+from core.extremes.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.failures import (
     Failure,
     FailureKind,
@@ -23,8 +25,6 @@ from core.failures import (
     venue_failures,
 )
 from core.kernels import Budget
-from core.motion.joints import SharpestBend, sharpest_bend
-from core.motion.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.passages import TIME_MAX
 from core.shown import Readable, worded
 from core.venue import Venue

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
-from collections import Counter
 from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -17,337 +18,47 @@ pytestmark = pytest.mark.uncompiled
 
 ROOT = Path(__file__).parent.parent
 
-# The pipeline: a module imports only modules that stand before it. kernels stands first, it knows no other.
-ORDER = (
-    "core.kernels.constants",
-    "core.kernels.records",
-    "core.kernels.budget",
-    "core.kernels.fold",
-    "core.kernels.spiral",
-    "core.kernels.double_double",
-    "core.kernels.rectangles",
-    "core.kernels.hulls",
-    "core.kernels.boxes",
-    "core.kernels.route",
-    "core.kernels.rounding",
-    "core.kernels.chain",
-    "core.kernels.stretches",
-    "core.kernels.bounds",
-    "core.kernels.rings",
-    "core.kernels.results",
-    "core.kernels.scene",
-    "core.kernels.clearance",
-    "core.kernels.wobble",
-    "core.kernels.gap_curvature",
-    "core.kernels.faces",
-    "core.kernels.pairs",
-    "core.kernels.nearest",
-    "core.kernels.repeats",
-    "core.kernels.marching",
-    "core.kernels.band_march",
-    "core.kernels.rates",
-    "core.kernels.speed",
-    "core.kernels.excess",
-    "core.kernels",
-    "core.values",
-    "core.error_free",
-    "core.errors",
-    "core.names",
-    "core.extras",
-    "core.shown",
-    "core.tables",
-    "core.sampling",
-    "core.passages",
-    "core.dragon",
-    "core.paths",
-    "core.motion",
-    "core.shapes",
-    "core.contact",
-    "core.design",
-    "core.tolerance",
-    "core.ground",
-    "core.paths.cubics",
-    "core.paths.pieces",
-    "core.paths.frame",
-    "core.paths.path",
-    "core.paths.route",
-    "core.paths.spiral",
-    "core.paths.turn",
-    "core.paths.legs",
-    "core.paths.following",
-    "core.dance",
-    "core.course",
-    "core.plots",
-    "core.shapes.rectangles",
-    "core.motion.trajectory",
-    "core.shapes.engines",
-    "core.shapes.overlaps",
-    "core.tolerance.reach",
-    "core.contact.coils",
-    "core.contact.march",
-    "core.contact.search",
-    "core.contact.fold",
-    "core.contact.clearance",
-    "core.contact.decimal_shapes",
-    "core.contact.near_graze",
-    "core.contact.answer",
-    "core.contact.first_contact",
-    "core.venue",
-    "core.contact.walls",
-    "core.design.straight",
-    "core.design.pitch_bands",
-    "core.design.ways",
-    "core.design.minimum_pitch",
-    "core.contact.cross_check",
-    "core.design.pitch_scan",
-    "core.design.deepest_turn",
-    "core.design.spans",
-    "core.design.turn_boxes",
-    "core.design.turn_moves",
-    "core.design.turn_bounds",
-    "core.design.turn_overlap",
-    "core.design.turn_places",
-    "core.design.shortest_turn",
-    "core.design.turn_length",
-    "core.motion.speed",
-    "core.design.quickest_turn",
-    "core.motion.joints",
-    "core.motion.places",
-    "core.ground.tracks",
-    "core.ground.envelope",
-    "core.tolerance.between",
-    "core.tolerance.exhibit",
-    "core.tolerance.safe",
-    "core.tolerance.tolerance",
-    "core.tolerance.curve",
-    "core.tolerance.uncertain",
-    "core.tolerance.wobble",
-    "core.tolerance.union_bound",
-    "core.tolerance.chance",
-    "core.failures",
-    "core.judgement",
-    "core",
-    "core.proof.pairs",
-    "core.proof.ground",
-    "core.proof.chain",
-    "core.proof.fold",
-    "core.proof.route",
-    "core.proof.route_stretch",
-    "core.proof.sweeps",
-    "core.proof.words",
-    "core.proof.paths",
-    "core.proof.claims",
-    "core.proof.dances",
-    "core.proof.strays",
-    "core.proof.members",
-    "core.proof.certificate",
-    "core.proof",
-    "app",
-    "app.extras",
-    "app.logs",
-    "app.settings",
-    "app.start",
-    "app.wire",
-    "app.files",
-    "app.jobs",
-    "app.service",
-    "app.command",
-    "app.wire.question",
-    "app.wire.texts",
-    "app.wire.benches",
-    "app.wire.clocks",
-    "app.wire.answers",
-    "app.wire.paths",
-    "app.wire.geojson",
-    "app.wire.degrees",
-    "app.wire.dances",
-    "app.wire.refusals",
-    "app.wire.messages",
-    "app.wire.problem",
-    "app.wire.faults",
-    "app.files.memory",
-    "app.files.archives",
-    "app.files.markup",
-    "app.files.outlines",
-    "app.files.workbooks",
-    "app.files.tables",
-    "app.files.words",
-    "app.files.drawing",
-    "app.files.fonts",
-    "app.files.film_spec",
-    "app.files.figures",
-    "app.files.film",
-    "app.maps",
-    "app.maps.features",
-    "app.maps.curves",
-    "app.maps.joined",
-    "app.maps.labels",
-    "app.maps.entities",
-    "app.maps.geojson",
-    "app.maps.kml",
-    "app.maps.dxf",
-    "app.maps.marks",
-    "app.maps.lines",
-    "app.maps.layout",
-    "app.maps.places",
-    "app.plan",
-    "app.plan.timing",
-    "app.plan.sheet",
-    "app.plan.ground",
-    "app.plan.tables",
-    "app.plan.plan",
-    "app.files.flush",
-    "app.files.disk",
-    "app.files.lock",
-    "app.grade",
-    "app.grade.errors",
-    "app.grade.paper",
-    "app.grade.words",
-    "app.grade.names",
-    "app.grade.grid",
-    "app.grade.workbook",
-    "app.grade.reading",
-    "app.grade.labels",
-    "app.grade.cells",
-    "app.grade.layout",
-    "app.grade.lists",
-    "app.grade.sheets",
-    "app.grade.expected",
-    "app.grade.judged",
-    "app.grade.chains",
-    "app.grade.geometry",
-    "app.grade.contacts",
-    "app.grade.shortcuts",
-    "app.grade.numbers",
-    "app.grade.fits",
-    "app.grade.outside",
-    "app.grade.rings",
-    "app.grade.diagnosis",
-    "app.grade.rubric",
-    "app.grade.report",
-    "app.questions",
-    "app.questions.trajectory",
-    "app.questions.collision_time",
-    "app.questions.course",
-    "app.questions.minimum_pitch",
-    "app.questions.pitch_scan",
-    "app.questions.clearance",
-    "app.questions.turn",
-    "app.questions.shortest_turn",
-    "app.questions.maximum_head_speed",
-    "app.questions.check",
-    "app.questions.envelope",
-    "app.questions.tolerance",
-    "app.questions.tolerance_curve",
-    "app.questions.contact_probability",
-    "app.questions.figures",
-    "app.questions.films",
-    "app.questions.maps",
-    "app.questions.plan",
-    "app.questions.overlaps",
-    "app.questions.paper",
-    "app.questions.registry",
-    "app.contest",
-    "app.contest.solved",
-    "app.contest.answers",
-    "app.contest.tables",
-    "app.contest.sensitivity",
-    "app.contest.figures",
-    "app.contest.films",
-    "app.contest.report",
-    "app.contest.kit",
-    "app.sweeps.questions",
-    "app.sweeps.columns",
-    "app.sweeps.spec",
-    "app.sweeps.designs",
-    "app.sweeps.shards",
-    "app.sweeps.engines",
-    "app.sweeps.worker",
-    "app.sweeps.processes",
-    "app.sweeps.run",
-    "app.sweeps.table",
-    "app.sweeps.maps",
-    "app.sweeps.cluster",
-    "app.sweeps.call",
-    "app.sweeps",
-    "app.jobs.task",
-    "app.jobs.job",
-    "app.jobs.reserve",
-    "app.jobs.store",
-    "app.jobs.keeper",
-    "app.jobs.runner",
-    "app.jobs.reports",
-    "app.jobs.sweeping",
-    "app.jobs.work",
-    "app.jobs.places",
-    "app.service.problems",
-    "app.service.examples",
-    "app.service.version",
-    "app.service.token",
-    "app.service.middleware",
-    "app.service.reply",
-    "app.service.pages",
-    "app.service.bodies",
-    "app.service.protocol",
-    "app.service.routes",
-    "app.service.graders",
-    "app.service.uploads",
-    "app.jobs.wire",
-    "app.jobs.metrics",
-    "app.jobs.routes",
-    "app.service.main",
-    "app.service.workers",
-    "app.command.streams",
-    "app.command.usage",
-    "app.command.show",
-    "app.command.options",
-    "app.command.paths",
-    "app.command.prove",
-    "app.command.trajectory",
-    "app.command.envelope",
-    "app.command.figures",
-    "app.command.contest",
-    "app.command.grade",
-    "app.command.places",
-    "app.command.sweep",
-    "app.command.jobs",
-    "app.command.contacts",
-    "app.command.overlaps",
-    "app.command.designs",
-    "app.command.strays",
-    "app.command.check",
-    "app.command.paper",
-    "app.command.serve",
-    "app.command.main",
-    "app.command.entry",
-)
-# The classes of paths, in core and in requests. A certificate writes a Turn by its own numbers, any other path by kind.
-PATHS = {"Spiral", "Route", "Turn", "Legs", "SpiralPath", "TurnPath", "RoutePath", "WaypointsPath"}
-# Uses of Path.spiral by room: for a pitch, a centre or a fold, which only a spiral has.
-ON_SPIRALS = {
-    "core.dance": 1,  # its end: a fold
-    "core.contact.search": 3,  # bounds by radius instead of place
-    "core.tolerance.curve": 1,  # the time on a circle around the centre
-    "core.tolerance.wobble": 1,  # an error of the pitch
-    "core.tolerance.chance": 2,
-    "core.proof.paths": 3,
-    "core.proof.certificate": 2,  # proofs on spirals alone
-    "app.files.figures": 1,  # the pitch in a title
-    "app.plan.timing": 1,  # radius and angle of a mark
-    "app.grade.geometry": 3,  # known errors on a spiral
-    "app.grade.outside": 1,  # handles before its beginning
-    "app.grade.rings": 1,
-    "app.questions.tolerance": 2,  # a circle, and an error of the pitch
-    "app.command.trajectory": 1,  # times before the start
-}
+# The rooms, from the ground up: a module imports from its own room and from those above its line, never from below.
+# A word is a room with all its modules, or a module that stands alone.
+ROOMS = """
+core.kernels
+core.values core.error_free core.errors core.names core.extras core.shown core.tables core.sampling
+core.passages core.dragon
+core.paths
+core.dance core.course core.plots
+core.shapes
+core.venue
+core.motion
+core.contact
+core.extremes
+core.design
+core.tolerance
+core.ground
+core.failures core.judgement
+core
+core.proof
+app
+app.extras app.logs app.settings app.start
+app.wire
+app.files
+app.maps
+app.plan
+app.grade
+app.questions
+app.contest
+app.sweeps
+app.jobs
+app.service
+app.command
+"""
 # Arrays whose columns core/kernels/constants.py names.
 TABLES = {"table", "pieces", "frame", "chain", "motion", "placed", "probed", "probed_later", "opening"}
 OUTSIDE_CORE = {"app", "fastapi", "http", "json", "orjson", "pathlib", "pydantic", "starlette", "time"}
 OVERLAP_ENGINES = {"fcl", "shapely"}
 # Engines of continuous collision detection, only for comparison.
 OTHER_ENGINES = {"Box2D", "ipctk"}
-# No function is longer, docstring included, or takes more parameters; and no room is longer.
-LINES_MOST, PARAMETERS_MOST, ROOM_MOST = 80, 8, 500
+# No function is longer, docstring included, or takes more parameters.
+LINES_MOST, PARAMETERS_MOST = 80, 8
 HEAVY = ("fcl", "flint", "matplotlib", "pandas", "scipy", "shapely", "xarray")
 
 
@@ -383,13 +94,38 @@ def top_names(module: str) -> set[str]:
     return {name.partition(".")[0] for name in imports(module)}
 
 
-def test_every_module_has_its_place_in_the_pipeline() -> None:
-    assert set(MODULES) == set(ORDER)
+LINE_OF = {room: number for number, line in enumerate(ROOMS.split("\n")) for room in line.split()}
 
 
-def test_imports_point_one_way_along_the_pipeline() -> None:
-    itself_or_later = {module: set(ORDER[ORDER.index(module) :]) for module in MODULES}
-    assert {module: back for module in MODULES if (back := imports(module) & itself_or_later[module])} == {}
+def line_of(module: str) -> int:
+    """The line of a module's room; -1 for a module without one."""
+    package = ".".join(module.split(".")[:2])
+    return LINE_OF.get(package, -1)
+
+
+def test_every_module_has_a_room() -> None:
+    assert [module for module in MODULES if line_of(module) < 0] == []
+
+
+def test_imports_point_to_rooms_above() -> None:
+    ours = {module: imports(module) & set(MODULES) for module in MODULES}
+    assert {(module, one) for module in MODULES for one in ours[module] if line_of(one) > line_of(module)} == set()
+
+
+def test_no_modules_import_one_another_in_a_circle() -> None:
+    # A package stands for its own file, which its modules do not import.
+    order = TopologicalSorter({module: imports(module) & set(MODULES) - {module} for module in MODULES})
+    order.prepare()  # graphlib.CycleError names the circle
+
+
+def test_no_scripts_of_the_page_import_one_another_in_a_circle() -> None:
+    page = ROOT / "app" / "page"
+    named = re.compile(r"""(?:from|import|import\() ?"(\.{1,2}/[\w./-]+\.js)\"""")
+    scripts = {path: path.read_text(encoding="utf-8") for path in page.rglob("*.js")}
+    used = {path: {(path.parent / name).resolve() for name in named.findall(text)} for path, text in scripts.items()}
+    assert {one for names in used.values() for one in names} <= set(scripts)
+    assert sum(map(len, used.values())) > len(scripts)
+    TopologicalSorter(used).prepare()
 
 
 def test_core_knows_no_http_json_files_or_clocks() -> None:
@@ -430,32 +166,6 @@ def names_in(node: ast.AST) -> set[str]:
     return names | {one.attr for one in nodes if isinstance(one, ast.Attribute)}
 
 
-def asked_for_its_class(module: str) -> list[str]:
-    """The tests for the class of a path: isinstance() and match."""
-    asked = [
-        node.args[1]
-        for node in ast.walk(tree(module))
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance"
-    ]
-    asked += [node.cls for node in ast.walk(tree(module)) if isinstance(node, ast.MatchClass)]
-    return sorted(name for one in asked for name in names_in(one) & PATHS)
-
-
-def test_a_path_is_asked_for_what_it_does_not_for_its_class() -> None:
-    asked = {module: found for module in MODULES if (found := asked_for_its_class(module))}
-    assert asked == {"core.proof.paths": ["Turn"]}
-
-
-def test_few_rooms_ask_whether_a_path_is_a_spiral() -> None:
-    asked = [
-        module
-        for module in MODULES
-        for node in ast.walk(tree(module))
-        if isinstance(node, ast.Attribute) and node.attr == "spiral" and "path" in names_in(node.value)
-    ]
-    assert Counter(asked) == ON_SPIRALS
-
-
 def test_only_the_engines_import_fcl_and_shapely() -> None:
     assert {name for name in MODULES if top_names(name) & OVERLAP_ENGINES} == {"core.shapes.engines"}
 
@@ -492,8 +202,8 @@ def test_public_names_are_sorted_and_exist() -> None:
 
 
 def test_a_question_named_like_its_room_stays_a_question() -> None:
-    # Importing core.tolerance.reach would put the room in place of the function; lazy-loader before 0.6 let it.
-    code = "import core, core.course, core.tolerance.reach; print(callable(core.course), callable(core.tolerance))"
+    # Importing core.shapes.reach would put the room in place of the function; lazy-loader before 0.6 let it.
+    code = "import core, core.course, core.shapes.reach; print(callable(core.course), callable(core.tolerance))"
     assert subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True).split() == ["True", "True"]
 
 
@@ -514,12 +224,3 @@ def test_functions_are_short_and_take_few_parameters() -> None:
         assert (function.end_lineno or 0) - function.lineno + 1 <= LINES_MOST, place
         taken = len([name for name in parameters if name and name.arg not in ("self", "cls")])
         assert taken <= PARAMETERS_MOST or module.startswith("app.command"), place  # a command's options
-
-
-PAGE = [path for kind in ("js", "html", "css") for path in sorted((ROOT / "app" / "page").rglob(f"*.{kind}"))]
-ROOMS = sorted(path.relative_to(ROOT).as_posix() for path in (*MODULES.values(), *PAGE))
-
-
-def test_rooms_are_small() -> None:
-    lines = {room: len((ROOT / room).read_text(encoding="utf-8").splitlines()) for room in ROOMS}
-    assert {room: count for room, count in lines.items() if count > ROOM_MOST} == {}

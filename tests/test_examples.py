@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.files.disk import read_dance
+from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
 from core import FailureKind, Outcome, Report, check
 

@@ -29,7 +29,7 @@ TOGETHER = {
     "jobs/test_command.py": "command/jobs jobs/places",
     "jobs/test_disk.py": "jobs/reserve",
     "jobs/test_limits.py": "jobs/keeper service/token",
-    "jobs/test_routes.py": "jobs/metrics jobs/task jobs/wire",
+    "service/test_job_routes.py": "jobs/task service/job_bodies service/job_metrics",
     "jobs/test_runner.py": "files/lock jobs/reports jobs/work logs",
     "jobs/test_store.py": "files/flush jobs/job",
     "jobs/test_sweeps.py": "jobs/sweeping",
@@ -53,7 +53,7 @@ TOGETHER = {
     "test_cli.py": "command/contacts command/entry command/main command/options command/overlaps"
     " command/paper command/paths command/serve command/show command/trajectory command/usage",
     "test_cli_check.py": "command/check command/designs",
-    "test_cli_file.py": "command/figures files/drawing questions/figures",
+    "test_cli_file.py": "command/figures files/drawing maps/dances questions/figures",
     "test_holding.py": "service/bodies service/middleware service/protocol service/workers",
     "test_openapi.py": "service/examples wire/question",
     "test_prove.py": "command/prove",

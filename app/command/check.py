@@ -14,8 +14,9 @@ from app.command import show
 from app.command.options import Json
 from app.command.usage import path_argument
 from app.extras import require
-from app.files.disk import checked_output, object_words, read_dance
+from app.files.disk import checked_output, object_words
 from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
+from app.maps.dances import read_dance
 from app.questions import check as checks
 from app.questions import figures
 from app.questions.check import CheckRequest, LeastClearance, Nearest, Report

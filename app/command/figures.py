@@ -14,8 +14,9 @@ from app.command.options import asks, of_file, unused
 from app.command.paths import PathOptions, dance_of
 from app.command.usage import path_argument
 from app.extras import require
-from app.files.disk import DANCE_ENDINGS, checked_output, ending_of
+from app.files.disk import checked_output, ending_of
 from app.files.film_spec import ENDINGS, GIF_TYPE
+from app.maps.dances import DANCE_ENDINGS
 from app.questions import figures as drawn
 from app.questions import films
 from app.questions.figures import Format

@@ -15,7 +15,8 @@ import typer
 from pydantic import BaseModel
 
 from app.command.usage import path_argument
-from app.files.disk import object_words, read_dance
+from app.files.disk import object_words
+from app.maps.dances import read_dance
 from app.settings import Settings
 from app.wire.dances import DanceFields, SpanFields, TimeRange
 from app.wire.messages import checked

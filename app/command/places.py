@@ -13,8 +13,9 @@ from app.command import show
 from app.command.options import Json
 from app.command.usage import path_argument
 from app.extras import require
-from app.files.disk import checked_output, object_words, read_dance
+from app.files.disk import checked_output, object_words
 from app.files.tables import Language
+from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
 from app.maps.places import Places, read_map
 from app.questions.maps import MapFormat, MapsRequest, OriginFields

@@ -24,7 +24,8 @@ from rich.progress import Progress
 import core
 from app.command.options import asks
 from app.command.usage import path_argument
-from app.files.disk import checked_output, read_dance, write_whole
+from app.files.disk import checked_output, write_whole
+from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
 from app.questions.tolerance import CircleQuery
 from app.settings import Settings

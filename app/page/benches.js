@@ -1,12 +1,5 @@
-/** Benches measured one by one: a table that is typed, pasted, dropped or opened, in the service's format. */
+/** Tables of benches measured one by one, in the service's format. */
 
-import { $, make, worded } from "./elements.js";
-import { Pause } from "./pending.js";
-import { nameBenches, refusalWords, say } from "./text.js";
-
-/** A typed table counts after this pause [ms]. */
-const TYPING = 500;
-const ROWS = 6;
 /** First letters of the column names: the name, and the sizes in the order of a table. */
 const COLUMNS = { names: /^(name|名称|姓名)/i, lengths: /^(length|长)/i, widths: /^(width|宽)/i, overhangs: /^(overhang|孔距|端距)/i };
 const QUOTED = /^"(.*)"$/s;
@@ -66,82 +59,4 @@ export function tableOf({ csv, lengths, widths, overhangs, names, ...equal }) {
   const own = lengths ?? Array.from({ length: benches }, (_, k) => (k ? body : head));
   const rows = own.map((length, k) => [quoted(names?.[k] ?? ""), length, widths?.[k] ?? width, overhangs?.[k] ?? overhang].join());
   return ["name,length,width,overhang", ...rows].join("\n");
-}
-
-export class BenchTable {
-  /** group: the numbers of equal benches, which the table replaces */
-  constructor(group, state) {
-    Object.assign(this, { group, state });
-    this.title = make("summary");
-    const described = { "aria-describedby": "csv-help csv-error" };
-    this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "csv", ...described });
-    this.file = make("input", { type: "file", id: "csv-file", accept: ".csv,.tsv,.txt,.xlsx", "data-label": "csvOpen", hidden: true });
-    this.error = make("p", { id: "csv-error", className: "error", hidden: true });
-    this.note = make("p", { className: "hint" });
-    const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => state.set({ csv: "" }) };
-    const buttons = Object.entries(acts).map(([id, act]) => worded(id, act, { id }));
-    const help = make("p", { id: "csv-help", className: "hint", "data-text": "csvHelp" });
-    this.box = make("details", { id: "one-by-one" }, this.title, help, this.text, this.error, this.note, make("p", { className: "buttons" }, ...buttons, this.file));
-    group.append(this.box);
-    this.#listen();
-    this.show();
-  }
-
-  #listen() {
-    const typing = new Pause("csv");
-    this.text.addEventListener("input", () => typing.begin(TYPING, () => this.#take(this.text.value)));
-    this.text.addEventListener("change", () => {
-      typing.end();
-      this.#take(this.text.value);
-    });
-    this.file.addEventListener("change", async () => {
-      if (this.file.files[0]) await this.#open(this.file.files[0]);
-      this.file.value = "";
-    });
-    this.box.addEventListener("dragover", (event) => event.preventDefault());
-    this.box.addEventListener("drop", async (event) => {
-      const file = event.dataTransfer.files[0];
-      if (!file) return;
-      event.preventDefault();
-      await this.#open(file);
-    });
-    this.state.listen((names) => (names.has("csv") || names.has("path")) && this.show());
-  }
-
-  async #open(file) {
-    const text = await tableText(file);
-    if (text !== null) return this.#take(text);
-    Object.assign(this.error, { hidden: false, textContent: say("csvWorkbook", { name: file.name }) });
-  }
-
-  #take(text) {
-    this.state.set({ csv: text.trim() && text });
-    this.state.write();
-    this.show();
-  }
-
-  /** Begin with the present equal benches. */
-  #begin() {
-    const numbers = ["benches", "head_length", "body_length", "width", "overhang"].map((name) => [name, Number(this.state.get(name))]);
-    this.#take(tableOf({ ...Object.fromEntries(numbers), names: [say("theHead")] }));
-  }
-
-  show() {
-    const { csv, listed } = this.state.said();
-    nameBenches(listed?.names ?? []);
-    if (this.text.value !== csv) this.text.value = csv;
-    if (csv) this.box.open = true;
-    this.group.classList.toggle("listed", Boolean(csv));
-    $("#csvBegin").hidden = Boolean(csv);
-    $("#csvClear").hidden = !csv;
-    this.title.textContent = csv ? say("csvCount", { count: listed.lengths.length }) : say("csv");
-    this.note.textContent = csv && !this.state.fits ? say("csvLong") : "";
-  }
-
-  /** error: of the service about the table, which names the line; or none */
-  refuse(error) {
-    this.error.hidden = !error;
-    Object.assign(this.error, error ? refusalWords(error) : { textContent: "" });
-    this.text.setAttribute("aria-invalid", Boolean(error));
-  }
 }

@@ -4,8 +4,8 @@
  */
 
 import { $$, button, make, onClick } from "./elements.js";
+import { FIELDS } from "./fields.js";
 import { Pause } from "./pending.js";
-import { FIELDS } from "./state.js";
 import { refusalWords, say } from "./text.js";
 
 /** A typed number counts after this pause [ms], or with Enter, so that half-typed numbers are not sent. */

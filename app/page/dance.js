@@ -1,7 +1,7 @@
 /** The picture: benches as rectangles between their handles, coloured by speed, over the faint path. */
 
 import { colours } from "./elements.js";
-import { strayOf } from "./state.js";
+import { strayOf } from "./fields.js";
 import { View } from "./view.js";
 
 const SHADES = 48;

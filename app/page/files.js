@@ -5,7 +5,7 @@ import { drawingOf } from "./drawing.js";
 import { $, download, make, worded } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { announce, announceRefusal } from "./overlays.js";
-import { passagesText } from "./pace.js";
+import { passagesText } from "./passages.js";
 import { language, say } from "./text.js";
 
 const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv,.tsv,.xlsx";

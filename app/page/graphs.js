@@ -3,7 +3,7 @@
 import { centimetres, gapWords, instantWords, outcomeWords } from "./answers.js";
 import { Chart, clearancePlan, curvePlan, scanPlan } from "./charts.js";
 import { $, make } from "./elements.js";
-import { CONTACT, strayOf } from "./state.js";
+import { CONTACT, strayOf } from "./fields.js";
 import { benchName, refusalWords, say, sayOf } from "./text.js";
 
 const PITCH_DECIMALS = 4;

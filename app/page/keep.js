@@ -2,10 +2,10 @@
 
 import { Problem } from "./api.js";
 import { $, button, download, make, onClick } from "./elements.js";
+import { CONTACT, DRAGON, TURN, strayOf } from "./fields.js";
 import { bearer } from "./jobs.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { isPlain } from "./questions.js";
-import { CONTACT, DRAGON, TURN, strayOf } from "./state.js";
 import { language, say } from "./text.js";
 
 /** The type of a problem of what takes too long for one answer. */

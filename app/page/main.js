@@ -2,20 +2,22 @@
 
 import * as answers from "./answers.js";
 import { Problem, Service } from "./api.js";
-import { BenchTable } from "./benches.js";
+import { BenchTable } from "./bench_table.js";
 import { Controls, limitsIn } from "./controls.js";
 import { Dance, spanOf, speedRange } from "./dance.js";
 import { Designs } from "./designs.js";
 import { Drawn } from "./drawn.js";
 import { $, $$, onClick } from "./elements.js";
+import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
 import { announce, announceAgain, lost, markContact, placeInset } from "./overlays.js";
-import { Pace, passagesText, quickened, timeOfDay } from "./pace.js";
+import { Pace } from "./pace.js";
+import { passagesText, quickened, timeOfDay } from "./passages.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
-import { CONTACT, FIELDS, SAID, State, strayOf } from "./state.js";
+import { SAID, State } from "./state.js";
 import { Table } from "./table.js";
 import { handleName, say, setLanguage } from "./text.js";
 import { tellRefusals } from "./told.js";

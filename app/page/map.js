@@ -3,7 +3,7 @@
 import { ticks } from "./charts.js";
 import { palette } from "./dance.js";
 import { $, colours, make } from "./elements.js";
-import { FIELDS } from "./state.js";
+import { FIELDS } from "./fields.js";
 import { say } from "./text.js";
 
 const HEIGHT = 340;

@@ -2,9 +2,10 @@
 
 import { Problem, Superseded } from "./api.js";
 import { pathOf, placeOf, venueOf } from "./drawing.js";
-import { timeAfter } from "./pace.js";
+import { CONTACT, DRAGON, FIELDS, TURN, numbersOf } from "./fields.js";
+import { timeAfter } from "./passages.js";
 import { Pause } from "./pending.js";
-import { CONTACT, DRAGON, FIELDS, SAID, TURN, numbersOf } from "./state.js";
+import { SAID } from "./state.js";
 import { Track, speedTimes } from "./track.js";
 
 /** Time without a change after which input counts as paused [ms]. */

@@ -1,6 +1,6 @@
 /** The service's refusals in sentences for people: with the labels and the units of the page, in both languages. */
 
-import { FIELDS } from "./state.js";
+import { FIELDS } from "./fields.js";
 import { PLACES, REASONS, RULES, WHOLE } from "./words/refusals.js";
 
 /** Names in tables of benches and of passages: the key of their words. */

@@ -2,45 +2,10 @@
 
 import { benchesOf } from "./benches.js";
 import { EMPTY, PARTS, fromAddress, toAddress } from "./drawing.js";
-import { clockIn, passagesIn } from "./pace.js";
+import { FIELDS } from "./fields.js";
+import { clockIn, passagesIn } from "./passages.js";
 import { Pause } from "./pending.js";
 
-/**
- * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
- * begin with: [from, to, step]; only: the path that has this number; centimetres: the unit here and on the slider. An
- * empty text leaves the number to the service.
- */
-export const FIELDS = [
-  { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
-  { name: "start_turns", value: "16", group: "path", slider: [4, 40, 0.5] },
-  { name: "turning_diameter", value: "9", group: "path", slider: [2, 16, 0.1] },
-  { name: "ratio", value: "2", group: "path", slider: [0.5, 4, 0.05], only: "turn" },
-  { name: "entry_radius", value: "", group: "path", slider: [4, 5, 0.001], only: "turn" },
-  { name: "exit_radius", value: "", group: "path", slider: [3.5, 5, 0.001], only: "turn" },
-  { name: "benches", value: "223", group: "dragon", slider: [1, 400, 1] },
-  { name: "head_length", value: "3.41", group: "dragon", slider: [1, 6, 0.01] },
-  { name: "body_length", value: "2.2", group: "dragon", slider: [1, 4, 0.01] },
-  { name: "width", value: "0.3", group: "dragon", slider: [0.05, 0.6, 0.005] },
-  { name: "overhang", value: "0.275", group: "dragon", slider: [0, 0.45, 0.005] },
-  { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05] },
-  { name: "margin", value: "0", group: "motion", slider: [0, 0.2, 0.005] },
-  { name: "speed_limit", value: "2", group: "motion", slider: [1, 4, 0.05], only: "turn" },
-  { name: "stray", value: "0", group: "people", slider: [0, 20, 0.1], centimetres: true },
-  { name: "hole", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
-  { name: "pin", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
-];
-
-const namesOf = (wanted) => FIELDS.filter(({ group }) => group === wanted).map(({ name }) => name);
-export const DRAGON = namesOf("dragon");
-/** Numbers that define a contact. */
-export const CONTACT = ["margin", ...namesOf("people")];
-/** Largest distance of every hole from its place [m]: the stray of people, and half the difference of hole and pin. */
-export const strayOf = ({ stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
-/** The numbers of a turn in addition to those of its coils. */
-export const TURN = ["turning_diameter", "ratio", "entry_radius", "exit_radius"];
-/** Texts as numbers; other texts stay unchanged, so that the service refuses them. */
-export const numbersOf = (texts) =>
-  Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, text.trim() && Number.isFinite(Number(text)) ? Number(text) : text]));
 export const RATES = [1, 2, 5, 10, 20, 50];
 /** Default pitch of a turn, from the contest: a turn needs a wider spiral. */
 const PITCHES = { spiral: "0.55", turn: "1.7" };

@@ -1,7 +1,7 @@
 /** The form of a sweep: a question for many values of one or two parameters, the others as on the page. */
 
 import { make } from "./elements.js";
-import { CONTACT, DRAGON, FIELDS } from "./state.js";
+import { CONTACT, DRAGON, FIELDS } from "./fields.js";
 import { refusalWords, say } from "./text.js";
 
 const SPIRAL = [...DRAGON, "pitch", "start_turns", "head_speed"];

@@ -1,8 +1,8 @@
 /** Texts of the page: its words in the chosen language, and the service's refusals. */
 
+import { strayOf } from "./fields.js";
 import { proofInChinese } from "./proofs.js";
 import { refusalIn } from "./refusals.js";
-import { strayOf } from "./state.js";
 import { WORDS } from "./words.js";
 
 let column = 0;

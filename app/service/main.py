@@ -24,14 +24,14 @@ from pydantic.warnings import UnsupportedFieldAttributeWarning
 from starlette.middleware import Middleware
 
 import core
-from app.jobs import routes as jobs
 from app.jobs.keeper import kept
-from app.jobs.metrics import JobMetrics
+from app.service import job_routes as jobs
 from app.service import middleware as layers
 from app.service import problems, routes, uploads
 from app.service.bodies import refuse_query
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
+from app.service.job_metrics import JobMetrics
 from app.service.pages import add_pages
 from app.service.reply import Glances, KeptAnswers
 from app.service.version import VERSION, build

@@ -195,7 +195,7 @@ def least_clearance(
     """The least clearance between start and stop [s], see Dance.span(); None with fewer than three benches.
 
     stray: largest distance of every hole from its place [m]: the result is then the least possible clearance, proven
-        for the hulls of the ground that benches may cover (core/tolerance/reach.py)
+        for the hulls of the ground that benches may cover (core/shapes/reach.py)
     raises: InvalidValue; OutsideRun for a stop after the end of the run; TooMuchWork
     """
     begin, until = dance.span(start, stop)

@@ -12,19 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.contact.answer import FirstContact, Outcome
-from core.contact.search import MARGIN_MAX
 from core.dance import Dance
-from core.design.minimum_pitch import LimitedBy, MinimumPitch
-from core.dragon import Dragon, Stray, checked_stray
 from core.error_free import paired
-from core.errors import InvalidValue, asked_of, checked_number, checked_type
+from core.errors import asked_of
 from core.kernels import Budget
-from core.paths.spiral import Spiral
 from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
 from core.shapes.overlaps import Verdict
+from core.shapes.reach import SHORT, Reach, reach
 from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs, upright_boxes
 from core.shown import Readable, worded
-from core.tolerance.reach import SHORT, Reach, reach
 from core.values import Floats
 
 Pair = tuple[int, int]
@@ -36,8 +32,6 @@ Indices = NDArray[np.int64]
 CHECK_TRAVEL = 1e-6
 # The same travel in units of the last digit of arc lengths so long that rounding hides a shorter one [1].
 CHECK_DIGITS = 64
-# The same for a pitch [m].
-CHECK_PITCH = 1e-6
 # Largest depth of a second pair that counts as meeting together with the reported one [m]. The two poses are 2e-6 m
 # apart, in which two benches approach by at most twice the highest handle speed over the head's, or by the turns
 # between them for each metre of pitch. Near a fold speeds are higher; such a pair counts as a different finding there.
@@ -106,7 +100,7 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     times = [first if at_start else first - travel, last + travel]
     if not whole:  # A bench does not affect those in front of it.
         dance = replace(dance, dragon=dragon.leading(contact.benches[1] + 1))
-    poses = _poses(dance, times, budget)
+    poses = judged_poses(dance, times, budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: poses.shape[1]]
     pair = contact.benches
     if not contact.stray or contact.gap is None:
@@ -120,47 +114,8 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     )
 
 
-@asked_of("found", MinimumPitch, "the engines' verdict on the minimum pitch was not found")
-def pitch_check(
-    found: MinimumPitch,
-    dragon: Dragon,
-    *,
-    margin: float = 0.0,
-    stray: float | Stray = 0.0,
-    whole: bool = True,
-    budget: Budget | None = None,
-) -> ContactCheck | None:
-    """The engines' verdicts at a pitch CHECK_PITCH larger and one CHECK_PITCH smaller than the minimum.
-
-    The head is where the pair meets just below that pitch, or at the start if the start limits the pitch.
-    whole: True judges the whole dragon, False only the reported pair; with a stray shapely always judges the ground
-        that benches may cover
-    dragon, margin, stray: those of the search
-    returns: None if no pair limits the pitch
-    raises: InvalidValue; TooMuchWork
-    """
-    checked_type("dragon", dragon, Dragon)
-    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    strayed = checked_stray(stray, dragon)
-    if found.benches is None or found.head_radius is None:
-        return None
-    if found.benches[1] >= dragon.benches:
-        rule, got = "must be that of the search, with bench {bench}", f"one of {dragon.benches} benches"
-        raise InvalidValue("dragon", rule, got=got, bench=found.benches[1])
-    poses = []
-    for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
-        # On a spiral that starts at this radius, the head is there at time 0.
-        turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
-        front = dragon if whole or strayed else dragon.leading(found.benches[1] + 1)
-        poses.append(_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
-    if strayed:
-        return judged_grounds(np.array(poses), reach(dragon, strayed), found.benches, margin=margin, budget=budget)
-    size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
-    return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
-
-
 @asked_of("dance", Dance, "the trajectory was not computed")
-def _poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
+def judged_poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     """Poses (T, n, 3) of the steady dragon at instants, moved into the run if they are outside."""
     held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
     shape = (held.size, dragon.benches + 1)

@@ -74,7 +74,7 @@ def first_contact(
     """First time at which two benches that share no handle come within the margin, proven to miss no earlier one.
 
     margin: required clearance [m]; contact means separation <= margin
-    stray: largest distance of every hole from its place [m], see core/tolerance/reach.py: the answer is then the first
+    stray: largest distance of every hole from its place [m], see core/shapes/reach.py: the answer is then the first
         time at which two benches may come within the margin, because the grounds that they may cover do
     start, stop: interval of the search [s]; None for dance.default_start and for the end of the run
     returns: see FirstContact. Times are good to 1e-10 s at 1 m/s. The bracket [proven clear up to, overlapping at] is

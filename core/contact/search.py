@@ -20,7 +20,7 @@ from core.kernels import Budget, Ended
 from core.kernels.results import Marched
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.tolerance.reach import Reach, directions, reach
+from core.shapes.reach import Reach, directions, reach
 from core.values import Floats
 
 # End of a march, its result, and the half width of the bracket around its contact [m].

@@ -42,8 +42,8 @@ from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected
+from core.shapes.reach import reach
 from core.shown import Readable, worded
-from core.tolerance.reach import reach
 
 # Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
 ENTRY_STEP = 0.01

@@ -1,7 +1,7 @@
 """The quickest turn: how long the head takes through a turn if no handle may exceed a speed.
 
 The head goes at one speed, as fast as the limit allows: the limit over the highest rate, the speed of the fastest
-handle over that of the head (core/motion/speed.py). So a turn of length L takes the time L rate / limit. A short turn
+handle over that of the head (core/extremes/speed.py). So a turn of length L takes the time L rate / limit. A short turn
 bends tightly, and where the curvature jumps from one arc to the other, handles behind the head are the fastest: so the
 shortest turn is not the quickest.
 
@@ -25,8 +25,8 @@ from core.design.turn_boxes import sizes_of
 from core.design.turn_moves import least_bend
 from core.dragon import Dragon, told_chords
 from core.errors import InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities, too_much
+from core.extremes.speed import checked_limit, maximum_head_speed
 from core.kernels import Budget, Halted
-from core.motion.speed import checked_limit, maximum_head_speed
 from core.motion.trajectory import trajectory
 from core.paths.following import follows
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn

@@ -25,7 +25,7 @@ Both bow and slip are of the second order in h.
 
 Towards the fold of a spiral K grows without bound. There delta(theta) bounds the motion itself: while the front handle
 goes from theta_a in to theta_b, the rear one stays between theta_b + delta(theta_a) and theta_a + delta(theta_b). Every
-point of the bench moves with its handles, by 1/2 + z / chord and 1/2 - z / chord of each (core/tolerance/reach.py), so
+point of the bench moves with its handles, by 1/2 + z / chord and 1/2 - z / chord of each (core/shapes/reach.py), so
 by at most (1/2 + radius / chord) times the sum of both arcs. Where this is small, the bench stays near its first place.
 
 The union of all these polygons, grown by at least the largest bow and the largest slip of any cell, holds every pose;

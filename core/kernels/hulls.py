@@ -7,7 +7,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
     from core.kernels.records import Axis, Corner, Faced, Hulls, View
 
-# In a scene with hulls a bench covers the union of the three hulls of its kind (core/tolerance/reach.py), and an edge
+# In a scene with hulls a bench covers the union of the three hulls of its kind (core/shapes/reach.py), and an edge
 # at rest covers its segment. Each hull of a kind takes DIRECTIONS rows, one for each corner; corner k lies between the
 # half planes of directions k and k + 1, which are evenly spaced in the frame of the bench.
 #
@@ -252,7 +252,7 @@ def corner_beyond(kinds, view, hulls, at):
     return most
 
 
-# Input:  a bench, the stray, the samples of psi, and the directions; see core/tolerance/reach.py.
+# Input:  a bench, the stray, the samples of psi, and the directions; see core/shapes/reach.py.
 # State:  for each direction the largest value so far for the front end, and for the middle.
 # Output: these values.
 def largest_supports(chord, overhang, half_width, stray, samples, directions, found):

@@ -1,6 +1,6 @@
 """Benches with one bench between them: the stray up to which it holds them apart, and a pose in which they touch.
 
-The march takes all benches to stray independently (core/tolerance/reach.py). For three consecutive benches this bound
+The march takes all benches to stray independently (core/shapes/reach.py). For three consecutive benches this bound
 is far too low: the first and the last hang on the one between, and touch only if the three fold up.
 
 In the frame of the bench between, with its chord c_1 from handle 2 to handle 1 along x, the shape of the three is given

@@ -24,8 +24,8 @@ from core.error_free import paired
 from core.errors import Given, InvalidValue, Quantity, asked_of, checked_type, said, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
+from core.shapes.reach import gains
 from core.shown import WithArrays, counted, worded
-from core.tolerance.reach import gains
 from core.tolerance.safe import safe_words
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound

@@ -1,6 +1,6 @@
 """Poses with the smallest strays at which two benches overlap: the upper end of the bracket around a tolerance.
 
-One bench turned by phi with its middle anywhere in its lens (core/tolerance/reach.py) covers the sum of the lens and
+One bench turned by phi with its middle anywhere in its lens (core/shapes/reach.py) covers the sum of the lens and
 the turned rectangle: a convex region with support lens(theta) + rectangle(theta) in each direction theta. Two benches
 turned by phi_a and phi_b can therefore overlap exactly if the largest gap
     g(phi_a, phi_b) = max over theta of  n . (M_b - M_a) - support_a(n) - support_b(-n)

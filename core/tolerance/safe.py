@@ -2,7 +2,7 @@
 
 The least stray at which two benches can meet during the dance is found in the same way as the least clearance
 (core/contact/clearance.py). Samples give an upper bound; then the ground that benches may cover
-(core/tolerance/reach.py) marches with a slightly smaller stray. If the march reaches the end, no dance within that
+(core/shapes/reach.py) marches with a slightly smaller stray. If the march reaches the end, no dance within that
 stray touches, which is proven.
 If two grounds meet, the stray at which these two just graze is found, and the march continues from there with it: the
 way already passed is clear with the larger stray, and so with the smaller one.
@@ -29,8 +29,8 @@ from core.dragon import Dragon
 from core.errors import said, said_bound
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip
+from core.shapes.reach import Reach, gains, reach, simple_reach
 from core.tolerance.between import held_apart
-from core.tolerance.reach import Reach, gains, reach, simple_reach
 from core.values import Floats
 
 # Part by which the stray of the proof is below the least stray at which benches can meet [1]; the second value is for

@@ -3,7 +3,7 @@
 Errors of chords add up along the chain: after one turn of the spiral it is unknown which bench stands beside which. So
 the bound must hold for every phase of a turn against the next one. The ring bound does (core/kernels/rings.py): it
 depends on the longest and the shortest chord, not on where chords begin, and it holds for a range of growths. Applied
-to the ground that benches may cover (core/tolerance/reach.py), with chords l within their error, it shows whether two
+to the ground that benches may cover (core/shapes/reach.py), with chords l within their error, it shows whether two
 benches that share no handle stay apart while the head is outside the circle. Bisection finds the largest stray for
 which it shows this.
 
@@ -29,7 +29,7 @@ from core.errors import asked_of, checked_number, checked_size
 from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.sampling import bisected
-from core.tolerance.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
+from core.shapes.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 
 # Width to which the largest stray is bisected, relative to half a chord [1].
 WIDTH = 1e-6

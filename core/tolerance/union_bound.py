@@ -20,7 +20,7 @@ bench.
 
 The pairs. Let g be the gap of a corner of one bench and a corner of another along the normal of their separation. The
 benches stay apart while no two such corners approach along this normal by their g. A corner z moves by
-e_k (1/2 + z / c) + e_{k+1} (1/2 - z / c) (core/tolerance/reach.py): along the normal by a normal number with a known
+e_k (1/2 + z / c) + e_{k+1} (1/2 - z / c) (core/shapes/reach.py): along the normal by a normal number with a known
 standard deviation, plus at most the remainder. Two such numbers, whatever their correlation, differ by a normal number
 whose standard deviation is at most the sum of theirs. Pairs too far apart for their corners to meet within the
 assumption are skipped.
@@ -42,8 +42,8 @@ from core.dragon import Dragon
 from core.errors import TooLarge
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
+from core.shapes.reach import gains
 from core.shapes.rectangles import CENTRE, CORNER_SIDES, bench_poses, frames, frames_separation, meeting_pairs
-from core.tolerance.reach import gains
 from core.tolerance.wobble import Wobble
 from core.values import Floats
 

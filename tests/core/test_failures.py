@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-import core.motion.speed
+import core.extremes.speed
 from core import (
     Dance,
     Dragon,
@@ -21,7 +21,7 @@ from core import (
     highest_speed,
     trajectory,
 )
-from core.motion.speed import SPEED_ROUNDING
+from core.extremes.speed import SPEED_ROUNDING
 from tests.core.test_judgement import REFERENCE_ERROR, SHORT, SQUARE, TURN, box, venue
 
 EXCESS_ERROR = 1e-9  # [s]: a first excess is bracketed so closely at 1 m/s and more
@@ -130,8 +130,8 @@ def test_a_proof_that_runs_short_of_work_leaves_a_kept_limit_undecided_and_a_bro
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     span = {"start": -100.0, "stop": 100.0}
-    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 10)
-    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 10)
+    monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 10)
+    monkeypatch.setattr(core.extremes.speed, "EXCESS_LINKS", 10)
     peak = highest_speed(Dance(Dragon(), TURN), **span).speed
     kept = check(Dance(Dragon(), TURN), speed_limit=peak * (1.0 + 1e-9), **span)
     assert [failure.kind for failure in kept.failures] == [FailureKind.UNDECIDED]

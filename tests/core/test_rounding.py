@@ -28,8 +28,8 @@ from core import (
 from core.contact.fold import gap_rounding
 from core.contact.search import Search
 from core.design.ways import Ways
+from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
-from core.motion.speed import SPEED_ROUNDING, first_excess
 from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
 from tests.core.rounding_sweep import Errors, compare, sweep
 

@@ -115,7 +115,7 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
 
 
 def test_faster_passages_end_earlier_and_at_the_same_places(visit: Any) -> None:
-    quickened = "passages => import('/page/pace.js').then(({ quickened }) => quickened(passages, 2))"
+    quickened = "passages => import('/page/passages.js').then(({ quickened }) => quickened(passages, 2))"
     assert visit().evaluate(quickened, PASSAGES) == [
         {"speed": 1, "until_s": 20}, {"speed": 0, "until_time": 50}, {"speed": 3, "until_s": 60},
     ]  # fmt: skip
@@ -131,7 +131,7 @@ def test_faster_passages_end_earlier_and_at_the_same_places(visit: Any) -> None:
     ],
 )
 def test_the_time_of_day_begins_anew_at_midnight(visit: Any, time: float, clock: str, shown: str) -> None:
-    told = "([time, clock]) => import('/page/pace.js').then(({ timeOfDay }) => timeOfDay(time, clock))"
+    told = "([time, clock]) => import('/page/passages.js').then(({ timeOfDay }) => timeOfDay(time, clock))"
     assert visit().evaluate(told, [time, clock]) == shown
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core import Arc, Dance, InvalidValue, Line, Route, clearance_profile
+from core import Arc, Dance, Line, Route
 from core.contact.answer import FirstContact, Outcome
 from core.contact.cross_check import (
     CHECK_TRAVEL,
@@ -19,10 +19,8 @@ from core.contact.cross_check import (
     contact_check,
     judged_benches,
     judged_contact,
-    pitch_check,
 )
 from core.contact.first_contact import first_contact
-from core.design.minimum_pitch import LimitedBy, minimum_pitch
 from core.dragon import Dragon
 from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
@@ -223,64 +221,6 @@ def test_an_engine_that_differs_makes_them_disagree() -> None:
     assert not check.agree
 
 
-# -- the minimum pitch ----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
-@pytest.mark.parametrize(
-    ("options", "limited_by"),
-    [({}, LimitedBy.GRAZE), ({"turning_radius": 3.0}, None), ({"margin": 0.05}, None), ({"turning_radius": 4.0}, None)],
-    ids=["default", "6 m", "margin", "8 m"],
-)
-def test_engines_agree_on_the_minimum_pitch(options: dict[str, float], limited_by: LimitedBy, whole: bool) -> None:
-    found = minimum_pitch(DRAGON, **options)
-    check = pitch_check(found, DRAGON, margin=options.get("margin", 0.0), whole=whole)
-    assert check is not None
-    assert limited_by in (None, found.limited_by)
-    assert check.agree
-    assert check.judged == (tuple(range(223)) if whole else found.benches)
-    assert set(check.engines.values()) == {AS_REPORTED}
-
-
-def test_a_wrong_minimum_pitch_is_noticed() -> None:
-    found = minimum_pitch(DRAGON)
-    for pitch, verdict in ((found.pitch - WRONG, Verdict(True, True)), (found.pitch + WRONG, Verdict(False, False))):
-        check = pitch_check(replace(found, pitch=pitch), DRAGON)
-        assert check is not None
-        assert not check.agree
-        assert set(check.engines.values()) == {verdict}
-
-
-def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
-    found = minimum_pitch(Dragon(3), turning_radius=4.5, start_turns=3.0)
-    assert found.benches is None
-    assert pitch_check(found, Dragon(3)) is None
-
-
-def test_a_minimum_pitch_of_a_longer_dragon_is_refused() -> None:
-    with pytest.raises(InvalidValue, match="must be that of the search, with bench 19, got one of 5 benches"):
-        pitch_check(minimum_pitch(Dragon()), Dragon(5))
-
-
-def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> None:
-    dragon, turns = Dragon(80), 8.0
-    low, high = 0.2, 1.0
-
-    def nearest(pitch: float) -> tuple[float, tuple[int, int]]:
-        profile = clearance_profile(Dance(dragon, Spiral(pitch, turns)), [0.0])
-        a, b = profile.benches[0].tolist()
-        return float(profile.clearance[0]), (a, b)
-
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if nearest(middle)[0] > 0.0 else (middle, high)
-    graze = minimum_pitch(DRAGON)
-    start = {"limited_by": LimitedBy.START, "benches": nearest(low)[1], "head_radius": turns * low}
-    check = pitch_check(replace(graze, pitch=high, pitch_bracket=(low, high), **start), dragon)
-    assert check is not None
-    assert check.agree
-    assert set(check.engines.values()) == {AS_REPORTED}
-
-
 # -- whom the engines judge -----------------------------------------------------------------------------------
 
 
@@ -357,14 +297,3 @@ def test_with_a_stray_the_grounds_of_all_benches_are_judged(stray: float, margin
     assert found.benches is not None
     other = (found.benches[0], found.benches[1] + 1)
     assert not contact_check(replace(found, benches=other)).agree
-
-
-def test_with_a_stray_the_minimum_pitch_is_that_at_which_grounds_meet() -> None:
-    found = minimum_pitch(DRAGON, stray=0.02, margin=0.01)
-    check = pitch_check(found, DRAGON, stray=0.02, margin=0.01)
-    assert check is not None
-    assert check.agree
-    assert check.engines == {Engine.SHAPELY: AS_REPORTED}
-    for shift in (-1e-4, 1e-4):
-        wrong = replace(found, pitch=found.pitch + shift)
-        assert not pitch_check(wrong, DRAGON, stray=0.02, margin=0.01).agree

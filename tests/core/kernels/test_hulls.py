@@ -10,7 +10,7 @@ import shapely
 
 from core import kernels
 from core.kernels.constants import DIRECTIONS, HALF_LENGTH, MX, MY, RADIUS, UX, UY
-from core.tolerance.reach import bench_hulls, directions, supports
+from core.shapes.reach import bench_hulls, directions, supports
 
 # The largest gap along an axis falls short of the distance by no more than this part of it [1].
 SHORT = 1.0 - math.cos(math.pi / DIRECTIONS)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Spiral, bench_poses, kernels, overlaps, separation, trajectory
-from core.tolerance.reach import gains
+from core.shapes.reach import gains
 from core.values import Floats
 
 DRAGON = Dragon.of([3.4, 2.2, 2.0, 2.2, 2.4] * 4, [0.3] * 20, [0.275] * 20)

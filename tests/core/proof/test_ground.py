@@ -11,7 +11,7 @@ import shapely
 from flint import acb, arb, ctx
 
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, Side, best_side
-from core.tolerance.reach import bench_hulls, directions, supports
+from core.shapes.reach import bench_hulls, directions, supports
 from tests.core.tolerance.places import moved_points, random_strays
 
 # Rounding of places and supports in doubles [m].

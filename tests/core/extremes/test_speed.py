@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import core.motion.speed
+import core.extremes.speed
 from core import (
     Arc,
     Coil,
@@ -32,7 +32,7 @@ from core import (
     trajectory,
 )
 from core.contact.search import Search
-from core.motion.speed import RATE_TOLERANCE
+from core.extremes.speed import RATE_TOLERANCE
 
 SPEED = json.loads((Path(__file__).parents[2] / "reference" / "maximum_head_speed.json").read_text())
 REFERENCE_ERROR = 1e-9  # [m/s] and [s]
@@ -135,7 +135,7 @@ def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float
 # Most intervals in which a peak is proven [1]; most links that a search follows, see LINKS_BUDGET; and the least number
 # of links for which an interval counts [1].
 FEW = 5_000
-LINKS_MOST = 12 * core.motion.speed.LINKS_BUDGET
+LINKS_MOST = 12 * core.extremes.speed.LINKS_BUDGET
 INTERVAL_LINKS = 20
 # A sample may exceed the highest speed found by what its proof leaves open [1].
 UNSEEN = 1e-6
@@ -145,7 +145,7 @@ def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float
     """Number of intervals in the proof of the highest speed, the head at 1 m/s."""
     search = Search(dragon, path, 0.0)
     search.resize(dragon.benches)
-    return core.motion.speed.peak_over(search, start, stop).intervals
+    return core.extremes.speed.peak_over(search, start, stop).intervals
 
 
 # The rear handle turns back before its bench could fold, and is 3.7 times as fast as the head on its way outwards: the
@@ -185,7 +185,7 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
 
 
 def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 20)
+    monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
     span = {"start": -20.0, "stop": 40.0}
     found = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], **span)
     assert found.head_speed_bracket == (None, found.head_speed)
@@ -194,14 +194,14 @@ def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest
     assert report.highest_speed.speed_bracket[1] is None
     # the limit is far above, and proven on its own
     assert report.passed
-    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
+    monkeypatch.setattr(core.extremes.speed, "EXCESS_LINKS", 20)
     report = check(Dance(Dragon(), TURN), speed_limit=2.0, **span)
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
 
 
 def test_a_proof_given_up_before_a_pause_is_unknown_for_the_whole_dance(monkeypatch: pytest.MonkeyPatch) -> None:
     """The pause itself is proven: there every speed is 0."""
-    monkeypatch.setattr(core.motion.speed, "LINKS_BUDGET", 20)
+    monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
     dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(0.0, until_time=30.0)])
     found = highest_speed(dance, start=0.0, stop=30.0)
     assert found.speed_bracket == (found.speed, None)
@@ -213,7 +213,7 @@ def test_a_proof_given_up_before_a_pause_is_unknown_for_the_whole_dance(monkeypa
 def test_the_bracket_of_an_excess_begins_where_a_proof_was_given_up_and_ends_with_an_excess_or_the_interval(
     monkeypatch: pytest.MonkeyPatch, then: float, excess: float | None
 ) -> None:
-    monkeypatch.setattr(core.motion.speed, "EXCESS_LINKS", 20)
+    monkeypatch.setattr(core.extremes.speed, "EXCESS_LINKS", 20)
     dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(then, until_time=15.0)])
     found = first_excess(dance, 2.0, start=0.0, stop=15.0)
     assert found is not None

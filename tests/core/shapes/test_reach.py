@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core import Dragon, InvalidValue
 from core.kernels.constants import DIRECTIONS
-from core.tolerance.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
+from core.shapes.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
 from tests.core.tolerance.places import moved_points, random_strays
 from tests.depth import examples
 

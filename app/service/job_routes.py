@@ -24,7 +24,10 @@ from starlette.types import Receive, Scope, Send
 from app.jobs.job import ID_PATTERN, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState
 from app.jobs.keeper import Keeper
 from app.jobs.task import Task
-from app.jobs.wire import (
+from app.questions.registry import CALLS, QUESTIONS
+from app.service import routes
+from app.service.bodies import BodyRoute, refuse_query, reply_body
+from app.service.job_bodies import (
     EVENTS_TYPE,
     SWEEP_EXAMPLE,
     SWEEP_FORMS,
@@ -35,9 +38,6 @@ from app.jobs.wire import (
     pointer_in_sweep,
     status,
 )
-from app.questions.registry import CALLS, QUESTIONS
-from app.service import routes
-from app.service.bodies import BodyRoute, refuse_query, reply_body
 from app.service.middleware import client_of, limit
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of

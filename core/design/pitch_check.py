@@ -1,0 +1,57 @@
+"""Cross-check of a minimum pitch: four engines judge the dance at a pitch just above it and at one just below."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.contact.cross_check import ContactCheck, judged_contact, judged_grounds, judged_poses
+from core.contact.search import MARGIN_MAX
+from core.dance import Dance
+from core.design.minimum_pitch import LimitedBy, MinimumPitch
+from core.dragon import Dragon, Stray, checked_stray
+from core.errors import InvalidValue, asked_of, checked_number, checked_type
+from core.kernels import Budget
+from core.paths.spiral import Spiral
+from core.shapes.reach import reach
+
+# Distance of the judged pitches from the minimum [m]; see CHECK_TRAVEL of core/contact/cross_check.py.
+CHECK_PITCH = 1e-6
+
+
+@asked_of("found", MinimumPitch, "the engines' verdict on the minimum pitch was not found")
+def pitch_check(
+    found: MinimumPitch,
+    dragon: Dragon,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    whole: bool = True,
+    budget: Budget | None = None,
+) -> ContactCheck | None:
+    """The engines' verdicts at a pitch CHECK_PITCH larger and one CHECK_PITCH smaller than the minimum.
+
+    The head is where the pair meets just below that pitch, or at the start if the start limits the pitch.
+    whole: True judges the whole dragon, False only the reported pair; with a stray shapely always judges the ground
+        that benches may cover
+    dragon, margin, stray: those of the search
+    returns: None if no pair limits the pitch
+    raises: InvalidValue; TooMuchWork
+    """
+    checked_type("dragon", dragon, Dragon)
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    strayed = checked_stray(stray, dragon)
+    if found.benches is None or found.head_radius is None:
+        return None
+    if found.benches[1] >= dragon.benches:
+        rule, got = "must be that of the search, with bench {bench}", f"one of {dragon.benches} benches"
+        raise InvalidValue("dragon", rule, got=got, bench=found.benches[1])
+    poses = []
+    for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
+        # On a spiral that starts at this radius, the head is there at time 0.
+        turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
+        front = dragon if whole or strayed else dragon.leading(found.benches[1] + 1)
+        poses.append(judged_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
+    if strayed:
+        return judged_grounds(np.array(poses), reach(dragon, strayed), found.benches, margin=margin, budget=budget)
+    size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
+    return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
