@@ -71,6 +71,11 @@ def in_pieces(data: bytes) -> Iterable[bytes]:
     return (data[k : k + PIECE] for k in range(0, len(data), PIECE))
 
 
+def states_encoding(data: bytes) -> bool:
+    """True if the first bytes or the declaration of an XML document state its encoding."""
+    return data.startswith(tuple(mark for mark, _ in MARKS)) or DECLARED.match(data[:400]) is not None
+
+
 def as_utf8(data: bytes) -> bytes:
     """An XML document in UTF-8, from the encoding that its first bytes or its declaration state.
 

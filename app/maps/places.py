@@ -13,6 +13,7 @@ from typing import Any, Self
 import orjson
 from pydantic import Field
 
+from app.files.markup import states_encoding
 from app.files.memory import reading
 from app.files.tables import Language
 from app.files.words import Say
@@ -79,10 +80,13 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     if data.startswith(MARKS_16):
         data = _encoded(data, "utf-16")
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
-    if start.startswith(b"PK"):
-        return Reading(kml.read(kml.unpacked(data)), units, say).found()
-    if start.startswith((b"<", b"\0<")):
-        return Reading(kml.read(start), units, say).found()
+    is_archive = start.startswith(b"PK")
+    if is_archive:
+        start = kml.unpacked(data)
+    if is_archive or start.startswith((b"<", b"\0<")):
+        start, notes = (start, []) if states_encoding(start) else _in_utf8(start, say)
+        found = Reading(kml.read(start), units, say).found()
+        return replace(found, notes=[*notes, *found.notes])
     if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
         return Reading(dxf.read(data), units, say).found()
     start, notes = _in_utf8(start, say)

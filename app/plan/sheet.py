@@ -239,8 +239,9 @@ def title_block(sheet: Sheet, title: Title, subtitle: str, number: str, scale: S
     wide = first - left - 4.0
     sheet.words(left + 2.0, top - 6.0, title.title, 12.0, within=wide, fontweight="bold")
     sheet.words(left + 2.0, top - 11.0, subtitle, 8.5, within=wide)
+    step = min(3.6, 9.0 / max(1, len(title.facts) - 1))
     for k, fact in enumerate(title.facts):
-        sheet.words(left + 2.0, top - 15.5 - 3.6 * k, fact, 6.5, within=wide)
+        sheet.words(left + 2.0, top - 15.5 - step * k, fact, 6.5, within=wide)
     colour = "#006400" if title.passes else "#B00000"
     sheet.words(left + 2.0, bottom + 2.0, title.verdict, 7.0, within=wide, color=colour, fontweight="bold")
     sheet.words(0.5 * (last + right), top - 6.0, paper.name, 12.0, ha="center", fontweight="bold")

@@ -14,6 +14,7 @@ from app.files.words import Say
 from app.maps.marks import marks_of
 from app.questions.check import judged
 from app.questions.maps import Marked
+from app.wire.degrees import Place
 from app.wire.question import Question, Terms, measure
 from core import Dance, FailureKind, Judgement
 from core.errors import asked_of, said
@@ -75,7 +76,7 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     report = judged(asked, dance, place.venue, start, terms)
     title = Title(
         asked.title or say("Bench dragon", "板凳龙"),
-        _facts(dance, asked.margin, start, stop, clock.words, say),
+        [*_facts(dance, asked.margin, start, stop, clock.words, say), *_grid(place, say)],
         _verdict(report, clock.words, say),
         report.verdict is Judgement.PASSES,
         geographic,
@@ -115,6 +116,14 @@ def _facts(
         ),
         say(f"from {words(start)} to {words(stop)}", f"时间 {words(start)} 至 {words(stop)}"),
     ]
+
+
+def _grid(place: Place, say: Say) -> list[str]:
+    """A line about the survey grid of the venue, if it has one."""
+    if place.grid is None:
+        return []
+    x, y = (f"{one:.10g}" for one in place.grid)
+    return [say(f"x = y = 0 is x {x} m, y {y} m of the survey grid", f"x = y = 0 为测量坐标 x {x} m，y {y} m")]
 
 
 def _verdict(report: core.Report, words: Callable[[float], str], say: Say) -> str:

@@ -275,6 +275,20 @@ def test_the_name_of_a_square_is_read_in_the_encoding_that_the_file_states(clien
     assert answer.json()["venue"]["features"][0]["properties"]["name"] == name
 
 
+@pytest.mark.parametrize("archived", [False, True])
+def test_a_map_that_states_no_encoding_is_read_as_chinese_programs_write_it(archived: bool) -> None:
+    data = placemark(f"<name>广场</name>{outline(CORNERS)}").encode("gbk")
+    if archived:
+        packed = io.BytesIO()
+        with zipfile.ZipFile(packed, "w") as archive:
+            archive.writestr("doc.kml", data)
+        data = packed.getvalue()
+    found = read(data)
+    assert found.venue is not None
+    assert found.venue.square.name == "广场"
+    assert "The file is not in UTF-8; it was read as GB 18030." in found.notes
+
+
 @pytest.mark.parametrize("coding", ["utf-16", "gb18030"])
 @pytest.mark.parametrize("form", ["geojson", "toml"])
 def test_text_of_chinese_and_windows_programs_is_read(coding: str, form: str) -> None:

@@ -174,6 +174,17 @@ def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title(client: 
     assert "11.400 9.000 2.400 0.00" in " ".join(words(pages[-1]).split())
 
 
+def test_a_square_from_a_survey_says_where_its_origin_is(client: httpx.Client) -> None:
+    line = "x = y = 0 is x 499950 m, y 3170000.25 m of the survey grid"
+    square = {"type": "Polygon", "coordinates": [[[-20, -20], [20, -20], [20, 20], [-20, 20], [-20, -20]]]}
+    body = {"dragon": {"benches": 9}, "path": {"kind": "spiral", "pitch": 1.0, "start_turns": 6}, "venue": square}
+    pages = pypdfium2.PdfDocument(client.post("/plan", json=body).raise_for_status().content)
+    assert line not in words(pages[0])
+    body["venue"] = square | {"grid": {"x": 499_950.0, "y": 3_170_000.25}}
+    pages = pypdfium2.PdfDocument(client.post("/plan", json=body).raise_for_status().content)
+    assert line in words(pages[0])
+
+
 def test_the_largest_scale_that_fits_is_taken_and_none_is_refused() -> None:
     box = np.zeros(2), np.array([50.0, 20.0])
     assert (scale_of("A4", *box).ratio, scale_of("A3", *box).ratio) == (200, 200)
