@@ -41,9 +41,9 @@ app
 app.extras app.logs app.settings app.start
 app.wire
 app.files
+app.grade
 app.maps
 app.plan
-app.grade
 app.questions
 app.contest
 app.sweeps

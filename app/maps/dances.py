@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from app.files.disk import ending_of, read_json, shown_name, standard_input
+from app.files.tables import Language
+from app.files.words import Say
 from app.wire.texts import Unreadable, table_of, toml_of
-from core import InvalidValue
+from core import Budget, InvalidValue
 from core.errors import Parameter
 
 # Endings of a file that describes a dance.
@@ -45,20 +47,33 @@ def read_dance(file: Path) -> dict[str, Any]:
         for note in found.notes:
             print(f"{place}: {note}", file=sys.stderr)
     if isinstance(asked.get("dragon"), str):
-        place = file.parent / asked["dragon"]
-        try:
-            text, is_chinese = table_of(place.read_bytes())
-        except OSError as error:
-            told = {"file": str(file), "table": str(place), "why": str(error.strerror)}
-            raise InvalidValue("dragon", "of {file}: {table}: {why}", **told) from error
-        except Unreadable as error:
-            raise error.of("dragon", str(place)) from error
-        if is_chinese:
-            print(f"{place} is not in UTF-8; it was read as GB 18030.", file=sys.stderr)
-        asked["dragon"] = {"csv": text}
+        asked["dragon"] = {"csv": _table(file, file.parent / asked["dragon"])}
     if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
         asked["start_clock"] = clock.replace(microsecond=0).isoformat()
     return asked
+
+
+def _table(file: Path, table: Path) -> str:
+    """The benches of a CSV file or a workbook that a dance names, as CSV. raises: InvalidValue"""
+    try:
+        data = table.read_bytes()
+        if data.startswith(b"PK"):
+            from app.maps.benches import benches_of, is_workbook
+
+            if is_workbook(data):
+                text, notes = benches_of(data, Budget(), Say(Language.ENGLISH))
+                for note in notes:
+                    print(f"{table}: {note}", file=sys.stderr)
+                return text
+        text, is_chinese = table_of(data)
+    except OSError as error:
+        told = {"file": str(file), "table": str(table), "why": str(error.strerror)}
+        raise InvalidValue("dragon", "of {file}: {table}: {why}", **told) from error
+    except Unreadable as error:
+        raise error.of("dragon", str(table)) from error
+    if is_chinese:
+        print(f"{table} is not in UTF-8; it was read as GB 18030.", file=sys.stderr)
+    return text
 
 
 def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:

@@ -18,12 +18,13 @@ from app.files.memory import reading
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, kml
+from app.maps.benches import benches_of, is_workbook
 from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, features_of
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
-from app.wire.texts import CHINESE, Unreadable, toml_of
+from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, toml_of
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 from core.errors import Given, Parameter
 
@@ -63,13 +64,14 @@ def read_places(
 ) -> Places | BenchDragonError:
     """Content of a map, or its refusal, for another process."""
     try:
-        return Places.of(places_of(data, units, Say(language)))
+        return Places.of(places_of(data, units, Say(language), budget))
     except BenchDragonError as error:
         return error
 
 
-def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
-    """Square and path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, recognised by its first bytes.
+def places_of(data: bytes, units: Coordinates | None, say: Say, budget: Budget | None = None) -> DanceParts:
+    """Square and path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, recognised by its first bytes; or
+    the benches in a workbook.
 
     units: of its coordinates; None: as the file says, else degrees if the numbers allow it
     raises: InvalidValue at the field `file`; MissingPackage
@@ -80,6 +82,11 @@ def places_of(data: bytes, units: Coordinates | None, say: Say) -> DanceParts:
     if data.startswith(MARKS_16):
         data = _encoded(data, "utf-16")
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n")
+    if data.startswith(OLD_WORKBOOK):
+        raise InvalidValue("file", "must be saved as .xlsx or CSV", got="a workbook in an old or encrypted form")
+    if is_workbook(data):
+        csv, notes = benches_of(data, budget or Budget(), say)
+        return DanceParts(dance={"dragon": {"csv": csv}}, notes=notes)
     is_archive = start.startswith(b"PK")
     if is_archive:
         start = kml.unpacked(data)

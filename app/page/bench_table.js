@@ -1,18 +1,29 @@
 /** The editor of a table of benches: it is typed, pasted, dropped or opened. */
 
+import { Problem, Superseded } from "./api.js";
 import { tableOf, tableText } from "./benches.js";
 import { $, make, worded } from "./elements.js";
+import { bearer } from "./jobs.js";
+import { announce } from "./overlays.js";
 import { Pause } from "./pending.js";
-import { nameBenches, refusalWords, say } from "./text.js";
+import { language, nameBenches, refusalWords, say } from "./text.js";
 
 /** A typed table counts after this pause [ms]. */
 const TYPING = 500;
 const ROWS = 6;
 
+/** The text of a table in a file, and notes on what was left out; the service reads workbooks. throws: Problem */
+export async function tableOfFile(file, service) {
+  const text = await tableText(file);
+  if (text !== null) return { text, notes: [] };
+  const { dance, notes } = await service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
+  return { text: dance?.dragon?.csv ?? "", notes };
+}
+
 export class BenchTable {
   /** group: the numbers of equal benches, which the table replaces */
-  constructor(group, state) {
-    Object.assign(this, { group, state });
+  constructor(group, state, service) {
+    Object.assign(this, { group, state, service });
     this.title = make("summary");
     const described = { "aria-describedby": "csv-help csv-error" };
     this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "csv", ...described });
@@ -50,9 +61,15 @@ export class BenchTable {
   }
 
   async #open(file) {
-    const text = await tableText(file);
-    if (text !== null) return this.#take(text);
-    Object.assign(this.error, { hidden: false, textContent: say("csvWorkbook", { name: file.name }) });
+    try {
+      const { text, notes } = await tableOfFile(file, this.service);
+      this.#take(text);
+      if (notes.length) announce(() => notes.join(" "), true);
+    } catch (error) {
+      if (error instanceof Superseded) return;
+      if (!(error instanceof Problem)) throw error;
+      Object.assign(this.error, { hidden: false }, refusalWords(error.told));
+    }
   }
 
   #take(text) {

@@ -1,6 +1,7 @@
 /** Files of a drawn dance: opened, dropped on the picture, and saved. */
 
-import { tableOf, tableText } from "./benches.js";
+import { tableOfFile } from "./bench_table.js";
+import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
 import { $, download, make, worded } from "./elements.js";
 import { bearer } from "./jobs.js";
@@ -45,10 +46,9 @@ export class Files {
   async open(file) {
     try {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
-        const csv = await tableText(file);
-        if (csv === null) return announce(() => say("csvWorkbook", { name: file.name }), true);
+        const { text: csv, notes } = await tableOfFile(file, this.service);
         this.state.set({ csv });
-        return announce(() => say("opened", { name: file.name }));
+        return announce(() => [say("opened", { name: file.name }), ...notes].join(" "), notes.length > 0);
       }
       announce(() => say("opening", { name: file.name }));
       const found = (await ownDance(file)) ?? (await this.#places(file));

@@ -65,7 +65,7 @@ const dance = new Dance($("#canvas"), $("#inset canvas"), {
 });
 const player = new Player(state, questions, showPose, showTable);
 const controls = new Controls($("#controls"), state);
-const benches = new BenchTable($("[data-group=dragon]"), state);
+const benches = new BenchTable($("[data-group=dragon]"), state, service);
 const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));

@@ -35,7 +35,7 @@ GRADED = (BYTES, XLSX_TYPE, CSV_TYPE)
 # Accepted media types of maps; the form of a map follows from its first bytes, whichever of these is given.
 MAPS = (
     *(BYTES, *FORMS, JSON, "application/vnd.google-earth.kmz", "application/toml", "application/dxf"),
-    *("text/plain", "text/xml", "application/xml"),
+    *("text/plain", "text/xml", "application/xml", XLSX_TYPE),
 )
 # Estimated time of a file, for the Retry-After of a full lane [s].
 COST = 1.0
@@ -167,9 +167,12 @@ def grade(
 def places(
     request: Request, data: Annotated[bytes, Depends(file_body(MAPS))], wanted: Annotated[PlacesQuery, Query()]
 ) -> Response:
-    """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON."""
+    """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON.
+
+    The benches in a workbook become `dance.dragon.csv`.
+    """
     if not data:
-        detail = "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON."
+        detail = "Send a map as the body: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON; or a workbook of benches."
         raise Refused(422, detail, {"name": "file"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget

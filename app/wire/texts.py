@@ -18,8 +18,9 @@ from core.errors import Given, Value
 
 # Escapes for the character NUL and for halves of characters; a text that holds one is refused.
 ESCAPES = re.compile(r"\\u(?:0000|[dD][89a-fA-F])")
-# First bytes of workbooks: .xlsx and .ods, which are archives, and .xls.
-WORKBOOKS = (b"PK", bytes.fromhex("d0cf11e0a1b11ae1"))
+# First bytes of workbooks: .xls and encrypted ones; and .xlsx and .ods, which are archives.
+OLD_WORKBOOK = bytes.fromhex("d0cf11e0a1b11ae1")
+WORKBOOKS = (b"PK", OLD_WORKBOOK)
 # Encoding of Chinese versions of Excel.
 CHINESE = "gb18030"
 NO_TEXT = re.compile("[\0\ud800-\udfff]")

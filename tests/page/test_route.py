@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import openpyxl
 import pytest
 from playwright.sync_api import expect
 
@@ -375,17 +376,22 @@ def test_a_map_of_a_survey_grid_keeps_it_in_the_address_and_in_files(visit: Any,
     assert saved(page)["venue"]["grid"] == {"x": 500_000, "y": 3_220_000}
 
 
-def test_a_table_of_a_chinese_spreadsheet_is_opened_and_a_workbook_is_refused_in_words(
-    visit: Any, tmp_path: Path
-) -> None:
-    page = visit()
+def test_a_table_of_a_chinese_spreadsheet_is_opened_and_so_is_a_workbook(visit: Any, tmp_path: Path) -> None:
+    page = visit(failing=True)
     (tmp_path / "benches.csv").write_bytes("周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n".encode("gb18030"))
     page.locator("#open-file").set_input_files(tmp_path / "benches.csv")
     page.locator("#one-by-one summary", has_text="2").wait_for()
     assert page.locator("#csv").input_value().startswith("周,3.41")
-    (tmp_path / "benches.xlsx").write_bytes(b"PK\3\4" + bytes(99))
+    book = openpyxl.Workbook()
+    for row in (["周", 3.41, 0.3, 0.275], ["李", 2.2, 0.3, 0.275], ["吴", 2.2, 0.3, 0.275]):
+        book.active.append(row)
+    book.save(tmp_path / "benches.xlsx")
     page.locator("#csv-file").set_input_files(tmp_path / "benches.xlsx")
-    page.locator("#csv-error", has_text="benches.xlsx is a workbook: save its sheet as CSV").wait_for()
+    page.locator("#one-by-one summary", has_text="3").wait_for()
+    assert page.locator("#csv").input_value() == "周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n吴,2.2,0.3,0.275\n"
+    (tmp_path / "old.xlsx").write_bytes(bytes.fromhex("d0cf11e0a1b11ae1") + bytes(99))
+    page.locator("#csv-file").set_input_files(tmp_path / "old.xlsx")
+    page.locator("#csv-error", has_text="must be saved as .xlsx or CSV").wait_for()
 
 
 def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_stays(visit: Any) -> None:
