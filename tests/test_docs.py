@@ -19,7 +19,8 @@ from tests.app.command import PATIENCE, bin_folder
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-FILES = [ROOT / "README.md", ROOT / "README.zh.md", *sorted(DOCS.glob("*.md"))]
+DOORS = ("README.md", "README.zh.md", "CONTRIBUTING.md", "SECURITY.md")
+FILES = [*(ROOT / name for name in DOORS), *sorted(DOCS.glob("*.md"))]
 PAGES = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8") for path in FILES}
 README_LINES_MOST = 250
 WIDTH = "120"  # of the terminal for which the outputs are shown [characters]
@@ -65,7 +66,12 @@ def test_readme_is_short() -> None:
 def test_each_readme_leads_to_the_other_and_the_english_one_to_every_page() -> None:
     assert ("README.zh.md", "README.md") in LINKS
     linked = {link for page, link in LINKS if page == "README.md"}
-    assert set(PAGES) - {"README.md"} <= linked
+    assert set(PAGES) - {"README.md", "SECURITY.md"} <= linked
+
+
+def test_the_map_leads_to_every_page() -> None:
+    linked = {f"docs/{link}" for page, link in LINKS if page == "docs/README.md"}
+    assert {page for page in PAGES if page.startswith("docs/")} - {"docs/README.md"} <= linked
 
 
 def test_the_house_is_drawn_as_it_stands() -> None:
