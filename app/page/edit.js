@@ -229,8 +229,8 @@ export class Editor {
   #shortcut(event) {
     if (!this.#isRoute || !(event.ctrlKey || event.metaKey) || event.altKey || event.target.matches("input, textarea")) return;
     const key = event.key.toLowerCase();
-    if (key === "z") event.shiftKey ? this.steps.redo() : this.steps.undo();
-    else if (key === "y") this.steps.redo();
+    if (key === "y" || (key === "z" && event.shiftKey)) this.steps.redo();
+    else if (key === "z") this.steps.undo();
     else return;
     event.preventDefault();
   }
