@@ -37,6 +37,15 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def part(places: int, most: int | None) -> int:
+    """Number of places that one client may take: `most`, or without it all but one; of one place that one.
+
+    >>> part(4, None), part(2, None), part(1, None), part(4, 2), part(2, 8)
+    (3, 1, 1, 2, 2)
+    """
+    return max(places - 1, 1) if most is None else min(most, places)
+
+
 def unknown_variables() -> list[str]:
     """A message for each BENCH_DRAGON_* environment variable that is not a setting, such as a misspelt one.
 
@@ -96,6 +105,12 @@ class Settings(BaseModel):
     readers_max: int = Field(
         2, ge=1, description="Files of /grade and /places read at once by one process; further ones get 503"
     )
+    readers_client_max: int | None = Field(
+        None,
+        ge=1,
+        description="Files of one client read at once by one process; further ones get 429; default: all places but "
+        "one",
+    )
     reader_memory_max: int = Field(
         1_000_000_000, ge=2**29, description="Address space of a process that reads a file [bytes]"
     )
@@ -123,8 +138,11 @@ class Settings(BaseModel):
         8, ge=1, description="Computations of up to 0.1 s at once in one process; further ones get 503"
     )
     heavy_max: int = Field(4, ge=1, description="Longer computations at once in one process; further ones get 503")
-    heavy_client_max: int = Field(
-        4, ge=1, description="Longer computations at once of one client in one process; further ones get 429"
+    heavy_client_max: int | None = Field(
+        None,
+        ge=1,
+        description="Longer computations at once of one client in one process; further ones get 429; default: all "
+        "places but one",
     )
     workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; further ones get 503")
     bodies_bytes_max: int = Field(
@@ -153,11 +171,22 @@ class Settings(BaseModel):
     token: str = Field(
         "", description="Token that jobs and uploads must carry (Authorization: Bearer); empty: none needed"
     )
-    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; further requests get 503")
+    jobs_max: int = Field(
+        1_000, ge=1, description="Largest number of jobs kept; the oldest of who has most give way to further ones"
+    )
     jobs_client_max: int = Field(20, ge=1, description="Unfinished jobs of one client; further requests get 429")
-    jobs_running_max: int = Field(2, ge=1, description="Jobs that run at once; the others wait")
+    jobs_client_kept_max: int = Field(
+        200, ge=1, description="Jobs of one client that are kept; its oldest give way to further ones"
+    )
+    jobs_client_bytes_max: int = Field(
+        25 * 10**8, ge=1, description="Size of the requests and results of the jobs of one client [bytes]"
+    )
+    jobs_running_max: int = Field(3, ge=1, description="Jobs that run at once; the others wait")
+    jobs_running_client_max: int | None = Field(
+        None, ge=1, description="Jobs of one client that run at once; default: all places but one"
+    )
     jobs_bytes_max: int = Field(
-        10**10, ge=1, description="Size of the requests and results of all jobs; beyond it no job is accepted [bytes]"
+        10**10, ge=1, description="Size of the requests and results of all jobs; the oldest give way [bytes]"
     )
     jobs_listeners_max: int = Field(100, ge=1, description="Clients that follow a job, for each process")
     job_result_bytes_max: int = Field(10**9, ge=1, description="Largest result of a job [bytes]")

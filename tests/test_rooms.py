@@ -31,7 +31,7 @@ TOGETHER = {
     "jobs/test_limits.py": "jobs/keeper service/token",
     "jobs/test_routes.py": "jobs/metrics jobs/task jobs/wire",
     "jobs/test_runner.py": "files/lock jobs/reports jobs/work logs",
-    "jobs/test_store.py": "files/flush jobs/job",
+    "jobs/test_store.py": "files/flush jobs/job jobs/room jobs/tables jobs/turns",
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
     " maps/lines maps/marks maps/places questions/maps",

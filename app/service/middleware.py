@@ -15,6 +15,8 @@ import time
 import uuid
 from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
 from contextlib import asynccontextmanager, contextmanager
+from functools import lru_cache
+from ipaddress import IPv4Address, ip_address, ip_network
 from threading import Lock
 from typing import Any
 from urllib.parse import quote, unquote
@@ -28,7 +30,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from app.files.tables import XLSX_TYPE
 from app.logs import request_id
 from app.service.problems import Refused, http_problem, server_problem
-from app.settings import Settings
+from app.settings import Settings, part
 from core import Budget
 from core.errors import Quantity
 from core.shown import counted
@@ -43,6 +45,8 @@ CLOSE = {"Connection": "close"}
 ABSOLUTE = re.compile(rb"https?://[^/]+(/.*)?", re.IGNORECASE)
 # A name that a client may give its request.
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
+# Number of first bits of an IPv6 address that a network of one client has.
+IPV6_BITS = 64
 # Longest estimated time of a cheap answer [s].
 CHEAP = 0.1
 # Calls about jobs that wait for the disk at once in one process, and those that wait for their turn: more are refused.
@@ -281,8 +285,24 @@ class Metrics(Layer):
 
 
 def client_of(request: Request) -> str:
-    """Address of the client; a proxy on this machine gives it in X-Forwarded-For."""
-    return request.client.host if request.client else ""
+    """Address of the client, for its limits; a proxy on this machine gives it in X-Forwarded-For."""
+    return one_client(request.client.host) if request.client else ""
+
+
+@lru_cache(maxsize=1024)
+def one_client(address: str) -> str:
+    """The client at an address: of IPv6 the first 64 bits, because one machine has all addresses that follow.
+
+    >>> one_client("192.0.2.7"), one_client("::ffff:192.0.2.7"), one_client("2001:db8::7:1")
+    ('192.0.2.7', '192.0.2.7', '2001:db8::/64')
+    """
+    try:
+        known = ip_address(address.partition("%")[0])
+    except ValueError:  # a proxy gave a name
+        return address
+    if isinstance(known, IPv4Address):
+        return str(known)
+    return str(known.ipv4_mapped or ip_network((known, IPV6_BITS), strict=False))
 
 
 class Deadline(Quantity):
@@ -354,10 +374,10 @@ class Lanes:
             return Lane(name, most, of_client, settings.retry_after, running, refused)
 
         self._cheap = lane("cheap", settings.cheap_max, settings.cheap_max)
-        self._heavy = lane("heavy", settings.heavy_max, settings.heavy_client_max)
+        self._heavy = lane("heavy", settings.heavy_max, part(settings.heavy_max, settings.heavy_client_max))
         self._workbook = lane("workbook", settings.workbooks_max, settings.workbooks_max)
-        self.files = lane("file", settings.readers_max, settings.readers_max)
-        self.large_bodies = lane("large body", settings.large_bodies_max, settings.large_bodies_max)
+        self.files = lane("file", settings.readers_max, part(settings.readers_max, settings.readers_client_max))
+        self.large_bodies = lane("large body", settings.large_bodies_max, part(settings.large_bodies_max, None))
 
     def of(self, cost: float, media_type: str) -> Lane:
         """The lane of a computation. cost: its estimated time [s]"""

@@ -233,6 +233,34 @@ def test_a_client_has_only_so_many_heavy_computations_and_leaves_places_to_other
     assert answer.status_code == 200
 
 
+def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
+    """Of two heavy places, of two for files, and of two for large bodies."""
+    text, kind = b"word " * 3_999_000, {"Content-Type": "application/octet-stream"}
+    large = b'{"pitch": [' + b"0," * 1_900_000
+    with serving(tmp_path / "log", heavy_max=2, large_bodies_max=2, parts_max=10**8) as service:
+        with client_at("127.0.0.1") as client, client_at("127.0.0.2") as other, working(service, "127.0.0.1"):
+            refused = client.get(service.url + HEAVY)
+            assert (refused.status_code, "Your limit of 1 heavy computation" in refused.text) == (429, True)
+            assert other.get(f"{service.url}/maximum-head-speed?benches=20").status_code == 200
+
+        def post(address: str, path: str, body: bytes) -> tuple[int, str]:
+            with client_at(address) as client:
+                headers = kind if path == "/grade" else {"Content-Type": "application/json"}
+                answer = client.post(service.url + path, content=body, headers=headers)
+            return answer.status_code, answer.text
+
+        for path, body, lane in (("/grade", text, "file"), ("/check", large, "large body")):
+            with ThreadPoolExecutor() as threads:
+                mine = [threads.submit(post, "127.0.0.1", path, body) for _ in range(4)]
+                none = f'refused_total{{lane="{lane}"}} 0.0'
+                until(lambda none=none: none not in httpx.get(f"{service.url}/metrics").text)
+                theirs = threads.submit(post, "127.0.0.2", path, body).result()
+            statuses = [one.result()[0] for one in mine]
+            assert 429 in statuses, statuses
+            assert set(statuses) <= {200, 400, 422, 429}
+            assert theirs[0] in {200, 400, 422}, theirs
+
+
 @pytest.mark.parametrize("accept", ["*/*", CSV_TYPE])
 def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service, accept: str) -> None:
     body = {"times": {"stop": 400, "step": 2.0}}
