@@ -131,29 +131,24 @@ def take(request: Request, task: Task, cost: float) -> Response:
 
 def full(error: Full, limits: Settings) -> Refused:
     """The refusal of a job for which there is no room, with the time after which there will be some."""
-    after: dict[str, str] = {}
-    told: dict[str, Any] = {"reason": "remove some."}
+    after, told, again = {}, dict[str, Any](), "."
     if math.isfinite(error.seconds):
-        seconds = max(math.ceil(error.seconds), 1)
-        after = {"Retry-After": str(seconds)}
-        told = {"seconds": Quantity(seconds, "s"), "reason": "remove some, or try again in {seconds}."}
+        told["seconds"], again = Quantity(max(math.ceil(error.seconds), 1), "s"), ", or try again in {seconds}."
+        after = {"Retry-After": str(told["seconds"].value)}
+    told["reason"] = f"none gives way to yours yet: remove some{again}"
     match error:
         case FullForClient():
             told |= {"most": limit(limits.jobs_client_max, "unfinished job")}
-            told["reason"] = told["reason"].replace("remove some", "wait for one, or dismiss it")
+            told["reason"] = f"wait for one, or dismiss it{again}"
             return Refused(429, "Your limit of {most} is reached", None, after, **told)
         case KeptByClient():
             told |= {"most": limit(limits.jobs_client_kept_max, "kept job")}
             told |= {"bytes": Quantity(limits.jobs_client_bytes_max, "bytes")}
-            words = "Your limit of {most} and {bytes} is reached, and none of them gives way yet"
-            return Refused(429, words, None, after, **told)
+            return Refused(429, "Your limit of {most} and {bytes} is reached", None, after, **told)
         case FullOfBytes():
-            told |= {"most": Quantity(limits.jobs_bytes_max, "bytes")}
-            words = "The kept jobs take all the room that they may have, {most}, and none gives way to yours yet"
-            return Refused(507, words, None, after, **told)
+            return Refused(507, "The kept jobs take all the room that they may have", None, after, **told)
     told |= {"most": limit(limits.jobs_max, "kept job")}
-    words = "The limit of {most} is reached, and none gives way to yours yet"
-    return Refused(503, words, None, after or COME_AGAIN, **told)
+    return Refused(503, "The limit of {most} is reached", None, after or COME_AGAIN, **told)
 
 
 def later(request: Request, task: Task, cost: float) -> Response:

@@ -214,7 +214,7 @@ def test_where_nothing_may_give_way_the_wait_is_known(tmp_path: Path) -> None:
         own = service.client.post("/jobs", json=SHORT)
         full = other.post("/jobs", json=SHORT)
         assert (own.status_code, full.status_code) == (429, 503)
-        assert "The limit of 2 kept jobs is reached, and none gives way to yours yet" in full.json()["detail"]
+        assert "The limit of 2 kept jobs is reached: none gives way to yours yet" in full.json()["detail"]
         # It is estimated that the first one ends soon; then its result stays for a while.
         assert int(own.headers["retry-after"]) <= 5
         assert FRESH <= int(full.headers["retry-after"]) <= FRESH + 5
