@@ -37,6 +37,20 @@ def usable_cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+# A host name or an address, without a port.
+HOST_NAME = re.compile(r"[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
+
+
+def _hosts(names: str) -> str:
+    """The names without spaces, in lower case."""
+    found = [name.strip().lower().rstrip(".") for name in names.split(",")]
+    if not all(map(HOST_NAME.fullmatch, found)):
+        raise PydanticCustomError(
+            "rule", "must be names of hosts without ports, as dance.example,192.0.2.7,[2001:db8::7]"
+        )
+    return ",".join(found)
+
+
 def part(places: int, most: int | None) -> int:
     """Number of places that one client may take: `most`, or without it all but one; of one place that one.
 
@@ -170,6 +184,9 @@ class Settings(BaseModel):
     )
     token: str = Field(
         "", description="Token that jobs and uploads must carry (Authorization: Bearer); empty: none needed"
+    )
+    hosts: Annotated[str, AfterValidator(_hosts)] = Field(
+        "", description="Names and addresses under which the service answers, with commas between; empty: under any"
     )
     jobs_max: int = Field(
         1_000, ge=1, description="Largest number of jobs kept; the oldest of who has most give way to further ones"

@@ -287,6 +287,7 @@ ORDER = (
     "app.service.examples",
     "app.service.version",
     "app.service.token",
+    "app.service.lanes",
     "app.service.middleware",
     "app.service.reply",
     "app.service.pages",

@@ -54,7 +54,7 @@ TOGETHER = {
     " command/paper command/paths command/serve command/show command/trajectory command/usage",
     "test_cli_check.py": "command/check command/designs",
     "test_cli_file.py": "command/figures files/drawing questions/figures",
-    "test_holding.py": "service/bodies service/middleware service/protocol service/workers",
+    "test_holding.py": "service/bodies service/lanes service/middleware service/protocol service/workers",
     "test_openapi.py": "service/examples wire/question",
     "test_prove.py": "command/prove",
     "test_streams.py": "command/streams",

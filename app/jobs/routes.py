@@ -49,7 +49,7 @@ from app.jobs.wire import (
 from app.questions.registry import CALLS, QUESTIONS
 from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
-from app.service.middleware import client_of, limit
+from app.service.lanes import client_of, limit
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
 from app.service.token import TOKEN, WITHOUT, guard

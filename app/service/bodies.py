@@ -15,7 +15,8 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from starlette.types import Message
 
-from app.service.middleware import LARGE, Handler, Lanes, client_of, watched
+from app.service.lanes import Lanes, client_of, watched
+from app.service.middleware import LARGE, Handler
 from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings

@@ -28,7 +28,8 @@ from starlette.responses import StreamingResponse
 
 from app.jobs.task import Task, cost_of
 from app.questions.registry import CALLS
-from app.service.middleware import CHEAP, Handler, Lanes, client_of, watched
+from app.service.lanes import CHEAP, Lanes, client_of, watched
+from app.service.middleware import Handler
 from app.service.problems import Refused
 from app.service.version import build
 from app.settings import Settings

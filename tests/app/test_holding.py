@@ -144,6 +144,42 @@ def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target:
     assert bodies[0] == bodies[1]
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tmp_path: Path, workers: int) -> None:
+    """A stranger's page can give its own name the address of this machine: its requests come under that name."""
+    with serving(tmp_path / "log", workers, hosts="Dance.Example., 192.0.2.7,[2001:db8::7]", token="secret") as service:
+        port = service.address[1]
+
+        def status(path: str, host: str | None, target: str = "") -> int:
+            line = "" if host is None else f"Host: {host}\r\n"
+            kind = "1.0" if host is None else "1.1"
+            answer = send(service, f"GET {target}{path} HTTP/{kind}\r\n{line}Connection: close\r\n\r\n".encode())
+            head, _, body = answer.partition(b"\r\n\r\n")
+            if b" 421 " in head[:20]:
+                assert PROBLEM.encode() in head
+                assert head.lower().count(b"x-content-type-options: nosniff") == 1
+                assert json.loads(body)["errors"][0]["name"] == "Host"
+            return int(head.split()[1])
+
+        ours = ("dance.example", f"DANCE.example.:{port}", "192.0.2.7", f"192.0.2.7:{port}", "[2001:db8::7]:80")
+        assert {status(path, host) for host in ours for path in ("/", "/turn", "/docs")} == {200}
+        strangers = ("evil.example", f"127.0.0.1:{port}", "localhost", "dance.example.evil.example", "x.dance.example")
+        strangers += ("dance.example:x", "dance.example@evil.example", "192.0.2.70", "[2001:db8::71]", "", None)
+        for path in ("/", "/turn", "/metrics", "/docs", "/openapi.json", "/page/main.js", "/jobs", "/nothing"):
+            assert {status(path, host) for host in strangers} <= {421, 400}, path
+        assert status("/turn", "evil.example") == status("/turn", None) == 421
+        # Probes come by any address.
+        assert {status(path, f"127.0.0.1:{port}") for path in ("/healthz", "/readyz")} == {200}
+        # The host of a target in absolute form counts, not the header.
+        assert status("/turn", "dance.example", "http://evil.example") == 421
+        assert status("/turn", "evil.example", f"http://dance.example:{port}") == 200
+
+
+def test_without_the_setting_any_host_is_served(held: Service) -> None:
+    answer = send(held, b"GET /turn HTTP/1.1\r\nHost: anything.example\r\nConnection: close\r\n\r\n")
+    assert answer.startswith(b"HTTP/1.1 200 ")
+
+
 @pytest.mark.parametrize(
     "body", [b'{"\\ud800":1}', b'{"dragon":{"a\\u0000":1}}', b'{"path":{"kind":"\\udc00"}}', b'["\\u0000"]']
 )

@@ -89,9 +89,10 @@ found = {
 }
 print(json.dumps(found))
 """
-# The question's own file; what holds for every request; the reply; and the fields of the query.
+# The question's own file; its lane; what holds for every request; the reply; and the fields of the query.
 EDGE = {
     "app.questions.collision_time",
+    "app.service.lanes",
     "app.service.middleware",
     "app.service.reply",
     "app.wire.question",
