@@ -20,13 +20,15 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
-from tempfile import TemporaryDirectory, TemporaryFile
+from tempfile import TemporaryFile
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 import uvicorn
 from uvicorn.supervisors import Multiprocess
 
+from app.files.fonts import kept_list
+from app.files.scratch import temporary
 from app.jobs.keeper import scratch
 from app.logs import log_config
 from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
@@ -137,7 +139,7 @@ def _counts_folder(workers: int) -> Iterator[str | None]:
     """
     with ExitStack() as kept:
         try:
-            folder = kept.enter_context(TemporaryDirectory(prefix="bench-dragon-"))
+            folder = kept.enter_context(temporary("counts-"))
             with TemporaryFile(dir=folder, buffering=0) as room:
                 for _ in range(workers):
                     if room.write(bytes(COUNTS_BYTES)) < COUNTS_BYTES:
@@ -223,6 +225,7 @@ def serve(host: str, port: int, workers: int) -> None:
         return
     config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **given)
     with listen(host, port) as shared, _counts_folder(workers) as counts, ExitStack() as stack:
+        stack.enter_context(kept_list())
         if settings.data is None:
             os.environ[DATA] = stack.enter_context(scratch())
         if counts:  # The folder in which processes add up the counts of /metrics; prometheus_client reads the variable.
