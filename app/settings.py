@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from difflib import get_close_matches
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -58,6 +59,20 @@ def part(places: int, most: int | None) -> int:
     (3, 1, 1, 2, 2)
     """
     return max(places - 1, 1) if most is None else min(most, places)
+
+
+def refuse_open_port(settings: Settings) -> None:
+    """raises: InvalidValue if the port of a container is open to other machines without a token"""
+    if not settings.published or settings.token:
+        return
+    try:
+        is_open = not ip_address(settings.published.strip("[]")).is_loopback
+    except ValueError:
+        is_open = settings.published != "localhost"
+    if is_open:
+        rule = "BENCH_DRAGON_PUBLISHED must be 127.0.0.1 without a token, so that strangers make no jobs"
+        advice = "set BENCH_DRAGON_TOKEN too"
+        raise InvalidValue.in_words("published", rule, got=Given(settings.published), reason=advice)
 
 
 def unknown_variables() -> list[str]:
@@ -187,6 +202,11 @@ class Settings(BaseModel):
     )
     hosts: Annotated[str, AfterValidator(_hosts)] = Field(
         "", description="Names and addresses under which the service answers, with commas between; empty: under any"
+    )
+    published: str = Field(
+        "",
+        description="Address at which a container publishes the port of the service; another one than that of this "
+        "machine itself needs a token; empty: unknown",
     )
     jobs_max: int = Field(
         1_000, ge=1, description="Largest number of jobs kept; the oldest of who has most give way to further ones"

@@ -31,7 +31,7 @@ from app.files.fonts import kept_list
 from app.files.scratch import temporary
 from app.jobs.keeper import scratch
 from app.logs import log_config
-from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
+from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, refuse_open_port, unknown_variables, usable_cores
 from app.start import importing
 from core import InvalidValue
 from core.errors import Given
@@ -202,9 +202,11 @@ def create_child_app() -> FastAPI:
 def serve(host: str, port: int, workers: int) -> None:
     """Serve until interrupted, in one process or in several.
 
-    raises: OSError when the port is taken or the address is not local; with one process uvicorn reports it and exits
+    raises: OSError when the port is taken or the address is not local; with one process uvicorn reports it and exits;
+        InvalidValue for a port of a container that is open without a token
     """
     settings = Settings()
+    refuse_open_port(settings)
     logging.captureWarnings(settings.log_json)
     given: dict[str, Any] = {
         "factory": True,

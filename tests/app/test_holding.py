@@ -413,6 +413,23 @@ def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
         until(lambda: send(service, begun + b" " * 20_000).startswith(b"HTTP/1.1 400 "))
 
 
+def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path: Path) -> None:
+    """matplotlib opens the two files of a font once for each thread that draws."""
+    with serving(tmp_path / "log") as service:
+
+        def leave(number: int) -> None:
+            with suppress(httpx.ReadTimeout):
+                httpx.get(f"{service.url}/figures/trajectory.png?time={number}", timeout=0.2)
+
+        with ThreadPoolExecutor(24) as clients:
+            list(clients.map(leave, range(240)))
+        until(lambda: httpx.get(f"{service.url}/figures/trajectory.png", timeout=SOON).status_code == 200)
+        files = [os.path.realpath(one) for one in Path(f"/proc/{service.process.pid}/fd").iterdir()]
+        fonts = [name for name in files if name.endswith(".ttf")]
+        assert fonts
+        assert len(fonts) == len(set(fonts))
+
+
 def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
