@@ -110,6 +110,13 @@ class _Supervisor(Multiprocess):
         signal.signal(signal.SIGINT, handler)
         self._close_their_ends()
 
+    def terminate_all(self) -> None:
+        # Otherwise connections would wait at this socket for processes that accept none, and be reset in the end. A
+        # client whose connection is refused can ask another service.
+        for shared in self.sockets:
+            shared.close()
+        super().terminate_all()
+
     def _close_their_ends(self) -> None:
         for process in self.processes:
             process.child_conn.close()

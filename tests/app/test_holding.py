@@ -395,6 +395,28 @@ def leaves(service: Service, stop: signal.Signals) -> None:
         until(lambda: not any(alive(pid) for pid in family))
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path: Path, workers: int) -> None:
+    """A proxy sends a request to another service if this one refuses the connection, not if it resets it."""
+    given: dict[str, Any] = {"workers": workers, "grace_seconds": 10}
+    with serving(tmp_path / "log", **given) as service, ExitStack() as peers:
+        until(lambda: service.log.read_text().count("startup complete") == workers)
+        busy, *new = (peers.enter_context(socket.create_connection(service.address, timeout=SOON)) for _ in range(4))
+        busy.sendall(f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+        until(lambda: computing(service) == 1)
+        service.process.terminate()
+        for peer in new:
+            peer.sendall(
+                b"POST /turn HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}"
+            )
+        for peer in new:
+            answer = b"".join(iter(lambda peer=peer: peer.recv(65536), b""))
+            assert answer.startswith(b"HTTP/1.1 200 ")
+        assert service.process.poll() is None
+        with pytest.raises(ConnectionRefusedError):
+            until(lambda: send(service, b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n") == b"never")
+
+
 def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
     head = "POST /{} HTTP/1.1\r\nHost: x\r\nContent-Type: {}\r\nContent-Length: {}\r\n"
     with serving(tmp_path / "log", token="correct horse", bodies_bytes_max=150_000) as service:
