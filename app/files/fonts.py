@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 
@@ -64,15 +64,13 @@ def kept_list() -> Iterator[None]:
     if _may_write(_list_folder()):
         yield
         return
-    before = os.environ.get(LIST_FOLDER)
-    with temporary("fonts-") as folder:
-        os.environ[LIST_FOLDER] = folder
-        try:
-            yield
-        finally:
-            os.environ.pop(LIST_FOLDER)
-            if before is not None:
-                os.environ[LIST_FOLDER] = before
+    before = {name: os.environ[name] for name in (LIST_FOLDER,) if name in os.environ}
+    with ExitStack() as stack:
+        with suppress(OSError):  # Without room for temporary files only figures and films fail.
+            os.environ[LIST_FOLDER] = stack.enter_context(temporary("fonts-"))
+        yield
+    os.environ.pop(LIST_FOLDER, None)
+    os.environ.update(before)
 
 
 def _list_folder() -> Path:

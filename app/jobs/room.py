@@ -13,6 +13,7 @@ output  the jobs that give way; or Full, with the time after which one may
 from __future__ import annotations
 
 import math
+import sqlite3
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -81,6 +82,18 @@ class Row:
 
 def _bytes_of(jobs: Iterable[Row]) -> int:
     return sum(job.size for job in jobs)
+
+
+def has_room(run: sqlite3.Connection, client: str, size: int, limits: Settings) -> bool:
+    """True if a new job of the client needs nobody's room, as most do. size: of its call [bytes]"""
+    sums = "count(*), coalesce(sum(size + length(call)), 0), coalesce(sum(state IN ('accepted', 'running')), 0)"
+    kept, used, _ = run.execute(f"SELECT {sums} FROM jobs WHERE NOT expired").fetchone()
+    own, own_used, unfinished = run.execute(
+        f"SELECT {sums} FROM jobs WHERE NOT expired AND client = ?", (client,)
+    ).fetchone()
+    fits = kept < limits.jobs_max and used + size <= limits.jobs_bytes_max
+    own_fits = own < limits.jobs_client_kept_max and own_used + size <= limits.jobs_client_bytes_max
+    return bool(fits and own_fits and unfinished < limits.jobs_client_max)
 
 
 class Room:

@@ -135,7 +135,7 @@ def full(error: Full, limits: Settings) -> Refused:
     if math.isfinite(error.seconds):
         told["seconds"], again = Quantity(max(math.ceil(error.seconds), 1), "s"), ", or try again in {seconds}."
         after = {"Retry-After": str(told["seconds"].value)}
-    told["reason"] = f"none gives way to yours yet: remove some{again}"
+    told["reason"] = f"none gives way to yours yet; remove some{again}"
     match error:
         case FullForClient():
             told |= {"most": limit(limits.jobs_client_max, "unfinished job")}

@@ -31,7 +31,7 @@ from app.files.flush import flush_folder
 from app.jobs import room
 from app.jobs.job import EXPIRED, GAVE_WAY, ID_BYTES, SWEEP, Job, JobState
 from app.jobs.reserve import Reserve
-from app.jobs.room import DAY, Counts, Room, Row, counts
+from app.jobs.room import DAY, Counts, Room, Row, counts, has_room
 from app.jobs.tables import client_name, prepare
 from app.jobs.turns import next_job, note_turn
 from app.settings import Settings
@@ -155,16 +155,19 @@ class Store:
         """
         now, job, name = time.time(), secrets.token_hex(ID_BYTES), client_name(client, self._key)
         with self._change() as run:
-            kept = self._kept(run, name, limits, now)
-            kept.make(len(call))
-            self._give_way(run, kept.gone, limits.jobs_max)
+            gone: list[str] = []
+            if not has_room(run, name, len(call), limits):
+                kept = self._kept(run, name, limits, now)
+                kept.make(len(call))
+                gone = kept.gone
+                self._give_way(run, gone, limits.jobs_max)
             run.execute(
                 "INSERT INTO jobs (id, question, call, client, state, created, updated, message, cost)"
                 " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'Waiting for its turn.', ?)",
                 (job, question, call, name, now, now, min(COST_MAX, cost)),
             )
             self._tell(run, job)
-        self._unlink(kept.gone)
+        self._unlink(gone)
         self.check(job)
         return self.known(job)
 

@@ -180,12 +180,14 @@ def test_a_service_with_one_place_runs_the_jobs_of_each_client_in_turn(tmp_path:
     with Service(tmp_path, jobs_running_max=1) as service, at(service, "127.0.0.2") as other:
         first = service.post(ENDLESS)
         service.until(first, "running")
+        samples = service.post({"question": "contact_probability", "request": {"samples": 100_000}})
         mine, theirs = service.post(SHORT), other.post("/jobs", json=SHORT).headers["location"]
         long = service.post(ENDLESS)
         service.client.delete(first)
         assert service.finished(theirs)["status"] == service.finished(mine)["status"] == "successful"
         assert service.status(theirs)["started"] < service.status(mine)["started"]
         service.until(long, "running")
+        assert service.status(samples)["status"] == "accepted"  # By its estimate it takes longest.
 
 
 def test_a_client_that_fills_the_store_closes_it_for_nobody(tmp_path: Path) -> None:
