@@ -145,7 +145,7 @@ def soak(seconds: float, folder: Path) -> None:
         csv.writer(table).writerows([COLUMNS, *rows])
     draw(rows, folder / "soak.png")
     totals = [sum(column) for column in zip(*rows, strict=True)]
-    print(f"200: {totals[2]:.0f}, 503: {totals[3]:.0f}, anything else: {totals[4]:.0f}")
+    print(f"200: {totals[2]:.0f}, 429 or 503: {totals[3]:.0f}, anything else: {totals[4]:.0f}")
     print("tracebacks in the log of the service:", sum(line.startswith("Traceback") for line in lines))
 
 
