@@ -345,9 +345,16 @@ def test_places_alternate_between_clients_and_short_jobs_come_first_within_one(s
 def test_a_client_takes_no_more_places_than_its_share_and_who_has_fewest_comes_first(store: Store) -> None:
     first = [store.create("turn", b"", "a", ROOM).id for _ in range(4)]
     assert [store.take(of_client=2) for _ in range(3)] == [*first[:2], None]
-    other = [store.create("turn", b"", "b", ROOM, 99.0).id for _ in range(2)]
     store.fail(first[0], PROBLEM)
+    other = [store.create("turn", b"", "b", ROOM, 99.0).id for _ in range(2)]
     assert [store.take(of_client=2) for _ in range(3)] == [other[0], first[2], other[1]]
+
+
+def test_who_comes_under_a_new_address_does_not_come_before_those_that_waited(store: Store) -> None:
+    patient = [store.create("turn", b"", "patient", ROOM).id for _ in range(2)]
+    store.fail(store.take() or "", PROBLEM)
+    stranger = store.create("turn", b"", "a new address", ROOM).id
+    assert [store.take(), store.take()] == [patient[1], stranger]
 
 
 def test_who_removes_its_jobs_does_not_come_before_those_that_waited(store: Store) -> None:
