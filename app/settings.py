@@ -44,12 +44,12 @@ HOST_NAME = re.compile(r"[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
 
 def _hosts(names: str) -> str:
     """The names without spaces, in lower case."""
-    found = [name.strip().lower().rstrip(".") for name in names.split(",")]
-    if not all(map(HOST_NAME.fullmatch, found)):
+    known = [name.strip().lower().rstrip(".") for name in names.split(",")]
+    if not all(map(HOST_NAME.fullmatch, known)):
         raise PydanticCustomError(
             "rule", "must be names of hosts without ports, as dance.example,192.0.2.7,[2001:db8::7]"
         )
-    return ",".join(found)
+    return ",".join(known)
 
 
 def part(places: int, most: int | None) -> int:

@@ -97,11 +97,11 @@ def cancel(
 
 def _seconds(text: str) -> float:
     """A duration such as 12h [s]. raises: InvalidValue"""
-    found = DURATION.fullmatch(text.strip())
-    if found is None:
+    match = DURATION.fullmatch(text.strip())
+    if match is None:
         rule = "--older-than must be a number with one of the units s, min, h and d, as in 7d"
         raise InvalidValue.in_words("older_than", rule, got=Given(text, text))
-    return float(found[1]) * SECONDS[found[2]]
+    return float(match[1]) * SECONDS[match[2]]
 
 
 @jobs.command()

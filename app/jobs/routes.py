@@ -131,24 +131,24 @@ def take(request: Request, task: Task, cost: float) -> Response:
 
 def full(error: Full, limits: Settings) -> Refused:
     """The refusal of a job for which there is no room, with the time after which there will be some."""
-    after, told, again = {}, dict[str, Any](), "."
+    after, values, again = {}, dict[str, Any](), "."
     if math.isfinite(error.seconds):
-        told["seconds"], again = Quantity(max(math.ceil(error.seconds), 1), "s"), ", or try again in {seconds}."
-        after = {"Retry-After": str(told["seconds"].value)}
-    told["reason"] = f"none gives way to yours yet; remove some{again}"
+        values["seconds"], again = Quantity(max(math.ceil(error.seconds), 1), "s"), ", or try again in {seconds}."
+        after = {"Retry-After": str(values["seconds"].value)}
+    values["reason"] = f"none gives way to yours yet; remove some{again}"
     match error:
         case FullForClient():
-            told |= {"most": limit(limits.jobs_client_max, "unfinished job")}
-            told["reason"] = f"wait for one, or dismiss it{again}"
-            return Refused(429, "Your limit of {most} is reached", None, after, **told)
+            values |= {"most": limit(limits.jobs_client_max, "unfinished job")}
+            values["reason"] = f"wait for one, or dismiss it{again}"
+            return Refused(429, "Your limit of {most} is reached", None, after, **values)
         case KeptByClient():
-            told |= {"most": limit(limits.jobs_client_kept_max, "kept job")}
-            told |= {"bytes": Quantity(limits.jobs_client_bytes_max, "bytes")}
-            return Refused(429, "Your limit of {most} and {bytes} is reached", None, after, **told)
+            values |= {"most": limit(limits.jobs_client_kept_max, "kept job")}
+            values |= {"bytes": Quantity(limits.jobs_client_bytes_max, "bytes")}
+            return Refused(429, "Your limit of {most} and {bytes} is reached", None, after, **values)
         case FullOfBytes():
-            return Refused(507, "The kept jobs take all the room that they may have", None, after, **told)
-    told |= {"most": limit(limits.jobs_max, "kept job")}
-    return Refused(503, "The limit of {most} is reached", None, after or COME_AGAIN, **told)
+            return Refused(507, "The kept jobs take all the room that they may have", None, after, **values)
+    values |= {"most": limit(limits.jobs_max, "kept job")}
+    return Refused(503, "The limit of {most} is reached", None, after or COME_AGAIN, **values)
 
 
 def later(request: Request, task: Task, cost: float) -> Response:
@@ -229,11 +229,11 @@ def ask_later(
         accept = format_of(values.pop("format"), call.question.formats)
     form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
-        asked = call.asked.model_validate(values)
+        checked = call.asked.model_validate(values)
     except ValidationError as error:
         found = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
         return answer_of(unfit(found, call.asked, in_body(values, "/request")))
-    return take(request, Task(call.name, values, form), cost_of(call, asked, form))
+    return take(request, Task(call.name, values, form), cost_of(call, checked, form))
 
 
 @asking.post(

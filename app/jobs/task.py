@@ -43,9 +43,9 @@ class Task:
             return refused(reworded(error, asked), item)
 
 
-def cost_of(call: Call, asked: Wire, form: str) -> float:
+def cost_of(call: Call, request: Wire, form: str) -> float:
     """Estimated time of the answer to a call [s], from which the order of jobs follows; a job may find it wrong."""
     try:
-        return call.question.estimate(asked, form)
+        return call.question.estimate(request, form)
     except BenchDragonError:  # Its job will fail with this error.
         return UNKNOWN_COST

@@ -150,8 +150,8 @@ class Hosts(Layer):
     @staticmethod
     def _name(scope: Scope) -> str:
         """The host that is asked, without its port; empty if it is none."""
-        found = HOST.fullmatch(Headers(scope=scope).get("host", "").lower())
-        return found[1].rstrip(".") if found else ""
+        match = HOST.fullmatch(Headers(scope=scope).get("host", "").lower())
+        return match[1].rstrip(".") if match else ""
 
 
 class RequestId(Layer):
