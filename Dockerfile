@@ -1,5 +1,7 @@
 # The service alone. The image has no compiler; the service does not run as root, and writes only to /tmp and /data.
-#   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -v dragon:/data -p 8000:8000 bench-dragon
+#   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -v dragon:/data -p 127.0.0.1:8000:8000 bench-dragon
+# By name and version; with a digest (python:3.13-slim-trixie@sha256:...) every build has the same bytes: see
+# docs/operations.md.
 ARG PYTHON_IMAGE=python:3.13-slim-trixie
 # Extras of the distribution to install: service,dask adds sweeps on a Dask cluster.
 ARG EXTRAS=service

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from difflib import get_close_matches
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -35,6 +36,43 @@ def _scheduler(address: str) -> str:
 def usable_cores() -> int:
     """Number of cores that this process may use; all cores of the machine if the system has no such limit."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+# A host name or an address, without a port.
+HOST_NAME = re.compile(r"[a-z0-9]([a-z0-9.-]*[a-z0-9])?|\[[0-9a-f:.]+\]")
+
+
+def _hosts(names: str) -> str:
+    """The names without spaces, in lower case."""
+    known = [name.strip().lower().rstrip(".") for name in names.split(",")]
+    if not all(map(HOST_NAME.fullmatch, known)):
+        raise PydanticCustomError(
+            "rule", "must be names of hosts without ports, as dance.example,192.0.2.7,[2001:db8::7]"
+        )
+    return ",".join(known)
+
+
+def part(places: int, most: int | None) -> int:
+    """Number of places that one client may take: `most`, or without it all but one; of one place that one.
+
+    >>> part(4, None), part(2, None), part(1, None), part(4, 2), part(2, 8)
+    (3, 1, 1, 2, 2)
+    """
+    return max(places - 1, 1) if most is None else min(most, places)
+
+
+def refuse_open_port(settings: Settings) -> None:
+    """raises: InvalidValue if the port of a container is open to other machines without a token"""
+    if not settings.published or settings.token:
+        return
+    try:
+        is_open = not ip_address(settings.published.strip("[]")).is_loopback
+    except ValueError:
+        is_open = settings.published != "localhost"
+    if is_open:
+        rule = "BENCH_DRAGON_PUBLISHED must be 127.0.0.1 without a token, so that strangers make no jobs"
+        advice = "set BENCH_DRAGON_TOKEN too"
+        raise InvalidValue.in_words("published", rule, got=Given(settings.published), reason=advice)
 
 
 def unknown_variables() -> list[str]:
@@ -96,6 +134,12 @@ class Settings(BaseModel):
     readers_max: int = Field(
         2, ge=1, description="Files of /grade and /places read at once by one process; further ones get 503"
     )
+    readers_client_max: int | None = Field(
+        None,
+        ge=1,
+        description="Files of one client read at once by one process; further ones get 429; default: all places but "
+        "one",
+    )
     reader_memory_max: int = Field(
         1_000_000_000, ge=2**29, description="Address space of a process that reads a file [bytes]"
     )
@@ -123,8 +167,11 @@ class Settings(BaseModel):
         8, ge=1, description="Computations of up to 0.1 s at once in one process; further ones get 503"
     )
     heavy_max: int = Field(4, ge=1, description="Longer computations at once in one process; further ones get 503")
-    heavy_client_max: int = Field(
-        4, ge=1, description="Longer computations at once of one client in one process; further ones get 429"
+    heavy_client_max: int | None = Field(
+        None,
+        ge=1,
+        description="Longer computations at once of one client in one process; further ones get 429; default: all "
+        "places but one",
     )
     workbooks_max: int = Field(1, ge=1, description="Workbooks written at once in one process; further ones get 503")
     bodies_bytes_max: int = Field(
@@ -153,11 +200,30 @@ class Settings(BaseModel):
     token: str = Field(
         "", description="Token that jobs and uploads must carry (Authorization: Bearer); empty: none needed"
     )
-    jobs_max: int = Field(1_000, ge=1, description="Largest number of jobs kept; further requests get 503")
+    hosts: Annotated[str, AfterValidator(_hosts)] = Field(
+        "", description="Names and addresses under which the service answers, with commas between; empty: under any"
+    )
+    published: str = Field(
+        "",
+        description="Address at which a container publishes the port of the service; another one than that of this "
+        "machine itself needs a token; empty: unknown",
+    )
+    jobs_max: int = Field(
+        1_000, ge=1, description="Largest number of jobs kept; the oldest of who has most give way to further ones"
+    )
     jobs_client_max: int = Field(20, ge=1, description="Unfinished jobs of one client; further requests get 429")
-    jobs_running_max: int = Field(2, ge=1, description="Jobs that run at once; the others wait")
+    jobs_client_kept_max: int = Field(
+        200, ge=1, description="Jobs of one client that are kept; its oldest give way to further ones"
+    )
+    jobs_client_bytes_max: int = Field(
+        25 * 10**8, ge=1, description="Size of the requests and results of the jobs of one client [bytes]"
+    )
+    jobs_running_max: int = Field(3, ge=1, description="Jobs that run at once; the others wait")
+    jobs_running_client_max: int | None = Field(
+        None, ge=1, description="Jobs of one client that run at once; default: all places but one"
+    )
     jobs_bytes_max: int = Field(
-        10**10, ge=1, description="Size of the requests and results of all jobs; beyond it no job is accepted [bytes]"
+        10**10, ge=1, description="Size of the requests and results of all jobs; the oldest give way [bytes]"
     )
     jobs_listeners_max: int = Field(100, ge=1, description="Clients that follow a job, for each process")
     job_result_bytes_max: int = Field(10**9, ge=1, description="Largest result of a job [bytes]")

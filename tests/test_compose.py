@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -29,8 +30,13 @@ BIN = Path(sys.executable).parent
 BYTES_MAX = 100_000
 
 
+def interpolated(text: str, **variables: str) -> str:
+    """A value as Compose fills it: ${NAME:-default}, of which the default counts for an empty variable too."""
+    return re.sub(r"\$\{(\w+):-([^}]*)\}", lambda found: variables.get(found[1]) or found[2], text)
+
+
 def test_it_is_valid_by_the_specification() -> None:
-    compose = PyCompose.from_json(json.dumps(FILE))
+    compose = PyCompose.from_json(interpolated(json.dumps(FILE)))
     compose.validate()
     assert sorted(compose.service_names()) == ["scheduler", "service", "worker"]
 
@@ -71,6 +77,39 @@ def test_memory_holds_what_files_and_jobs_may_take_on_two_cores() -> None:
 def test_its_settings_are_settings() -> None:
     known = {f"BENCH_DRAGON_{name.upper()}" for name in Settings.model_fields}
     assert set(SERVICES["service"]["environment"]) <= known
+
+
+def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(tmp_path: Path) -> None:
+    [port], names = SERVICES["service"]["ports"], SERVICES["service"]["environment"]
+    assert interpolated(port) == "127.0.0.1:8000:8000"
+    for published, token, runs in (("", "", True), ("0.0.0.0", "", False), ("[::]", "", False), ("0.0.0.0", "x", True)):
+        given = {"BENCH_DRAGON_PUBLISHED": published, "BENCH_DRAGON_TOKEN": token}
+        assert interpolated(port, **given).removesuffix(":8000:8000") == (published or "127.0.0.1")
+        environment = os.environ | {name: interpolated(text, **given) for name, text in names.items()}
+        here = {"8000": str(free_port()), "0.0.0.0": "127.0.0.1"}
+        with (tmp_path / "log").open("wb") as log:
+            process = subprocess.Popen(
+                command_of("service", here), cwd=tmp_path, env=environment, stdout=log, stderr=log
+            )
+        try:
+            if runs:
+                wait_until_live(process, int(here["8000"]), tmp_path / "log")
+                continue
+            assert process.wait(PATIENCE) == 2
+            words = (tmp_path / "log").read_text()
+            assert "BENCH_DRAGON_PUBLISHED must be 127.0.0.1 without a token" in words
+            assert "set BENCH_DRAGON_TOKEN too" in words
+        finally:
+            process.terminate()
+            process.wait(STOP_TIMEOUT)
+
+
+def test_the_image_may_be_named_with_its_digest() -> None:
+    image = SERVICES["service"]["build"]["args"]["PYTHON_IMAGE"]
+    default = re.search(r"^ARG PYTHON_IMAGE=(\S+)$", (ROOT / "Dockerfile").read_text(encoding="utf-8"), re.MULTILINE)
+    assert default is not None
+    assert interpolated(image) == default[1]
+    assert interpolated(image, PYTHON_IMAGE="python@sha256:0") == "python@sha256:0"
 
 
 def command_of(name: str, places: dict[str, str]) -> list[str]:

@@ -31,7 +31,7 @@ TOGETHER = {
     "jobs/test_limits.py": "jobs/keeper service/token",
     "service/test_job_routes.py": "jobs/task service/job_bodies service/job_metrics",
     "jobs/test_runner.py": "files/lock jobs/reports jobs/work logs",
-    "jobs/test_store.py": "files/flush jobs/job",
+    "jobs/test_store.py": "files/flush jobs/job jobs/room jobs/tables jobs/turns",
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
     " maps/lines maps/marks maps/places questions/maps",
@@ -54,7 +54,7 @@ TOGETHER = {
     " command/paper command/paths command/serve command/show command/trajectory command/usage",
     "test_cli_check.py": "command/check command/designs",
     "test_cli_file.py": "command/figures files/drawing maps/dances questions/figures",
-    "test_holding.py": "service/bodies service/middleware service/protocol service/workers",
+    "test_holding.py": "service/bodies service/lanes service/middleware service/protocol service/workers",
     "test_openapi.py": "service/examples wire/question",
     "test_prove.py": "command/prove",
     "test_streams.py": "command/streams",

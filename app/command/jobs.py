@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+import time
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,13 +15,21 @@ from rich.table import Table
 
 from app.command import show
 from app.files.disk import checked_output, write_whole
+from core import InvalidValue
+from core.errors import Given
+from core.shown import counted
 
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
 
 jobs = typer.Typer(help="Jobs of a data folder or of a service.", no_args_is_help=True, add_completion=False)
 
-Name = Annotated[str, typer.Argument(metavar="JOB", help="The job's name, the last part of its address.")]
+NAME_HELP = "The job's name, the last part of its address."
+# A duration: a number and its unit, each of so many seconds.
+SECONDS = {"s": 1.0, "min": 60.0, "h": 3_600.0, "d": 86_400.0}
+DURATION = re.compile(rf"(\d{{1,9}}(?:\.\d{{1,9}})?) ?({'|'.join(SECONDS)})")
+
+Name = Annotated[str, typer.Argument(metavar="JOB", help=NAME_HELP)]
 Data = Annotated[Path | None, typer.Option(help="Data folder of the service; default: BENCH_DRAGON_DATA.")]
 Url = Annotated[str, typer.Option(help="Address of a service, such as http://127.0.0.1:8000, in place of a folder.")]
 Token = Annotated[str, typer.Option(help="Token of that service.", envvar="BENCH_DRAGON_TOKEN")]
@@ -63,9 +73,35 @@ def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", jso
 
 
 @jobs.command()
-def cancel(job: Name, data: Data = None, url: Url = "", token: Token = "") -> None:
-    """Cancel an unfinished job, or remove a finished one with its result."""
-    print(f"{job}: {_at(data, url, token).cancel(job)}")
+def cancel(
+    job: Annotated[str | None, typer.Argument(metavar="[JOB]", help=NAME_HELP)] = None,
+    every: Annotated[bool, typer.Option("--all", help="All jobs.")] = False,
+    older_than: Annotated[
+        str, typer.Option(metavar="DURATION", help="All jobs asked for longer ago: 90s, 30min, 12h or 7d.")
+    ] = "",
+    data: Data = None,
+    url: Url = "",
+    token: Token = "",
+) -> None:
+    """Cancel an unfinished job, or remove a finished one with its result; or all jobs, or all old ones."""
+    if (job is not None) + every + bool(older_than) != 1:
+        raise InvalidValue.in_words("job", "give one of JOB, --all and --older-than")
+    before = time.time() - (_seconds(older_than) if older_than else 0.0)
+    place = _at(data, url, token)
+    if job is not None:
+        print(f"{job}: {place.cancel(job)}")
+        return
+    counts = place.cancel_all(before)
+    print(", ".join(f"{counted(count, 'job')} {what}" for what, count in counts.items()))
+
+
+def _seconds(text: str) -> float:
+    """A duration such as 12h [s]. raises: InvalidValue"""
+    match = DURATION.fullmatch(text.strip())
+    if match is None:
+        rule = "--older-than must be a number with one of the units s, min, h and d, as in 7d"
+        raise InvalidValue.in_words("older_than", rule, got=Given(text, text))
+    return float(match[1]) * SECONDS[match[2]]
 
 
 @jobs.command()

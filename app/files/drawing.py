@@ -6,8 +6,9 @@ They use matplotlib's objects, not pyplot: the only global state is the setting 
 from __future__ import annotations
 
 import io
-import threading
-from typing import Any
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
 
 import matplotlib
 import numpy as np
@@ -20,15 +21,22 @@ from core import Venue
 from core.plots import PALE
 from core.values import Floats
 
+Drawn = TypeVar("Drawn")
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 
-# One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads.
-DRAWING = threading.Lock()
+# One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads. Always in one thread:
+# matplotlib opens the two files of a font once for each thread that draws, and forty threads answer requests.
+_DRAWER = ThreadPoolExecutor(1, "drawing")
 PNG_DPI = 120
 # The whole square is drawn if it is at most this many times as large as the dance; else only the part around the dance.
 SQUARE_MOST = 2.0
 # Width of the part of a venue drawn around the dragon, as a fraction of the dragon's extent [1].
 AROUND = 0.6
+
+
+def in_turn(draw: Callable[[], Drawn]) -> Drawn:
+    """The value of a function that draws, called when those before it are done. It must not call this function."""
+    return _DRAWER.submit(draw).result()
 
 
 def canvas(width: float, height: float) -> Figure:

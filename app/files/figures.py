@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 
-from app.files.drawing import DRAWING, canvas, draw_venue, file_bytes, look_around
+from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, look_around
 from core import Budget, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
@@ -22,7 +22,8 @@ def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float =
     time: [s]; raises: OutsideRun after the end of the run
     """
     result = trajectory(dance, [time])
-    with DRAWING:
+
+    def drawn() -> bytes:
         figure = canvas(7.2, 6.2)
         axes = result.plot(figure.add_subplot())
         if venue:
@@ -31,6 +32,8 @@ def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float =
         words = "" if (spiral := dance.path.spiral) is None else f" (pitch {said(spiral.pitch)} m)"
         axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
         return file_bytes(figure, format)
+
+    return in_turn(drawn)
 
 
 def contact_figure(
@@ -48,7 +51,8 @@ def contact_figure(
     Without a contact it shows the dance just before the run ends, and the title says so.
     """
     found = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
-    with DRAWING:
+
+    def drawn() -> bytes:
         figure = canvas(11.0 if found.benches else 7.2, 6.0)
         axes = found.plot(figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot())
         draw_venue(axes, venue)
@@ -56,6 +60,8 @@ def contact_figure(
             enlarged = found.plot(figure.add_subplot(1, 2, 2), enlarged=True)
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return file_bytes(figure, format)
+
+    return in_turn(drawn)
 
 
 def pitch_scan_figure(
@@ -72,7 +78,8 @@ def pitch_scan_figure(
     scan, least: the result of scan_near_minimum(); the rest: its arguments
     """
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
-    with DRAWING:
+
+    def drawn() -> bytes:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
         near_words = f"first within {said(margin)} m of each other" if margin else "first contact"
@@ -92,6 +99,8 @@ def pitch_scan_figure(
         near.tick_params(labelsize=8)
         axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
         return file_bytes(figure, format)
+
+    return in_turn(drawn)
 
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:

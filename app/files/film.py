@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import matplotlib
@@ -30,6 +29,7 @@ from numpy.typing import NDArray
 from app.files.drawing import draw_venue, with_square
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families
+from app.files.scratch import temporary
 from app.files.tables import Language
 from app.wire.clocks import time_of_day
 from core import Budget, Dance, Venue, bench_outlines, trajectory
@@ -187,7 +187,7 @@ def encoded_mp4(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
     waiting: deque[Future[None]] = deque()
     # The encoder's context is left first: closing the file while a frame is written would end the process.
     with (
-        TemporaryDirectory() as folder,
+        temporary("film-") as folder,
         av.open(path := f"{folder}/film.mp4", "w", options=FAST_START) as file,
         ThreadPoolExecutor(1) as encoder,
     ):

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import logging
+import os
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
+from pathlib import Path
 
 from app.extras import MissingPackage
+from app.files.scratch import temporary
 from app.files.tables import Language
 
 # Font families with the characters of simplified Chinese; those made for it come first.
@@ -14,6 +19,8 @@ CHINESE = (
     "Microsoft YaHei", "PingFang SC", "Hiragino Sans GB", "SimHei", "Heiti SC", "Droid Sans Fallback",
     "Noto Sans CJK JP",
 )  # fmt: skip
+# Variable with the folder of matplotlib, where its list of fonts is.
+LIST_FOLDER = "MPLCONFIGDIR"
 # The font that comes with matplotlib: Latin letters, digits and mathematical signs.
 LATIN = "DejaVu Sans"
 # Characters that a Chinese font must have: some of those that our pictures use.
@@ -45,6 +52,37 @@ def families(language: Language) -> tuple[str, ...]:
         "--language zh needs a font with Chinese characters, which this machine does not have: install "
         "fonts-wqy-microhei or fonts-noto-cjk (apt install fonts-wqy-microhei)",
     )
+
+
+@contextmanager
+def kept_list() -> Iterator[None]:
+    """Context in which matplotlib and the processes that this one starts keep their list of fonts in one folder.
+
+    Where it may not write its own, matplotlib makes a temporary one for each process, which stays behind when the
+    process is killed, as those of jobs are.
+    """
+    if _may_write(_list_folder()):
+        yield
+        return
+    before = {name: os.environ[name] for name in (LIST_FOLDER,) if name in os.environ}
+    with ExitStack() as stack:
+        with suppress(OSError):  # Without room for temporary files only figures and films fail.
+            os.environ[LIST_FOLDER] = stack.enter_context(temporary("fonts-"))
+        yield
+    os.environ.pop(LIST_FOLDER, None)
+    os.environ.update(before)
+
+
+def _list_folder() -> Path:
+    if folder := os.environ.get(LIST_FOLDER):
+        return Path(folder)
+    return Path(os.environ.get("XDG_CONFIG_HOME") or os.path.expanduser("~/.config")) / "matplotlib"
+
+
+def _may_write(folder: Path) -> bool:
+    """True if this folder is there and may be written, or can be made."""
+    there = next(place for place in (folder.absolute(), *folder.absolute().parents) if place.exists())
+    return there.is_dir() and os.access(there, os.W_OK)
 
 
 def draws_our_words(entry: object) -> bool:

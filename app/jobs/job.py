@@ -26,6 +26,8 @@ class JobState(StrEnum):
     DISMISSED = "dismissed"
 
 
+# Why the call and the result of a finished job are removed: its time was over, or newer jobs needed the room.
+EXPIRED, GAVE_WAY = 1, 2
 UNFINISHED = (JobState.ACCEPTED, JobState.RUNNING)
 
 
@@ -35,7 +37,8 @@ class Job:
 
     progress: 0 to 100; rate: [percent/s]; time_left: [s]; done, total: designs of a sweep
     deaths: number of its processes that died; size: of its result, or of the shards of a sweep [bytes]
-    problem: reason of a failure, as in a direct answer; expired: True if its call and result are removed
+    problem: reason of a failure, as in a direct answer
+    expired: EXPIRED or GAVE_WAY if its call and result are removed; 0: they are not
     """
 
     id: str
@@ -95,12 +98,23 @@ def _instant(seconds: float | None) -> str | None:
 
 
 class Full(Exception):
-    """The store has as many jobs as it may hold."""
+    """The store has as many jobs as it may hold, and none of them may give way.
+
+    seconds: time after which there will be room, as far as is known; infinite if there will be none
+    """
+
+    def __init__(self, seconds: float) -> None:
+        super().__init__(f"room in {seconds} s")
+        self.seconds = seconds
 
 
 class FullForClient(Full):
     """This client has as many unfinished jobs as it may."""
 
 
+class KeptByClient(Full):
+    """This client keeps as many jobs or bytes as it may, and none of them may give way."""
+
+
 class FullOfBytes(Full):
-    """The calls and results have reached their limit of bytes."""
+    """The calls and results have reached their limit of bytes, and none of them may give way."""

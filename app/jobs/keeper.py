@@ -16,11 +16,12 @@ import time
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from threading import BoundedSemaphore, Event, Thread, current_thread, main_thread
+from threading import BoundedSemaphore, Event, Thread, Timer, current_thread, main_thread
 from types import FrameType
 
+from app.files.fonts import kept_list
 from app.files.lock import FolderLock
+from app.files.scratch import reclaim, temporary
 from app.jobs.store import Store
 from app.settings import SHARED_COUNTS, Settings
 from app.start import search_path
@@ -31,6 +32,8 @@ logger = logging.getLogger("uvicorn.error")
 KEEP_SECONDS = 1.0
 # Longest time for a runner to end [s].
 END_SECONDS = 5.0
+# Time after which the children of a killed process have ended [s].
+RECLAIM_SECONDS = 60.0
 # Others wait while the store is cleared of removed jobs: this is done at most once in this time [s], and takes at most
 # this share of it.
 CLEAR_SECONDS, CLEAR_SHARE = 1.0, 0.05
@@ -118,6 +121,8 @@ def start(module: str, *arguments: str, stdout: int | None = None, **more: str) 
 def kept(settings: Settings) -> Iterator[Keeper | str]:
     """The jobs of this process while it serves, or the reason why the data folder cannot be used."""
     with ExitStack() as stack:
+        stack.callback(_reclaiming().cancel)
+        stack.enter_context(kept_list())
         try:
             store = Store(settings.data or Path(stack.enter_context(scratch())))
         except (OSError, sqlite3.Error) as error:
@@ -132,10 +137,19 @@ def kept(settings: Settings) -> Iterator[Keeper | str]:
         yield keeper
 
 
+def _reclaiming() -> Timer:
+    """Removes the temporary folders that killed processes left: now, and once more when their children have ended."""
+    reclaim()
+    again = Timer(RECLAIM_SECONDS, reclaim)
+    again.daemon = True
+    again.start()
+    return again
+
+
 @contextmanager
 def scratch() -> Iterator[str]:
     """A temporary folder for jobs."""
-    with TemporaryDirectory(prefix="bench-dragon-data-", ignore_cleanup_errors=True) as folder:
+    with temporary("data-") as folder:
         logger.warning("BENCH_DRAGON_DATA is not set: jobs are kept in %s, and only until the service ends", folder)
         yield folder
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from datetime import datetime
 from http.client import HTTPException
 from ipaddress import ip_address
 from pathlib import Path
@@ -23,6 +24,8 @@ from core.errors import Given
 
 # Longest wait for an answer of a service [s].
 PATIENCE = 60.0
+# What becomes of a finished job that is cancelled.
+REMOVED = "removed"
 # Fields of every status.
 STATUS = {"jobID", "processID", "status", "progress", "created"}
 
@@ -70,7 +73,17 @@ class InFolder:
             if self.store.dismiss(job):
                 return JobState.DISMISSED
             self.store.remove(job)
-        return "removed"
+        return REMOVED
+
+    def cancel_all(self, before: float) -> dict[str, int]:
+        """Number of jobs by what became of them. before: time up to which they were created [s since 1970]"""
+        with self._used():
+            chosen = [job for job in self.store.all() if job.created <= before]
+            ended = sum(self.store.dismiss(job.id) for job in chosen if not job.is_finished)
+            finished = [job.id for job in chosen if job.is_finished]
+            if finished:
+                self.store.remove(*finished)
+        return {JobState.DISMISSED: ended, REMOVED: len(finished)}
 
     def result(self, job: str) -> bytes:
         known = self.show(job)
@@ -125,7 +138,16 @@ class OfService:
 
     def cancel(self, job: str) -> str:
         self.show(job)
-        return JobState.DISMISSED if self._ask(f"/jobs/{quote(job, safe='')}", "DELETE") else "removed"
+        return JobState.DISMISSED if self._ask(f"/jobs/{quote(job, safe='')}", "DELETE") else REMOVED
+
+    def cancel_all(self, before: float) -> dict[str, int]:
+        """As InFolder.cancel_all(); jobs that are gone meanwhile are not counted."""
+        counts: dict[str, int] = {JobState.DISMISSED: 0, REMOVED: 0}
+        for job in self.list():
+            if datetime.fromisoformat(job["created"]).timestamp() <= before:
+                with suppress(NoJob):
+                    counts[self.cancel(job["jobID"])] += 1
+        return counts
 
     def result(self, job: str) -> bytes:
         return self._ask(f"/jobs/{quote(job, safe='')}/result")

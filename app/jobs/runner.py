@@ -34,7 +34,7 @@ from app.jobs.job import SWEEP
 from app.jobs.keeper import start
 from app.jobs.store import Store
 from app.logs import log_to_stderr
-from app.settings import Settings
+from app.settings import Settings, part
 from app.wire.problem import problem_of
 from core.errors import Quantity
 
@@ -144,7 +144,8 @@ class Runner:
         self.store.tidy(self.works)
         self.store.expire(self.settings.job_days_max)
         while len(self.works) < self.settings.jobs_running_max:
-            taken = self.store.take(self.settings.sweeps_running_max)
+            of_client = part(self.settings.jobs_running_max, self.settings.jobs_running_client_max)
+            taken = self.store.take(self.settings.sweeps_running_max, of_client)
             if taken is None:
                 break
             known = self.store.get(taken)
@@ -192,7 +193,7 @@ class Runner:
             case {"kept": int(kept)}:
                 self.store.resume(job, kept)
             case {"written": str(name), "media_type": str(media_type), "again": bool(again)}:
-                self.store.succeed(job, Path(name), media_type)
+                self.store.succeed(job, Path(name), media_type, self.settings)
                 self._release(work, job, again)
             case {"problem": str(text), "again": bool(again)}:
                 self.store.fail(job, text.encode())

@@ -1,6 +1,7 @@
 """The store of all jobs: one SQLite database in the data folder, with the results beside it as files.
 
-    FOLDER/jobs.sqlite   tables jobs and events; written ahead (WAL) and flushed at every change
+    FOLDER/jobs.sqlite   tables jobs, events, turns; written ahead (WAL) and flushed at every change
+    FOLDER/client.key    key of the names of clients
     FOLDER/results/ID    the bytes of an answer, complete or absent
     FOLDER/sweeps/ID     the shards of an unfinished sweep
     FOLDER/reserve       room to remove jobs on a full disk
@@ -18,7 +19,7 @@ import shutil
 import sqlite3
 import time
 from collections.abc import Container, Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import fields
 from pathlib import Path
 from threading import Lock
@@ -27,9 +28,14 @@ from typing import Any
 import orjson
 
 from app.files.flush import flush_folder
-from app.jobs.job import ID_BYTES, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState
+from app.jobs import room
+from app.jobs.job import EXPIRED, GAVE_WAY, ID_BYTES, SWEEP, Job, JobState
 from app.jobs.reserve import Reserve
+from app.jobs.room import DAY, Counts, Room, Row, counts, has_room
+from app.jobs.tables import client_name, prepare
+from app.jobs.turns import next_job, note_turn
 from app.settings import Settings
+from app.wire.question import UNKNOWN_COST
 
 # Longest wait of a change for that of another process [s].
 PATIENCE = 5.0
@@ -37,30 +43,12 @@ PATIENCE = 5.0
 EVENTS_KEPT = 100
 # Number of dead processes after which a job is not tried again.
 DEATHS_MAX = 3
-DAY = 86_400.0  # [s]
 # Largest store that is rewritten whole after removals, which takes half a second [bytes].
 REWRITTEN_MAX = 1 << 26
-# Version of the tables below; a folder with another version is not changed.
-LAYOUT = 2
-TABLES = """
-CREATE TABLE IF NOT EXISTS jobs (
-    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
-    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
-    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
-    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0,
-    done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0
-);
-CREATE INDEX IF NOT EXISTS jobs_by_state ON jobs (state, created);
-CREATE TABLE IF NOT EXISTS events (
-    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
-    PRIMARY KEY (job, number)
-) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS removals (id INTEGER PRIMARY KEY CHECK (id = 0), made INTEGER, cleared INTEGER);
-INSERT OR IGNORE INTO removals VALUES (0, 0, 0);
-"""
-
-# Columns that are missing in tables of layout 1.
-FROM_1 = "done INTEGER", "total INTEGER", "kept INTEGER NOT NULL DEFAULT 0"
+# Longest estimate of a run [s]; an estimate may be infinite.
+COST_MAX = 1e9
+# What is left of a job whose call and result are removed.
+GONE: dict[str, Any] = {"call": b"", "size": 0, "client": ""}
 COLUMNS = ", ".join(field.name for field in fields(Job))
 
 
@@ -106,15 +94,7 @@ class Store:
         run("PRAGMA secure_delete = ON")  # Removed calls are overwritten on the disk; clear() removes their copies.
         run("PRAGMA temp_store = MEMORY")
         with self._change():
-            layout = run("PRAGMA user_version").fetchone()[0]
-            if layout == 1:
-                for column in FROM_1:
-                    run(f"ALTER TABLE jobs ADD COLUMN {column}")
-            elif layout not in (0, LAYOUT):
-                raise OSError(f"the jobs of {self.folder} belong to another version of this program (layout {layout})")
-            for table in filter(str.strip, TABLES.split(";")):
-                run(table)
-            run(f"PRAGMA user_version = {LAYOUT}")
+            self._key = prepare(self._connection, self.folder)
 
     def close(self) -> None:
         with self._lock:
@@ -167,27 +147,49 @@ class Store:
 
     # Calls for every process.
 
-    def create(self, question: str, call: bytes, client: str, limits: Settings) -> Job:
-        """A new job, safe on the disk. raises: Full if there is no room for it; OSError if the folder is gone"""
-        now, job = time.time(), secrets.token_hex(ID_BYTES)
+    def create(self, question: str, call: bytes, client: str, limits: Settings, cost: float = UNKNOWN_COST) -> Job:
+        """A new job, safe on the disk; others may give way to it, as app.jobs.room says.
+
+        client: its address; cost: estimated time of the run [s]
+        raises: Full if there is no room for it; OSError if the folder is gone
+        """
+        now, job, name = time.time(), secrets.token_hex(ID_BYTES), client_name(client, self._key)
         with self._change() as run:
-            kept = "SELECT count(*), coalesce(sum(size + length(call)), 0) FROM jobs WHERE NOT expired"
-            jobs, used = run.execute(kept).fetchone()
-            own = "SELECT count(*) FROM jobs WHERE client = ? AND state IN ('accepted', 'running')"
-            if run.execute(own, (client,)).fetchone()[0] >= limits.jobs_client_max:
-                raise FullForClient
-            if jobs >= limits.jobs_max:
-                raise Full
-            if used >= limits.jobs_bytes_max:
-                raise FullOfBytes
+            gone: list[str] = []
+            if not has_room(run, name, len(call), limits):
+                kept = self._kept(run, name, limits, now)
+                kept.make(len(call))
+                gone = kept.gone
+                self._give_way(run, gone, limits.jobs_max)
             run.execute(
-                "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
-                " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'Waiting for its turn.')",
-                (job, question, call, client, now, now),
+                "INSERT INTO jobs (id, question, call, client, state, created, updated, message, cost)"
+                " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'Waiting for its turn.', ?)",
+                (job, question, call, name, now, now, min(COST_MAX, cost)),
             )
             self._tell(run, job)
+        self._unlink(gone)
         self.check(job)
         return self.known(job)
+
+    def _kept(self, run: sqlite3.Connection, client: str, limits: Settings, now: float) -> Room:
+        rows = run.execute(f"SELECT {room.COLUMNS} FROM jobs WHERE NOT expired")
+        return Room((Row(*row) for row in rows), client, limits, now)
+
+    def _give_way(self, run: sqlite3.Connection, jobs: list[str], most: int) -> None:
+        """Remove calls and results of finished jobs. most: number of jobs without them that are remembered"""
+        words = "Its result gave way to newer jobs."
+        for job in jobs:
+            run.execute("DELETE FROM events WHERE job = ?", (job,))
+            self._move(run, job, "NOT expired", message=words, expired=GAVE_WAY, **GONE)
+        if jobs:
+            past = f"SELECT id FROM jobs WHERE expired = {GAVE_WAY} ORDER BY updated DESC LIMIT -1 OFFSET ?"
+            run.execute(f"DELETE FROM jobs WHERE id IN ({past})", (most,))
+            run.execute("UPDATE removals SET made = made + 1, gave_way = gave_way + ?", (len(jobs),))
+
+    def _unlink(self, jobs: list[str]) -> None:
+        for job in jobs:
+            with suppress(OSError):  # A new runner removes what is left.
+                self.result(job).unlink(missing_ok=True)
 
     def get(self, job: str) -> Job | None:
         rows = self._read(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", job)
@@ -204,12 +206,9 @@ class Store:
         """All jobs, the newest first."""
         return [Job.of(row) for row in self._read(f"SELECT {COLUMNS} FROM jobs ORDER BY created DESC, id")]
 
-    def counts(self) -> tuple[dict[str, int], int, int]:
-        """Number of jobs by state; number of answered designs, and of all designs, of the unfinished sweeps."""
-        states = dict(self._read("SELECT state, count(*) FROM jobs GROUP BY state"))
-        sums = "SELECT coalesce(sum(done), 0), coalesce(sum(total), 0) FROM jobs WHERE state IN ('accepted', 'running')"
-        [(done, total)] = self._read(sums)
-        return states, done, total
+    def counts(self) -> Counts:
+        """What is in the store now."""
+        return counts(self._read)
 
     def call(self, job: str) -> bytes:
         """The call of a job. raises: KeyError if there is no such job"""
@@ -290,16 +289,17 @@ class Store:
                 if file.name not in kept:
                     file.unlink(missing_ok=True)
 
-    def take(self, sweeps: int = 1) -> str | None:
-        """Start the job that has waited longest; None if none may run. sweeps: largest number of running sweeps"""
-        running = f"SELECT count(*) FROM jobs WHERE state = 'running' AND question = '{SWEEP}'"
-        may_run = f"state = 'accepted' AND (question != '{SWEEP}' OR ({running}) < ?)"
+    def take(self, sweeps: int = 1, of_client: int | None = None) -> str | None:
+        """Start the job whose turn it is, as app.jobs.turns says; None if none may run.
+
+        sweeps: largest number of running sweeps; of_client: of running jobs of one client
+        """
         with self._change() as run:
-            asked = f"SELECT id, question FROM jobs WHERE {may_run} ORDER BY created LIMIT 1"
-            job, question = run.execute(asked, (sweeps,)).fetchone() or (None, "")
+            job, question, client = next_job(run, sweeps, of_client) or (None, "", "")
             if job is not None:
                 again = {} if question == SWEEP else {"progress": 0}  # A sweep goes on from its shards.
                 self._move(run, job, "1", state=JobState.RUNNING, started=time.time(), message="Running.", **again)
+                note_turn(run, client)
         return job
 
     def tidy(self, works: Container[str]) -> None:
@@ -326,8 +326,11 @@ class Store:
         with self._change() as run:
             self._move(run, job, f"state = 'running' AND kept < {kept:d}", kept=kept, deaths=0)
 
-    def succeed(self, job: str, written: Path, media_type: str) -> None:
-        """Finish a job with its answer, which is safe on the disk before the status changes."""
+    def succeed(self, job: str, written: Path, media_type: str, limits: Settings | None = None) -> None:
+        """Finish a job with its answer, which is safe on the disk before the status changes.
+
+        limits: of the room that it may take, to which older results give way; None: they all stay
+        """
         result = self.result(job)
         if written.exists():  # Otherwise this is a second attempt, after the disk refused the state.
             os.replace(written, result)
@@ -338,6 +341,17 @@ class Store:
         found = self.get(job)
         if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
             result.unlink(missing_ok=True)
+        elif moved and limits is not None:
+            self._fit(job, limits)
+
+    def _fit(self, job: str, limits: Settings) -> None:
+        """Let older results give way to that of a job."""
+        with self._change() as run:
+            row = run.execute("SELECT client FROM jobs WHERE id = ?", (job,)).fetchone()
+            kept = self._kept(run, row[0] if row else "", limits, time.time())
+            kept.fit()
+            self._give_way(run, kept.gone, limits.jobs_max)
+        self._unlink(kept.gone)
 
     def fail(self, job: str, problem: bytes) -> None:
         """Finish a job with a problem."""
@@ -348,9 +362,12 @@ class Store:
         self, job: str, state: JobState, message: str, more: dict[str, Any], where: str = "state = 'running'"
     ) -> bool:
         """End a job if the condition `where` holds; True if it held."""
-        ended = more | {"state": state, "finished": time.time(), "message": message, "client": ""}
+        ended = more | {"state": state, "finished": time.time(), "message": message}
         with self._change() as run:
-            return self._move(run, job, where, **ended)
+            moved = self._move(run, job, where, **ended)
+            if moved:
+                note_turn(run, run.execute("SELECT client FROM jobs WHERE id = ?", (job,)).fetchone()[0])
+            return moved
 
     def die(self, job: str, problem: bytes) -> None:
         """Record a job's dead process: the job is tried again, but fails with this problem after DEATHS_MAX deaths."""
@@ -371,7 +388,7 @@ class Store:
         for (job,) in self._read("SELECT id FROM jobs WHERE finished < ? AND NOT expired", latest):
             self.result(job).unlink(missing_ok=True)
             with self._change() as run:
-                self._move(run, job, "NOT expired", expired=1, call=b"", size=0, message="Its result has expired.")
+                self._move(run, job, "NOT expired", message="Its result has expired.", expired=EXPIRED, **GONE)
                 run.execute("UPDATE removals SET made = made + 1")
         gone = [job for (job,) in self._read("SELECT id FROM jobs WHERE finished < ?", latest - days * DAY)]
         if gone:

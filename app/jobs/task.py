@@ -12,7 +12,7 @@ from app.questions.registry import CALLS
 from app.settings import Settings
 from app.wire.faults import in_body, in_query, refused
 from app.wire.problem import Problem
-from app.wire.question import Terms
+from app.wire.question import UNKNOWN_COST, Call, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget
 
@@ -41,3 +41,11 @@ class Task:
         except BenchDragonError as error:
             item = in_query if call.method == "GET" else in_body(self.request)
             return refused(reworded(error, asked), item)
+
+
+def cost_of(call: Call, request: Wire, form: str) -> float:
+    """Estimated time of the answer to a call [s], from which the order of jobs follows; a job may find it wrong."""
+    try:
+        return call.question.estimate(request, form)
+    except BenchDragonError:  # Its job will fail with this error.
+        return UNKNOWN_COST

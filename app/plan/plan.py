@@ -14,7 +14,7 @@ import matplotlib
 from matplotlib.backends.backend_pdf import PdfPages
 
 import core
-from app.files.drawing import DRAWING
+from app.files.drawing import in_turn
 from app.files.words import Say
 from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_legend, scale_for
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
@@ -58,19 +58,23 @@ def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda sh
     """
     scale = scale_for(plan.ground, plan.paper)
     sink = io.BytesIO()
-    with DRAWING, matplotlib.rc_context({"font.family": plan.family, **FONTS}):
-        pages = [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
-        told = {"Title": plan.title.title, "Creator": "Bench Dragon", "CreationDate": None}
-        with PdfPages(sink, metadata=told) as file:
-            for k, page in enumerate(pages, start=1):
-                cell = title_block(page.sheet, plan.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
-                if page.scale is not None:
-                    draw_legend(page.sheet, plan.ground, *cell, MARGIN, benches=page.benches)
-                else:
-                    _notes(page.sheet, plan, *cell)
-                file.savefig(page.sheet.figure)
-                progress(k / len(pages))
-    return sink.getvalue()
+
+    def drawn() -> bytes:
+        with matplotlib.rc_context({"font.family": plan.family, **FONTS}):
+            pages = [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
+            told = {"Title": plan.title.title, "Creator": "Bench Dragon", "CreationDate": None}
+            with PdfPages(sink, metadata=told) as file:
+                for k, page in enumerate(pages, start=1):
+                    cell = title_block(page.sheet, plan.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
+                    if page.scale is not None:
+                        draw_legend(page.sheet, plan.ground, *cell, MARGIN, benches=page.benches)
+                    else:
+                        _notes(page.sheet, plan, *cell)
+                    file.savefig(page.sheet.figure)
+                    progress(k / len(pages))
+        return sink.getvalue()
+
+    return in_turn(drawn)
 
 
 def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:

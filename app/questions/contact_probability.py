@@ -11,7 +11,7 @@ import core
 from app.questions.tolerance import CircleQuery, SpanOrCircle, span_asked
 from app.wire.answers import Pair
 from app.wire.dances import DanceFields
-from app.wire.question import Answer, Question, Terms, Whole, Wire, check_limit, measure
+from app.wire.question import UNKNOWN_COST, Answer, Question, Terms, Whole, Wire, check_limit, measure
 from core.tolerance.chance import CONFIDENCE, SEED_MAX
 
 # Quantiles of the times of first contact in the answer [1].
@@ -107,4 +107,12 @@ def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityReque
     return ContactProbability.known(found, confidence=CONFIDENCE, time_quantiles=quantiles, benches=benches)
 
 
-QUESTION = Question(contact_probability, ContactProbability, body=ContactProbabilityRequest)
+# Time of one dance that is drawn, of the default dragon, measured 2026-11-26 [s].
+SECONDS_PER_SAMPLE = 0.015
+
+
+def _cost(asked: ContactProbabilityRequest) -> float:
+    return max(UNKNOWN_COST, SECONDS_PER_SAMPLE * asked.samples)
+
+
+QUESTION = Question(contact_probability, ContactProbability, body=ContactProbabilityRequest, cost=_cost)

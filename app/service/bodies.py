@@ -15,7 +15,8 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from starlette.types import Message
 
-from app.service.middleware import LARGE, Handler, Lanes, watched
+from app.service.lanes import Lanes, client_of, watched
+from app.service.middleware import LARGE, Handler
 from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
 from app.settings import Settings
@@ -101,7 +102,7 @@ class BodyRoute(WatchedRoute):
                 words = "The body must hold at most {most} objects and lists, got about {parts}."
                 raise Refused(422, words, {"pointer": ""}, most=settings.parts_max, parts=parts)
             lanes: Lanes = request.app.state.lanes
-            with lanes.large_bodies.taken(LARGE_COST):
+            with lanes.large_bodies.taken(LARGE_COST, client_of(request)):
                 # Threads separate from those that answer small requests.
                 return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
 

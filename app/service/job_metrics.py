@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from prometheus_client.core import GaugeMetricFamily
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from prometheus_client.registry import Collector
 
 from app.jobs.job import JobState
@@ -12,26 +12,38 @@ from app.jobs.keeper import Keeper
 
 
 class JobMetrics(Collector):
-    """Number of jobs in each state, and progress of unfinished sweeps."""
+    """Number of jobs in each state, how full the store is, and progress of unfinished sweeps."""
 
     def __init__(self, keeper: Callable[[], Keeper | str]) -> None:
         """keeper: function that gives the keeper of this process, or the reason why there is none"""
         self._keeper = keeper
 
-    def describe(self) -> list[GaugeMetricFamily]:
+    def describe(self) -> list[Metric]:
         """Empty, because a registry must not ask for the jobs before the service has started."""
         return []
 
-    def collect(self) -> Iterator[GaugeMetricFamily]:
+    def collect(self) -> Iterator[Metric]:
         keeper = self._keeper()
         if isinstance(keeper, str):
             return
-        counts, done, total = keeper.store.counts()
+        counts, limits = keeper.store.counts(), keeper.settings
         states = GaugeMetricFamily("bench_dragon_jobs", "Jobs that are kept", labels=["state"])
         for state in JobState:
-            states.add_metric([state], counts.get(state, 0))
+            states.add_metric([state], counts.states.get(state, 0))
         yield states
-        yield GaugeMetricFamily("bench_dragon_sweep_designs", "Designs of unfinished sweeps", value=total)
-        yield GaugeMetricFamily("bench_dragon_sweep_designs_done", "Answered designs of unfinished sweeps", value=done)
         shards = sum(1 for _ in keeper.store.sweeps.glob("*/part-*"))
-        yield GaugeMetricFamily("bench_dragon_sweep_shards", "Files of unfinished sweeps", value=shards)
+        values = {
+            "jobs_kept": ("Jobs that are kept, of all clients", counts.kept),
+            "jobs_kept_limit": ("Most jobs that are kept", limits.jobs_max),
+            "jobs_kept_of_client": ("Jobs that are kept of the client that has most", counts.of_client),
+            "jobs_kept_of_client_limit": ("Most jobs that are kept of one client", limits.jobs_client_kept_max),
+            "jobs_bytes": ("Size of the requests and results of all jobs", counts.used),
+            "jobs_bytes_limit": ("Size from which older jobs give way", limits.jobs_bytes_max),
+            "sweep_designs": ("Designs of unfinished sweeps", counts.total),
+            "sweep_designs_done": ("Answered designs of unfinished sweeps", counts.done),
+            "sweep_shards": ("Files of unfinished sweeps", shards),
+        }
+        for name, (words, value) in values.items():
+            yield GaugeMetricFamily(f"bench_dragon_{name}", words, value=value)
+        words = "Finished jobs whose results gave way to newer jobs"
+        yield CounterMetricFamily("bench_dragon_jobs_gave_way", words, value=counts.gave_way)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import difflib
 import logging
+import math
 import os
 import re
 import sqlite3
@@ -21,9 +22,19 @@ from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.types import Receive, Scope, Send
 
-from app.jobs.job import ID_PATTERN, SWEEP, Full, FullForClient, FullOfBytes, Job, JobState
+from app.jobs.job import (
+    GAVE_WAY,
+    ID_PATTERN,
+    SWEEP,
+    Full,
+    FullForClient,
+    FullOfBytes,
+    Job,
+    JobState,
+    KeptByClient,
+)
 from app.jobs.keeper import Keeper
-from app.jobs.task import Task
+from app.jobs.task import Task, cost_of
 from app.questions.registry import CALLS, QUESTIONS
 from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
@@ -38,7 +49,7 @@ from app.service.job_bodies import (
     pointer_in_sweep,
     status,
 )
-from app.service.middleware import client_of, limit
+from app.service.lanes import client_of, limit
 from app.service.problems import Refused, answer_of, problem
 from app.service.reply import RESPOND_ASYNC, form_of
 from app.service.token import TOKEN, WITHOUT, guard
@@ -48,7 +59,7 @@ from app.wire.faults import in_body, unfit
 from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, shown
 from core import BenchDragonError
-from core.errors import Given
+from core.errors import Given, Quantity
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -74,7 +85,7 @@ PROBLEMS = routes.PROBLEMS | {
     409: "The job is not finished",
     410: "The result is removed, or there will be none",
     422: "A value is outside its limits, or a name is unknown",
-    429: "This client has reached its limit of unfinished jobs",
+    429: "This client has reached its limit of unfinished or kept jobs",
     503: "No more jobs are accepted now",
     507: "The data folder is full",
 }
@@ -101,21 +112,13 @@ def fault_of(jobs: Keeper | str) -> str:
     return ""
 
 
-def take(request: Request, task: Task) -> Response:
-    """A new job. raises: Refused if there is no room"""
+def take(request: Request, task: Task, cost: float) -> Response:
+    """A new job. cost: estimated time of its run [s]; raises: Refused if there is no room"""
     keeper = keeper_of(request)
-    limits = keeper.settings
     try:
-        job = keeper.store.create(task.call, task.to_bytes(), client_of(request), limits)
-    except FullForClient as error:
-        words, most = "Your limit of {most} is reached", limit(limits.jobs_client_max, "unfinished job")
-        raise Refused(429, words, None, COME_AGAIN, reason="wait for one, or dismiss it.", most=most) from error
-    except FullOfBytes as error:
-        detail = "The kept jobs take all the room that they may have: remove those that you do not need."
-        raise Refused(507, detail) from error
+        job = keeper.store.create(task.call, task.to_bytes(), client_of(request), keeper.settings, cost)
     except Full as error:
-        words, most = "The limit of {most} is reached", limit(limits.jobs_max, "kept job")
-        raise Refused(503, words, None, COME_AGAIN, reason="remove some, or try again later.", most=most) from error
+        raise full(error, keeper.settings) from error
     except OSError as error:
         logger.error("The store of the jobs failed: %s", error.strerror)
         words = "This service takes no jobs now: the store of the jobs failed."
@@ -126,10 +129,32 @@ def take(request: Request, task: Task) -> Response:
     return Response(status(job, root), 202, headers, JSON)
 
 
-def later(request: Request, task: Task) -> Response:
+def full(error: Full, limits: Settings) -> Refused:
+    """The refusal of a job for which there is no room, with the time after which there will be some."""
+    after, values, again = {}, dict[str, Any](), "."
+    if math.isfinite(error.seconds):
+        values["seconds"], again = Quantity(max(math.ceil(error.seconds), 1), "s"), ", or try again in {seconds}."
+        after = {"Retry-After": str(values["seconds"].value)}
+    values["reason"] = f"none gives way to yours yet; remove some{again}"
+    match error:
+        case FullForClient():
+            values |= {"most": limit(limits.jobs_client_max, "unfinished job")}
+            values["reason"] = f"wait for one, or dismiss it{again}"
+            return Refused(429, "Your limit of {most} is reached", None, after, **values)
+        case KeptByClient():
+            values |= {"most": limit(limits.jobs_client_kept_max, "kept job")}
+            values |= {"bytes": Quantity(limits.jobs_client_bytes_max, "bytes")}
+            return Refused(429, "Your limit of {most} and {bytes} is reached", None, after, **values)
+        case FullOfBytes():
+            return Refused(507, "The kept jobs take all the room that they may have", None, after, **values)
+    values |= {"most": limit(limits.jobs_max, "kept job")}
+    return Refused(503, "The limit of {most} is reached", None, after or COME_AGAIN, **values)
+
+
+def later(request: Request, task: Task, cost: float) -> Response:
     """A new job for a question whose client prefers a job. raises: Refused"""
     guard(request)
-    return take(request, task)
+    return take(request, task, cost)
 
 
 async def store_problem(request: Request, error: Exception) -> Response:
@@ -204,11 +229,11 @@ def ask_later(
         accept = format_of(values.pop("format"), call.question.formats)
     form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
-        call.asked.model_validate(values)
+        checked = call.asked.model_validate(values)
     except ValidationError as error:
         found = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
         return answer_of(unfit(found, call.asked, in_body(values, "/request")))
-    return take(request, Task(call.name, values, form))
+    return take(request, Task(call.name, values, form), cost_of(call, checked, form))
 
 
 @asking.post(
@@ -228,7 +253,7 @@ def sweep(request: Request, wanted: Annotated[SweepRequest, Body(examples=[SWEEP
     except BenchDragonError as error:
         place = pointer_in_sweep(error.field, wanted)
         return problem(422, error.code, error, [item_of(error, pointer=place)])
-    return take(request, Task(SWEEP, spec.model_dump(mode="json"), form))
+    return take(request, Task(SWEEP, spec.model_dump(mode="json"), form), spec.designs * spec.asks.seconds)
 
 
 def format_of(value: Any, formats: type[FileFormat]) -> str:
@@ -287,6 +312,7 @@ def result(keeper: KeptKeeper, found: Found) -> Response:
                 return LargeResult(file, headers=NOT_KEPT, media_type=found.media_type)
             return Response(file.read_bytes(), headers=NOT_KEPT, media_type=found.media_type)
     why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
+    why = "The result gave way to newer jobs" if found.expired == GAVE_WAY else why
     raise Refused(410, f"{why}: there is no result, ask the question again.")
 
 

@@ -32,6 +32,7 @@ from app.service.bodies import refuse_query
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
 from app.service.job_metrics import JobMetrics
+from app.service.lanes import Lanes
 from app.service.pages import add_pages
 from app.service.reply import Glances, KeptAnswers
 from app.service.version import VERSION, build
@@ -152,6 +153,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
             *map(Middleware, (layers.OriginForm, layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
             Middleware(layers.Metrics, registry=registry),
             Middleware(layers.Mistakes),
+            Middleware(layers.Hosts, settings=settings),
             Middleware(layers.RequestLimits, settings=settings),
             Middleware(layers.JobCalls, settings=settings),
         ],
@@ -159,7 +161,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.settings = settings
     app.state.fault = "it has not run"
     app.state.jobs, app.state.later = "it has not started", jobs.later
-    app.state.lanes = layers.Lanes(settings, registry)
+    app.state.lanes = Lanes(settings, registry)
     app.state.glances = Glances()
     app.state.answers = KeptAnswers(settings.kept_bytes_max, registry)
     sys.setswitchinterval(SWITCH_SECONDS)

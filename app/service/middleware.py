@@ -1,37 +1,28 @@
-"""Layers around every call: target, body size, HEAD, security headers, internal errors, counts and times; and lanes.
-
-Lanes limit how many computations run at once, separately for cheap calls, heavy calls, workbooks and large bodies. No
-call waits in a lane: a full lane answers 503 with the time at which the first of its computations should be done, so
-that a heavy call never delays a cheap one. A computation ends at its deadline or when its client is gone.
-"""
+"""Layers around every call: target, host, body size, HEAD, security headers, internal errors, counts and times."""
 
 from __future__ import annotations
 
 import asyncio
 import logging
-import math
 import re
 import time
 import uuid
-from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
-from contextlib import asynccontextmanager, contextmanager
-from threading import Lock
+from collections.abc import Callable, Coroutine
 from typing import Any
 from urllib.parse import quote, unquote
 
 from fastapi import Request, Response
-from prometheus_client import CollectorRegistry, Counter, Gauge, Histogram
+from prometheus_client import CollectorRegistry, Counter, Histogram
 from starlette.datastructures import Headers
 from starlette.requests import ClientDisconnect
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.files.tables import XLSX_TYPE
 from app.logs import request_id
+from app.service.lanes import limit
 from app.service.problems import Refused, http_problem, server_problem
 from app.settings import Settings
-from core import Budget
+from app.wire.question import shown
 from core.errors import Quantity
-from core.shown import counted
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -39,12 +30,14 @@ SELF_ONLY = "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ance
 # Swagger UI uses inline styles and icons from data: addresses.
 DOCS_POLICY = f"{SELF_ONLY}; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
 CLOSE = {"Connection": "close"}
-# A target in absolute form, its path in group 1.
-ABSOLUTE = re.compile(rb"https?://[^/]+(/.*)?", re.IGNORECASE)
+# A target in absolute form, its host and its path.
+ABSOLUTE = re.compile(rb"https?://([^/]+)(/.*)?", re.IGNORECASE)
+# A host with or without a port, its name in group 1.
+HOST = re.compile(r"([a-z0-9.-]+|\[[0-9a-f:.]+\])(?::[0-9]{1,5})?")
+# Calls that answer under any host.
+PROBES = ("/healthz", "/readyz")
 # A name that a client may give its request.
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
-# Longest estimated time of a cheap answer [s].
-CHEAP = 0.1
 # Calls about jobs that wait for the disk at once in one process, and those that wait for their turn: more are refused.
 JOB_CALLS, JOB_CALLS_WAITING = 4, 200
 # Larger bodies are read and answered in a thread of their own [bytes]; smaller ones take under 2 ms to read.
@@ -122,13 +115,43 @@ class RequestLimits(Layer):
 
 
 class OriginForm(Layer):
-    """Takes the target in absolute form as in origin form: GET http://host/turn as GET /turn (RFC 9112, 3.2.2)."""
+    """Takes the target in absolute form as in origin form: GET http://host/turn as GET /turn (RFC 9112, 3.2.2).
+
+    Its host then takes the place of the header Host.
+    """
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         if found := ABSOLUTE.fullmatch(scope["raw_path"]):
-            path = found[1] or b"/"
-            scope = {**scope, "raw_path": path, "path": unquote(path.decode("ascii"))}
+            host, path = found[1], found[2] or b"/"
+            headers = [(b"host", host), *(one for one in scope["headers"] if one[0] != b"host")]
+            scope = {**scope, "raw_path": path, "path": unquote(path.decode("ascii")), "headers": headers}
         await self.app(scope, receive, send)
+
+
+class Hosts(Layer):
+    """Answers 421 to a request for a host that the service is not, if a setting names those that it is.
+
+    A page of a stranger can give its own name the address of this machine (DNS rebinding); its requests come under that
+    name. Probes of health ask by whatever address there is, and their answers hold nothing.
+    """
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        super().__init__(app)
+        self.names = frozenset(settings.hosts.split(",")) if settings.hosts else None
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if self.names is None or scope["path"] in PROBES or self._name(scope) in self.names:
+            return await self.app(scope, receive, send)
+        words = "This service is not {host}: ask it under one of its names."
+        got = Headers(scope=scope).get("host", "")
+        refused = Refused(421, words, {"name": "Host"}, CLOSE, host=shown(got) if got else "a host without a name")
+        return await (await http_problem(Request(scope), refused))(scope, receive, send)
+
+    @staticmethod
+    def _name(scope: Scope) -> str:
+        """The host that is asked, without its port; empty if it is none."""
+        match = HOST.fullmatch(Headers(scope=scope).get("host", "").lower())
+        return match[1].rstrip(".") if match else ""
 
 
 class RequestId(Layer):
@@ -278,115 +301,3 @@ class Metrics(Layer):
             path = getattr(scope.get("route"), "path", "other")
             self.requests.labels(path, status).inc()
             self.seconds.labels(path).observe(time.perf_counter() - started)
-
-
-def client_of(request: Request) -> str:
-    """Address of the client; a proxy on this machine gives it in X-Forwarded-For."""
-    return request.client.host if request.client else ""
-
-
-class Deadline(Quantity):
-    """The longest time of an answer, as the end of an error's sentence."""
-
-    def __str__(self) -> str:
-        return f"within {super().__str__()}, the time that one answer may take here"
-
-
-def limit(most: int, thing: str) -> Quantity:
-    """A limit of the service in a sentence, such as 2 unfinished jobs."""
-    return Quantity(most, "", shown=counted(most, thing))
-
-
-class Lane:
-    """A limit on simultaneous computations, in total and for each client."""
-
-    def __init__(
-        self, name: str, most: int, of_client: int, retry_after: int, running: Gauge, refused: Counter
-    ) -> None:
-        self.name, self.most, self.of_client, self.retry_after = name, most, of_client, retry_after
-        self._running, self._refused = running.labels(name), refused.labels(name)
-        self._lock = Lock()
-        # For each computation: its beginning [s], its estimated time [s], and its client.
-        self._begun: dict[object, tuple[float, float, str]] = {}
-
-    @contextmanager
-    def taken(self, cost: float, client: str = "") -> Iterator[None]:
-        """A place in the lane. cost: estimated time for which it is needed [s]. raises: Refused (429, 503)"""
-        key = object()
-        with self._lock:
-            own = [one for one in self._begun.values() if one[2] == client]
-            if len(self._begun) >= self.most:
-                raise self._full(503, "The", self.most, self._begun.values())
-            if client and len(own) >= self.of_client:
-                raise self._full(429, "Your", self.of_client, own)
-            self._begun[key] = (time.monotonic(), cost, client)
-        self._running.inc()
-        try:
-            yield
-        finally:
-            self._running.dec()
-            with self._lock:
-                del self._begun[key]
-
-    def _full(self, status: int, whose: str, most: int, begun: Iterable[tuple[float, float, str]]) -> Refused:
-        """A refusal with the expected end of the first computation; a late one is expected to take as long again."""
-        self._refused.inc()
-        now = time.monotonic()
-        left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
-        seconds = max(self.retry_after, math.ceil(min(left)))
-        told = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
-        words, after = f"{whose} limit of {{most}} at once is reached", {"Retry-After": str(seconds)}
-        return Refused(status, words, None, after, reason="try again in {seconds}.", **told)
-
-
-class Lanes:
-    """The lanes of one process."""
-
-    def __init__(self, settings: Settings, registry: CollectorRegistry) -> None:
-        labels = ("lane",)
-        running = Gauge(
-            "bench_dragon_computations", "Computations running", labels, registry=registry, multiprocess_mode="livesum"
-        )
-        refused = Counter("bench_dragon_refused", "Computations refused by a full lane", labels, registry=registry)
-        self.stopped = Counter("bench_dragon_stopped", "Computations ended early", ("reason",), registry=registry)
-
-        def lane(name: str, most: int, of_client: int) -> Lane:
-            return Lane(name, most, of_client, settings.retry_after, running, refused)
-
-        self._cheap = lane("cheap", settings.cheap_max, settings.cheap_max)
-        self._heavy = lane("heavy", settings.heavy_max, settings.heavy_client_max)
-        self._workbook = lane("workbook", settings.workbooks_max, settings.workbooks_max)
-        self.files = lane("file", settings.readers_max, settings.readers_max)
-        self.large_bodies = lane("large body", settings.large_bodies_max, settings.large_bodies_max)
-
-    def of(self, cost: float, media_type: str) -> Lane:
-        """The lane of a computation. cost: its estimated time [s]"""
-        if media_type == XLSX_TYPE:
-            return self._workbook
-        return self._cheap if cost <= CHEAP else self._heavy
-
-
-@asynccontextmanager
-async def watched(request: Request, seconds: float) -> AsyncIterator[None]:
-    """Context in which the request has a budget, which is stopped after `seconds` and when the client is gone."""
-    await request.body()  # After the body, the only message is the end of the connection.
-    request.state.budget = Budget()
-    task = asyncio.create_task(_watch(request, seconds, request.state.budget))
-    try:
-        yield
-    finally:
-        task.cancel()
-
-
-async def _watch(request: Request, seconds: float, budget: Budget) -> None:
-    lanes: Lanes = request.app.state.lanes
-    try:
-        async with asyncio.timeout(seconds):
-            while (await request.receive())["type"] != "http.disconnect":
-                pass
-    except TimeoutError:
-        lanes.stopped.labels("deadline").inc()
-        budget.stop(Deadline(seconds, "s", 6))
-    else:
-        lanes.stopped.labels("client gone").inc()
-        budget.stop("before its client was gone")

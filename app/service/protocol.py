@@ -22,6 +22,9 @@ from core.errors import Quantity
 # Size of the pieces in which chunked bodies are read, with other work in between [bytes]: 700 chunks of one byte, 6 ms.
 PIECE = 4096
 
+# Time in which the first request of a connection must come when the service ends [s].
+FIRST_SECONDS = 0.5
+
 # Read once, because reading the environment takes 2 ms and a connection may ask only one question.
 _settings = cache(Settings)
 
@@ -49,7 +52,7 @@ class Protocol(H11Protocol):
         super().__init__(*given, **named)
         self.settings = _settings()
         self.left = bytearray()
-        self._owed = ""
+        self._owed, self._leaves = "", False
         self._owing: TimerHandle | None = None
         self._stalled: TimerHandle | None = None
 
@@ -100,6 +103,22 @@ class Protocol(H11Protocol):
     def on_response_complete(self) -> None:
         super().on_response_complete()
         self._watch()
+
+    def shutdown(self) -> None:
+        """End the connection when its answer is sent. A new one may still send its first request.
+
+        Its client, such as a proxy, has begun to send it, and may not send it again elsewhere.
+        """
+        if self.cycle is None and not self.transport.is_closing():
+            self._leaves = True
+            self.loop.call_later(FIRST_SECONDS, super().shutdown)
+        else:
+            super().shutdown()
+
+    def handle_events(self) -> None:
+        super().handle_events()
+        if self._leaves and self.cycle is not None:
+            self.cycle.keep_alive = False
 
     def pause_writing(self) -> None:
         super().pause_writing()

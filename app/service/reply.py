@@ -26,9 +26,10 @@ from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.responses import StreamingResponse
 
-from app.jobs.task import Task
+from app.jobs.task import Task, cost_of
 from app.questions.registry import CALLS
-from app.service.middleware import CHEAP, Handler, Lanes, client_of, watched
+from app.service.lanes import CHEAP, Lanes, client_of, watched
+from app.service.middleware import Handler
 from app.service.problems import Refused
 from app.service.version import build
 from app.settings import Settings
@@ -156,7 +157,7 @@ class Reply:
         self._glances: Glances = state.glances
         self._answers: KeptAnswers = state.answers
         self._least_cost = 0.0  # known from a first try [s]
-        self._later: Callable[[Request, Task], Response] = state.later
+        self._later: Callable[[Request, Task, float], Response] = state.later
 
     async def to_query(self, call: Call, asked: Wire, *form: FileFormat) -> Response:
         """The answer to a request without a body: at once if it should be quick, else from a thread."""
@@ -210,7 +211,7 @@ class Reply:
                 return Response(status_code=304, headers={**headers, "ETag": one})
         if self._comes_later:
             given = asked.model_dump(mode="json", exclude_unset=True)
-            return self._later(self.request, Task(call.name, given, media_type))
+            return self._later(self.request, Task(call.name, given, media_type), cost_of(call, asked, media_type))
         data: bytes | Iterator[bytes] | None = self._answers.get(tag)
         if data is None:
             data = self._computed(call, asked, media_type)

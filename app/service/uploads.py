@@ -21,7 +21,8 @@ from app.maps.places import Places, read_places
 from app.questions.maps import FORMS
 from app.service.bodies import WatchedRoute, content_type, has_body, refuse_coded
 from app.service.graders import Graders
-from app.service.middleware import CLOSE, Lanes, client_of
+from app.service.lanes import Lanes, client_of
+from app.service.middleware import CLOSE
 from app.service.problems import Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard

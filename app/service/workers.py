@@ -20,16 +20,18 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
-from tempfile import TemporaryDirectory, TemporaryFile
+from tempfile import TemporaryFile
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 import uvicorn
 from uvicorn.supervisors import Multiprocess
 
+from app.files.fonts import kept_list
+from app.files.scratch import temporary
 from app.jobs.keeper import scratch
 from app.logs import log_config
-from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, unknown_variables, usable_cores
+from app.settings import DATA, SHARED_COUNTS, WORKERS_MAX, Settings, refuse_open_port, unknown_variables, usable_cores
 from app.start import importing
 from core import InvalidValue
 from core.errors import Given
@@ -108,6 +110,13 @@ class _Supervisor(Multiprocess):
         signal.signal(signal.SIGINT, handler)
         self._close_their_ends()
 
+    def terminate_all(self) -> None:
+        # Otherwise connections would wait at this socket for processes that accept none, and be reset in the end. A
+        # client whose connection is refused can ask another service.
+        for shared in self.sockets:
+            shared.close()
+        super().terminate_all()
+
     def _close_their_ends(self) -> None:
         for process in self.processes:
             process.child_conn.close()
@@ -137,7 +146,7 @@ def _counts_folder(workers: int) -> Iterator[str | None]:
     """
     with ExitStack() as kept:
         try:
-            folder = kept.enter_context(TemporaryDirectory(prefix="bench-dragon-"))
+            folder = kept.enter_context(temporary("counts-"))
             with TemporaryFile(dir=folder, buffering=0) as room:
                 for _ in range(workers):
                     if room.write(bytes(COUNTS_BYTES)) < COUNTS_BYTES:
@@ -200,9 +209,11 @@ def create_child_app() -> FastAPI:
 def serve(host: str, port: int, workers: int) -> None:
     """Serve until interrupted, in one process or in several.
 
-    raises: OSError when the port is taken or the address is not local; with one process uvicorn reports it and exits
+    raises: OSError when the port is taken or the address is not local; with one process uvicorn reports it and exits;
+        InvalidValue for a port of a container that is open without a token
     """
     settings = Settings()
+    refuse_open_port(settings)
     logging.captureWarnings(settings.log_json)
     given: dict[str, Any] = {
         "factory": True,
@@ -223,6 +234,7 @@ def serve(host: str, port: int, workers: int) -> None:
         return
     config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **given)
     with listen(host, port) as shared, _counts_folder(workers) as counts, ExitStack() as stack:
+        stack.enter_context(kept_list())
         if settings.data is None:
             os.environ[DATA] = stack.enter_context(scratch())
         if counts:  # The folder in which processes add up the counts of /metrics; prometheus_client reads the variable.

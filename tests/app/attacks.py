@@ -18,6 +18,8 @@ from tests.app.bombs import GRADES, MAPS
 
 Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
 ATTACKS: dict[str, Attack] = {}
+# Longest wait for a short job beside long ones [s].
+JOB_SECONDS = 20.0
 # An error is short [bytes].
 ERROR_BYTES = 20_000
 
@@ -35,13 +37,15 @@ def ask(
     timeout: float = 30.0,
     accept: str = "*/*",
     kind: str = "application/json",
+    client: str = "",
+    host: str = "",
 ) -> tuple[int, bytes]:
-    """Status and body of one answer."""
-    connection = http.client.HTTPConnection(urlsplit(url).netloc, timeout=timeout)
+    """Status and body of one answer. client: the address from which to ask; host: another one than that of the URL"""
+    place = (client, 0) if client else None
+    connection = http.client.HTTPConnection(urlsplit(url).netloc, timeout=timeout, source_address=place)
     try:
-        connection.request(
-            method, path, body, {"Accept": accept} | ({"Content-Type": kind} if body is not None else {})
-        )
+        headers = {"Accept": accept} | ({"Host": host} if host else {})
+        connection.request(method, path, body, headers | ({"Content-Type": kind} if body is not None else {}))
         response = connection.getresponse()
         return response.status, response.read()
     finally:
@@ -220,6 +224,58 @@ def half_open(url: str, seconds: float) -> None:
     finally:
         for peer in peers:
             peer.close()
+
+
+def make_job(url: str, wanted: object, client: str) -> str:
+    """Address of a new job of a client; empty if there is no room."""
+    status, answer = ask(url, "POST", "/jobs", json.dumps(wanted).encode(), client=client)
+    assert status in (202, 429, 503), (status, answer[:300])
+    return f"/jobs/{json.loads(answer)['jobID']}" if status == http.client.ACCEPTED else ""
+
+
+@attack
+def full_store(url: str, seconds: float) -> None:
+    """A client that makes small jobs as long as it may; another one must still get its answer, and keep it."""
+    end, wanted = time.monotonic() + seconds, {"question": "turn", "request": {}}
+    theirs = make_job(url, wanted, "127.0.0.8")
+    while time.monotonic() < end:
+        if not make_job(url, wanted, "127.0.0.7"):
+            time.sleep(0.05)  # Its jobs wait for one another.
+    answered(url, theirs, "127.0.0.8")
+    assert make_job(url, wanted, "127.0.0.9")
+
+
+@attack
+def long_jobs(url: str, seconds: float) -> None:
+    """Eight jobs of minutes each, and a short one of another client, which must be answered meanwhile."""
+    endless = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0.0}
+    wanted = {"question": "minimum_pitch", "request": endless}
+    made = [make_job(url, wanted, "127.0.0.7") for _ in range(8)]
+    try:
+        answered(url, make_job(url, {"question": "turn", "request": {}}, "127.0.0.8"), "127.0.0.8")
+        time.sleep(min(seconds, 2.0))
+    finally:
+        for job in filter(None, made):
+            ask(url, "DELETE", job, client="127.0.0.7")
+
+
+def answered(url: str, job: str, client: str) -> None:
+    """Wait until a job has its answer, for JOB_SECONDS at most."""
+    end = time.monotonic() + JOB_SECONDS
+    while (status := ask(url, "GET", f"{job}/result", client=client)[0]) != http.client.OK:
+        assert status == http.client.CONFLICT, (job, status)
+        assert time.monotonic() < end, f"{job} was not answered within {JOB_SECONDS} s"
+        time.sleep(0.05)
+
+
+@attack
+def strange_hosts(url: str, seconds: float) -> None:
+    """Names of hosts that are long, odd or of somebody else; a service that knows its names refuses them."""
+    for host in ("evil.example", "a" * 30_000, "localhost@evil.example", "[::1", "%00", "dance.example:99999999", "*"):
+        for path in ("/turn", "/nothing", "/jobs"):
+            status, answer = ask(url, "GET", path, host=host)
+            assert status in (200, 400, 403, 404, 421), (host[:50], status)
+            assert status == http.client.OK or len(answer) < ERROR_BYTES
 
 
 @dataclass

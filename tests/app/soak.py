@@ -30,7 +30,10 @@ SPAWN = multiprocessing.get_context("spawn")
 
 
 def ordinary_clients(url: str, seconds: float, statuses: SimpleQueue[int]) -> None:
-    """Clients that ask again as soon as they are answered: quick questions, and one in eight a heavy one."""
+    """Clients that ask again as soon as they are answered, each from an address of its own.
+
+    They ask quick questions, and one in eight times a heavy one.
+    """
     end = time.monotonic() + seconds
 
     def client(number: int) -> None:
@@ -40,7 +43,8 @@ def ordinary_clients(url: str, seconds: float, statuses: SimpleQueue[int]) -> No
             pitch = 0.45 + 1e-7 * (asked * CONNECTIONS + number)
             heavy = f"/minimum-pitch?turning_diameter={9.0 + pitch:.9f}"
             try:
-                status, _ = ask(url, "GET", heavy if asked % 8 == 0 else f"/collision-time?pitch={pitch:.9f}")
+                path = heavy if asked % 8 == 0 else f"/collision-time?pitch={pitch:.9f}"
+                status, _ = ask(url, "GET", path, client=f"127.0.1.{1 + number}")
             except OSError:
                 status = 0
             statuses.put(status)
@@ -92,9 +96,9 @@ def all_at_once(url: str, pid: int, seconds: float) -> list[tuple[float, ...]]:
         seen = Counter[int]()
         while not statuses.empty():
             seen[statuses.get()] += 1
-        other_statuses = sum(count for status, count in seen.items() if status not in {200, 503})
+        other_statuses = sum(count for status, count in seen.items() if status not in {200, 429, 503})
         slowest = (watch.slowest["/healthz"], watch.slowest["/collision-time"])
-        rows.append((now + step, memory(pid), seen[200], seen[503], other_statuses, *slowest))
+        rows.append((now + step, memory(pid), seen[200], seen[429] + seen[503], other_statuses, *slowest))
         print(*(f"{value:8.3g}" if value < 100 else f"{value:8.0f}" for value in rows[-1]), flush=True)
         for failure in watch.failures[:2]:
             print("  one more client:", failure)
@@ -115,7 +119,7 @@ def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
     above.plot(minutes, megabytes)
     above.set_ylabel("memory [MB]")
     middle.plot(minutes, [count / step for count in answered], label="200")
-    middle.plot(minutes, [count / step for count in busy], label="503 with Retry-After")
+    middle.plot(minutes, [count / step for count in busy], label="429 or 503 with Retry-After")
     middle.set_ylabel("answers a second")
     below.plot(minutes, healthz, label="/healthz")
     below.plot(minutes, collision_time, label="/collision-time")
@@ -141,7 +145,7 @@ def soak(seconds: float, folder: Path) -> None:
         csv.writer(table).writerows([COLUMNS, *rows])
     draw(rows, folder / "soak.png")
     totals = [sum(column) for column in zip(*rows, strict=True)]
-    print(f"200: {totals[2]:.0f}, 503: {totals[3]:.0f}, anything else: {totals[4]:.0f}")
+    print(f"200: {totals[2]:.0f}, 429 or 503: {totals[3]:.0f}, anything else: {totals[4]:.0f}")
     print("tracebacks in the log of the service:", sum(line.startswith("Traceback") for line in lines))
 
 

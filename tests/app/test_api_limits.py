@@ -12,6 +12,7 @@ import pytest
 
 from app.files.tables import XLSX_TYPE
 from app.settings import Settings, unknown_variables
+from core import InvalidValue
 from tests.app.serving import serving
 
 BODY_BYTES_MAX = 1000
@@ -123,3 +124,9 @@ def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch: pytest.Mo
     said = "The environment variable {} is not a setting and has no effect"
     meant = said.format("BENCH_DRAGON_JOB_MAX") + "; did you mean BENCH_DRAGON_JOBS_MAX?"
     assert unknown_variables() == [meant, said.format("BENCH_DRAGON_SERVICE_HOST")]
+
+
+@pytest.mark.parametrize("name", ["dance.example:8000", "http://dance.example", "a,,b", "*", "a b"])
+def test_a_host_is_a_name_without_a_port(name: str) -> None:
+    with pytest.raises(InvalidValue, match="BENCH_DRAGON_HOSTS must be names of hosts without ports"):
+        Settings(hosts=name)

@@ -144,6 +144,42 @@ def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target:
     assert bodies[0] == bodies[1]
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_who_asks_for_another_host_is_refused_where_a_setting_names_the_hosts(tmp_path: Path, workers: int) -> None:
+    """A stranger's page can give its own name the address of this machine: its requests come under that name."""
+    with serving(tmp_path / "log", workers, hosts="Dance.Example., 192.0.2.7,[2001:db8::7]", token="secret") as service:
+        port = service.address[1]
+
+        def status(path: str, host: str | None, target: str = "") -> int:
+            line = "" if host is None else f"Host: {host}\r\n"
+            kind = "1.0" if host is None else "1.1"
+            answer = send(service, f"GET {target}{path} HTTP/{kind}\r\n{line}Connection: close\r\n\r\n".encode())
+            head, _, body = answer.partition(b"\r\n\r\n")
+            if b" 421 " in head[:20]:
+                assert PROBLEM.encode() in head
+                assert head.lower().count(b"x-content-type-options: nosniff") == 1
+                assert json.loads(body)["errors"][0]["name"] == "Host"
+            return int(head.split()[1])
+
+        ours = ("dance.example", f"DANCE.example.:{port}", "192.0.2.7", f"192.0.2.7:{port}", "[2001:db8::7]:80")
+        assert {status(path, host) for host in ours for path in ("/", "/turn", "/docs")} == {200}
+        strangers = ("evil.example", f"127.0.0.1:{port}", "localhost", "dance.example.evil.example", "x.dance.example")
+        strangers += ("dance.example:x", "dance.example@evil.example", "192.0.2.70", "[2001:db8::71]", "", None)
+        for path in ("/", "/turn", "/metrics", "/docs", "/openapi.json", "/page/main.js", "/jobs", "/nothing"):
+            assert {status(path, host) for host in strangers} <= {421, 400}, path
+        assert status("/turn", "evil.example") == status("/turn", None) == 421
+        # Probes come by any address.
+        assert {status(path, f"127.0.0.1:{port}") for path in ("/healthz", "/readyz")} == {200}
+        # The host of a target in absolute form counts, not the header.
+        assert status("/turn", "dance.example", "http://evil.example") == 421
+        assert status("/turn", "evil.example", f"http://dance.example:{port}") == 200
+
+
+def test_without_the_setting_any_host_is_served(held: Service) -> None:
+    answer = send(held, b"GET /turn HTTP/1.1\r\nHost: anything.example\r\nConnection: close\r\n\r\n")
+    assert answer.startswith(b"HTTP/1.1 200 ")
+
+
 @pytest.mark.parametrize(
     "body", [b'{"\\ud800":1}', b'{"dragon":{"a\\u0000":1}}', b'{"path":{"kind":"\\udc00"}}', b'["\\u0000"]']
 )
@@ -231,6 +267,34 @@ def test_a_client_has_only_so_many_heavy_computations_and_leaves_places_to_other
     assert "Your limit of 1 heavy computation at once is reached" in refused.json()["detail"]
     assert int(refused.headers["retry-after"]) >= 1
     assert answer.status_code == 200
+
+
+def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
+    """Of two heavy places, of two for files, and of two for large bodies."""
+    text, kind = b"word " * 3_999_000, {"Content-Type": "application/octet-stream"}
+    large = b'{"pitch": [' + b"0," * 1_900_000
+    with serving(tmp_path / "log", heavy_max=2, large_bodies_max=2, parts_max=10**8) as service:
+        with client_at("127.0.0.1") as client, client_at("127.0.0.2") as other, working(service, "127.0.0.1"):
+            refused = client.get(service.url + HEAVY)
+            assert (refused.status_code, "Your limit of 1 heavy computation" in refused.text) == (429, True)
+            assert other.get(f"{service.url}/maximum-head-speed?benches=20").status_code == 200
+
+        def post(address: str, path: str, body: bytes) -> tuple[int, str]:
+            with client_at(address) as client:
+                headers = kind if path == "/grade" else {"Content-Type": "application/json"}
+                answer = client.post(service.url + path, content=body, headers=headers)
+            return answer.status_code, answer.text
+
+        for path, body, lane in (("/grade", text, "file"), ("/check", large, "large body")):
+            with ThreadPoolExecutor() as threads:
+                mine = [threads.submit(post, "127.0.0.1", path, body) for _ in range(4)]
+                none = f'refused_total{{lane="{lane}"}} 0.0'
+                until(lambda none=none: none not in httpx.get(f"{service.url}/metrics").text)
+                theirs = threads.submit(post, "127.0.0.2", path, body).result()
+            statuses = [one.result()[0] for one in mine]
+            assert 429 in statuses, statuses
+            assert set(statuses) <= {200, 400, 422, 429}
+            assert theirs[0] in {200, 400, 422}, theirs
 
 
 @pytest.mark.parametrize("accept", ["*/*", CSV_TYPE])
@@ -331,6 +395,28 @@ def leaves(service: Service, stop: signal.Signals) -> None:
         until(lambda: not any(alive(pid) for pid in family))
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path: Path, workers: int) -> None:
+    """A proxy sends a request to another service if this one refuses the connection, not if it resets it."""
+    given: dict[str, Any] = {"workers": workers, "grace_seconds": 10}
+    with serving(tmp_path / "log", **given) as service, ExitStack() as peers:
+        until(lambda: service.log.read_text().count("startup complete") == workers)
+        busy, *new = (peers.enter_context(socket.create_connection(service.address, timeout=SOON)) for _ in range(4))
+        busy.sendall(f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+        until(lambda: computing(service) == 1)
+        service.process.terminate()
+        for peer in new:
+            peer.sendall(
+                b"POST /turn HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}"
+            )
+        for peer in new:
+            answer = b"".join(iter(lambda peer=peer: peer.recv(65536), b""))
+            assert answer.startswith(b"HTTP/1.1 200 ")
+        assert service.process.poll() is None
+        with pytest.raises(ConnectionRefusedError):
+            until(lambda: send(service, b"GET /healthz HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n") == b"never")
+
+
 def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
     head = "POST /{} HTTP/1.1\r\nHost: x\r\nContent-Type: {}\r\nContent-Length: {}\r\n"
     with serving(tmp_path / "log", token="correct horse", bodies_bytes_max=150_000) as service:
@@ -347,6 +433,23 @@ def test_bodies_are_judged_before_they_are_held(tmp_path: Path) -> None:
             assert b"The limit of 150000 bytes of bodies at once is reached: try again in 1 s." in refused
             assert httpx.post(f"{service.url}/check", json={"dragon": {"benches": 9}}).status_code == 200
         until(lambda: send(service, begun + b" " * 20_000).startswith(b"HTTP/1.1 400 "))
+
+
+def test_figures_whose_clients_leave_keep_no_file_open_in_each_thread(tmp_path: Path) -> None:
+    """matplotlib opens the two files of a font once for each thread that draws."""
+    with serving(tmp_path / "log") as service:
+
+        def leave(number: int) -> None:
+            with suppress(httpx.ReadTimeout):
+                httpx.get(f"{service.url}/figures/trajectory.png?time={number}", timeout=0.2)
+
+        with ThreadPoolExecutor(24) as clients:
+            list(clients.map(leave, range(240)))
+        until(lambda: httpx.get(f"{service.url}/figures/trajectory.png", timeout=SOON).status_code == 200)
+        files = [os.path.realpath(one) for one in Path(f"/proc/{service.process.pid}/fd").iterdir()]
+        fonts = [name for name in files if name.endswith(".ttf")]
+        assert fonts
+        assert len(fonts) == len(set(fonts))
 
 
 def test_a_service_whose_counts_were_removed_answers_and_replaces_its_processes(

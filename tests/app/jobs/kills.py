@@ -100,6 +100,8 @@ def survive(service: Service, kills: int, seed: int, pause: float = PAUSE, busy:
 if __name__ == "__main__":
     with (
         tempfile.TemporaryDirectory() as name,
-        Service(Path(name) / "data", workers=2, jobs_client_max=1000, deadline_seconds=600) as service,
+        Service(
+            Path(name) / "data", workers=2, jobs_client_max=1000, jobs_client_kept_max=1000, deadline_seconds=600
+        ) as service,
     ):
         survive(service, int(sys.argv[1]), int(sys.argv[2]))

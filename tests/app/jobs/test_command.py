@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import socketserver
 import subprocess
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -14,7 +16,7 @@ import pytest
 from app.jobs.places import OfService
 from core import BenchDragonError
 from tests.app import command
-from tests.app.jobs.service import SHORT, Service, direct
+from tests.app.jobs.service import ENDLESS, SHORT, Service, direct, wait_for
 
 TOKEN = "correct horse"
 
@@ -54,6 +56,30 @@ def test_a_job_is_listed_shown_answered_and_removed(service: Service, place: lis
     assert f"there is no job {job}" in gone.stderr.lower().replace('"', "")
 
 
+def test_all_jobs_or_the_old_ones_are_cancelled(service: Service, place: list[str]) -> None:
+    def listed() -> dict[str, str]:
+        return {job["jobID"]: job["status"] for job in service.client.get("/jobs").json()["jobs"]}
+
+    run("cancel", "--all", *place)
+    run("cancel", "--all", *place)
+    assert listed() == {}
+    old = service.post(SHORT)
+    service.finished(old)
+    time.sleep(2.0)
+    addresses = [service.post(ENDLESS), service.post(SHORT)]
+    service.finished(addresses[1])
+    kept = [address.rpartition("/")[2] for address in addresses]
+    assert run("cancel", "--older-than", "1h", *place).stdout == "0 jobs dismissed, 0 jobs removed\n"
+    created = service.status(old)["created"]
+    age = time.time() - datetime.fromisoformat(created).timestamp()
+    assert run("cancel", "--older-than", f"{age - 1:.3f}s", *place).stdout == "0 jobs dismissed, 1 job removed\n"
+    assert sorted(listed()) == sorted(kept)
+    assert run("cancel", "--all", *place).stdout == "1 job dismissed, 1 job removed\n"
+    assert listed() == {kept[0]: "dismissed"}
+    wait_for(lambda: not service.of("child"))
+    assert list((service.folder / "results").iterdir()) == []
+
+
 def test_a_result_goes_to_standard_output(service: Service) -> None:
     address = service.post(SHORT)
     service.finished(address)
@@ -70,8 +96,12 @@ def test_a_result_goes_to_standard_output(service: Service) -> None:
         (["list", "--url", "http://127.0.0.1:1"], "--url http://127.0.0.1:1 does not answer"),
         (["list", "--url", "http://127.0.0.1:x"], "--url http://127.0.0.1:x does not answer: nonnumeric port: 'x'"),
         (["list", "--url", "ftp://x"], "--url must begin with http:// or https://"),
+        (["cancel", "--data", "."], "give one of JOB, --all and --older-than"),
+        (["cancel", "a", "--all", "--data", "."], "give one of JOB, --all and --older-than"),
+        (["cancel", "--older-than", "7w", "--data", "."], "as in 7d, got 7w"),
+        (["cancel", "--older-than", "-7d", "--data", "."], "as in 7d, got -7d"),
     ],
-    ids=["nowhere", "no_folder", "both", "nobody", "no_port", "no_http"],
+    ids=["nowhere", "no_folder", "both", "nobody", "no_port", "no_http", "no_job", "all_and_one", "weeks", "negative"],
 )
 def test_what_is_wrong_is_one_line(arguments: list[str], words: str) -> None:
     done = run(*arguments)

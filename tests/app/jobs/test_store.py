@@ -7,6 +7,7 @@ import re
 import secrets
 import sqlite3
 import time
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
@@ -16,11 +17,12 @@ import orjson
 import pytest
 
 from app.jobs import store as stores
-from app.jobs.job import ID_PATTERN, Full, FullForClient, FullOfBytes, JobState
-from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, TABLES, Store
+from app.jobs.job import GAVE_WAY, ID_PATTERN, Full, FullForClient, FullOfBytes, JobState, KeptByClient
+from app.jobs.room import FRESH, Room, Row
+from app.jobs.store import DEATHS_MAX, EVENTS_KEPT, Store
 from app.settings import Settings
 
-ROOM = Settings(jobs_max=10, jobs_client_max=10, jobs_bytes_max=1_000)
+ROOM = Settings(jobs_max=10, jobs_client_max=10)
 PROBLEM = orjson.dumps({"detail": "It does not work."})
 
 
@@ -135,21 +137,24 @@ def test_only_the_latest_events_are_kept_under_their_numbers(store: Store) -> No
 
 
 @pytest.mark.parametrize(
-    ("room", "error"),
+    ("limits", "error"),
     [
-        (Settings(jobs_max=1, jobs_client_max=10, jobs_bytes_max=1_000), Full),
-        (Settings(jobs_max=10, jobs_client_max=1, jobs_bytes_max=1_000), FullForClient),
-        (Settings(jobs_max=10, jobs_client_max=10, jobs_bytes_max=6), FullOfBytes),
+        ({"jobs_max": 1}, Full),
+        ({"jobs_client_max": 1}, FullForClient),
+        ({"jobs_client_kept_max": 1}, KeptByClient),
+        ({"jobs_client_bytes_max": 6}, KeptByClient),
+        ({"jobs_bytes_max": 6}, FullOfBytes),
     ],
-    ids=["jobs", "of_client", "bytes"],
+    ids=["jobs", "unfinished_of_client", "kept_of_client", "bytes_of_client", "bytes"],
 )
-def test_no_job_is_taken_where_there_is_no_room(store: Store, room: Settings, error: type[Full]) -> None:
-    job = make(store)
+def test_no_job_is_taken_where_there_is_no_room(store: Store, limits: dict[str, int], error: type[Full]) -> None:
+    job, room = make(store), Settings(**limits)
     store.take()
-    if error is FullOfBytes:
+    if error is not FullForClient:
         store.succeed(job, written(store, b"answer"), "text/plain")
-    with pytest.raises(error):
+    with pytest.raises(error) as refused:
         store.create("turn", b"call", "client", room)
+    assert 0 < refused.value.seconds <= (1.0 if error is FullForClient else FRESH)
     assert len(store.all()) == 1
     store.remove(job)
     store.create("turn", b"call", "client", room)
@@ -169,23 +174,199 @@ def test_a_broken_file_is_told(tmp_path: Path) -> None:
         Store(tmp_path)
 
 
-def test_jobs_of_the_layout_before_are_taken_over(tmp_path: Path) -> None:
+# The tables of earlier versions as they wrote them; the second without the table that came later in the same layout.
+LAYOUTS = {
+    1: """
+CREATE TABLE jobs (
+    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
+    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
+    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
+    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0
+);
+CREATE INDEX jobs_by_state ON jobs (state, created);
+CREATE TABLE events (
+    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
+    PRIMARY KEY (job, number)
+) WITHOUT ROWID;
+""",
+    2: """
+CREATE TABLE jobs (
+    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
+    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
+    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
+    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0,
+    done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0
+);
+CREATE INDEX jobs_by_state ON jobs (state, created);
+CREATE TABLE events (
+    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
+    PRIMARY KEY (job, number)
+) WITHOUT ROWID;
+CREATE TABLE removals (id INTEGER PRIMARY KEY CHECK (id = 0), made INTEGER, cleared INTEGER);
+INSERT INTO removals VALUES (0, 4, 4);
+""",
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_their_clients(
+    tmp_path: Path, layout: int
+) -> None:
     with sqlite3.connect(tmp_path / "jobs.sqlite") as old:
-        without = ",\n    done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0"
-        assert without in TABLES
-        for table in TABLES.replace(without, "").split(";"):
-            old.execute(table)
-        old.execute(
-            "INSERT INTO jobs (id, question, call, client, state, created, updated, message)"
-            " VALUES ('a', 'turn', x'', '', 'accepted', 1, 1, '')"
-        )
-        old.execute("PRAGMA user_version = 1")
+        old.executescript(LAYOUTS[layout])
+        rows = [("a", "192.0.2.77", "accepted", 1), ("b", "192.0.2.77", "running", 2), ("c", "", "successful", 3)]
+        for job, client, state, created in rows:
+            old.execute(
+                "INSERT INTO jobs (id, question, call, client, state, created, updated, message, finished)"
+                " VALUES (?, 'turn', x'', ?, ?, ?, 1, '', ?)",
+                (job, client, state, created, time.time() if state == "successful" else None),
+            )
+        old.execute(f"PRAGMA user_version = {layout}")
     old.close()
     for _ in range(2):  # The second time it is of this layout.
-        store = Store(tmp_path)
-        found = store.known("a")
-        assert (found.question, found.done, found.total) == ("turn", None, None)
-        store.close()
+        with closing(Store(tmp_path)) as store:
+            found = store.known("a")
+            assert (found.question, found.done, found.total) == ("turn", None, None)
+            with pytest.raises(FullForClient):  # Its jobs are still those of its client.
+                store.create("turn", b"", "192.0.2.77", Settings(jobs_client_max=2))
+            assert store.counts().kept == 3
+            if store.must_clear():
+                store.clear()
+            assert not store.must_clear()
+    with closing(Store(tmp_path)) as store:
+        store.begin()
+        assert store.take() == "a"
+    assert not any(b"192.0.2" in file.read_bytes() for file in tmp_path.iterdir() if file.is_file())
+
+
+def test_of_a_client_a_hash_is_kept_which_another_folder_does_not_have(store: Store, tmp_path: Path) -> None:
+    store.create("turn", b"call", "192.0.2.77", ROOM)
+    with closing(Store(tmp_path / "other")) as other:
+        other.create("turn", b"call", "192.0.2.77", ROOM)
+    names = []
+    for folder in (store.folder, tmp_path / "other"):
+        assert not any(b"192.0.2.77" in file.read_bytes() for file in folder.iterdir() if file.is_file())
+        assert (folder / "client.key").stat().st_mode & 0o077 == 0
+        with closing(sqlite3.connect(folder / "jobs.sqlite")) as database:
+            names += [row[0] for row in database.execute("SELECT client FROM jobs")]
+    assert len(set(names)) == 2
+    assert all(re.fullmatch("[0-9a-f]{24}", name) for name in names)
+
+
+def ended(store: Store, client: str, limits: Settings = ROOM) -> str:
+    """A job of a client that has an answer."""
+    job = store.create("turn", b"call", client, limits).id
+    assert store.take() == job
+    store.succeed(job, written(store, b"answer"), "text/plain", limits)
+    return job
+
+
+def test_the_oldest_finished_job_of_a_client_gives_way_to_its_next_one(store: Store) -> None:
+    room = Settings(jobs_client_kept_max=3)
+    others = ended(store, "other", room)
+    jobs = [ended(store, "client", room) for _ in range(5)]
+    found = [store.known(job) for job in jobs]
+    assert [job.expired for job in found] == [GAVE_WAY, GAVE_WAY, 0, 0, 0]
+    assert [store.result(job).exists() for job in jobs] == [False, False, True, True, True]
+    assert store.call(jobs[0]) == b""
+    assert found[0].message == "Its result gave way to newer jobs."
+    assert store.result(others).exists()
+    assert (store.counts().kept, store.counts().gave_way, store.counts().of_client) == (4, 2, 3)
+
+
+def test_a_result_takes_the_room_of_older_ones_of_its_client(store: Store) -> None:
+    room = Settings(jobs_client_bytes_max=25)
+    jobs = [ended(store, "client", room) for _ in range(4)]
+    assert [store.known(job).expired for job in jobs] == [GAVE_WAY, GAVE_WAY, 0, 0]
+    assert store.counts().used == 20
+
+
+def test_in_a_full_store_the_client_that_has_most_makes_room(store: Store) -> None:
+    room = Settings(jobs_max=6)
+    modest = ended(store, "modest", room)
+    greedy = [ended(store, "greedy", room) for _ in range(5)]
+    newcomer = ended(store, "newcomer", room)
+    assert [store.known(job).expired for job in (modest, newcomer)] == [0, 0]
+    assert [store.known(job).expired for job in greedy] == [GAVE_WAY, 0, 0, 0, 0]
+    more = [ended(store, "greedy", room) for _ in range(20)]
+    assert [store.known(job).expired for job in (modest, newcomer, more[-1])] == [0, 0, 0]
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_will_be_some(seed: int) -> None:
+    """Whatever is in the store, against the words of app.jobs.room."""
+    chance = random.Random(seed)
+    now, names = 1e9, [f"client {k}" for k in range(chance.randrange(1, 6))]
+    rows = []
+    for k in range(chance.randrange(1, 30)):
+        state = chance.choice([JobState.SUCCESSFUL, JobState.SUCCESSFUL, JobState.DISMISSED, JobState.FAILED])
+        finished = now - chance.choice([10.0, 2.0]) * FRESH * chance.random()
+        rows.append(Row(str(k), "turn", chance.choice(names), state, 0.0, finished, 0.0, None, 1.0, 1))
+    kept, limits = {row.id: row for row in rows}, Settings(jobs_max=len(rows), jobs_client_kept_max=len(rows))
+    asking, counted = chance.choice(["asking", names[0]]), Counter(row.client for row in rows)
+    room = Room(rows, asking, limits, now)
+    latest = {row.client: row for row in sorted(rows, key=lambda row: row.finished or 0.0) if row.state != "dismissed"}
+    safe = {row.id for row in latest.values() if now - (row.finished or 0.0) < FRESH}
+    may = [row for row in rows if row.id not in safe]
+    may = [row for row in may if row.client == asking or counted[row.client] > counted[asking]]
+    try:
+        room.make(1)
+    except Full as refused:
+        assert may == []
+        Room(rows, asking, limits, now + refused.seconds + 1e-3).make(1)
+        with pytest.raises(Full):
+            Room(rows, asking, limits, now + refused.seconds - 1e-3).make(1)
+        return
+    [gone] = room.gone
+    most = max(counted[row.client] + (row.client == asking) for row in may)
+    assert kept[gone] in may
+    assert counted[kept[gone].client] + (kept[gone].client == asking) == most
+    assert all(row.finished >= kept[gone].finished for row in may if row.client == kept[gone].client)
+
+
+def test_what_gave_way_is_remembered_only_so_long(store: Store) -> None:
+    room = Settings(jobs_client_kept_max=1, jobs_max=5, job_days_max=1e-9)
+    for _ in range(20):
+        ended(store, "client", room)
+    assert len(store.all()) == 6
+    assert len(store.events(store.all()[-1].id, 0)) == 1
+
+
+def test_places_alternate_between_clients_and_short_jobs_come_first_within_one(store: Store) -> None:
+    wanted = [("a", 9.0), ("a", 1.0), ("a", 5.0), ("b", 50.0), ("b", 7.0), ("c", 99.0)]
+    made = {store.create("turn", b"", client, ROOM, cost).id: (client, cost) for client, cost in wanted}
+    turns = []
+    while job := store.take(of_client=1):
+        turns.append(made[job])
+        store.fail(job, PROBLEM)
+    assert turns == [("a", 1.0), ("b", 7.0), ("c", 99.0), ("a", 5.0), ("b", 50.0), ("a", 9.0)]
+
+
+def test_a_client_takes_no_more_places_than_its_share_and_who_has_fewest_comes_first(store: Store) -> None:
+    first = [store.create("turn", b"", "a", ROOM).id for _ in range(4)]
+    assert [store.take(of_client=2) for _ in range(3)] == [*first[:2], None]
+    store.fail(first[0], PROBLEM)
+    other = [store.create("turn", b"", "b", ROOM, 99.0).id for _ in range(2)]
+    assert [store.take(of_client=2) for _ in range(3)] == [other[0], first[2], other[1]]
+
+
+def test_who_comes_under_a_new_address_does_not_come_before_those_that_waited(store: Store) -> None:
+    patient = [store.create("turn", b"", "patient", ROOM).id for _ in range(2)]
+    store.fail(store.take() or "", PROBLEM)
+    stranger = store.create("turn", b"", "a new address", ROOM).id
+    assert [store.take(), store.take()] == [patient[1], stranger]
+
+
+def test_who_removes_its_jobs_does_not_come_before_those_that_waited(store: Store) -> None:
+    patient = [store.create("turn", b"", "patient", ROOM).id for _ in range(2)]
+    sly = [store.create("turn", b"", "sly", ROOM).id for _ in range(3)]
+    turns = []
+    while job := store.take():
+        turns.append(job)
+        store.fail(job, PROBLEM)
+        if job in sly:
+            store.remove(job)
+    assert turns == [patient[0], sly[0], patient[1], sly[1], sly[2]]
 
 
 def test_a_store_is_opened_while_another_process_makes_its_database(tmp_path: Path) -> None:

@@ -47,7 +47,6 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         "sweep_designs_max": 500,
         "sweep_shards_max": 100,
         "sweep_processes": 1,
-        "jobs_running_max": 2,
     }
     with Service(tmp_path_factory.mktemp("sweeps"), **limits) as service:
         service.client.headers.update({"Authorization": f"Bearer {TOKEN}"})
