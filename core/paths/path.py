@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import NamedTuple, Protocol, Self
 
 from core import kernels
 from core.paths.frame import Frame
@@ -22,6 +22,21 @@ class HeadState(Readable):
     radius: float
     x: float
     y: float
+
+
+class PathSummary(NamedTuple):
+    """A path by all that matters for a claim.
+
+    kind: spiral or route; pitch [m], start_turns: of a spiral; begin, end: smallest and largest s of the head [m]
+    pieces: kinds of the pieces of a route in their order, or the different kinds if there are many
+    """
+
+    kind: str
+    begin: float
+    end: float
+    pitch: float | None = None
+    start_turns: float | None = None
+    pieces: tuple[str, ...] = ()
 
 
 class Path(Protocol):
@@ -143,5 +158,5 @@ class Path(Protocol):
     def drawn(self, reached: Floats) -> Floats:
         """Points (N, 2) [m] for a picture; on a spiral as far out as the given points (..., 2)."""
 
-    def words(self) -> str:
-        """The path in a sentence that names all that matters for a proof."""
+    def summary(self) -> PathSummary:
+        """The path by all that matters for a claim."""
