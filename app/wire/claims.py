@@ -8,7 +8,7 @@ from pydantic import Field
 
 from app.wire.question import Answer, measure
 from core import EndReason
-from core.claims.claim import Between, ClaimKind
+from core.claims.claim import BenchBetween, ClaimKind
 
 Pair = tuple[int, int]
 KIND = Field(description="Kind of the claim")
@@ -62,7 +62,7 @@ class ContactClaim(Answer):
 
     kind: ClaimKind = KIND
     dance: ClaimedDance = Field(description="The dance")
-    margin: float = measure("m", "Required clearance; 0: only a touch counts as a contact")
+    margin: float = measure("m", "Required clearance")
     stray: float = measure("m", "Largest distance of a hole from its place")
     start: float = measure("s", "Start of the search")
     clear_until: float | None = measure(
@@ -82,8 +82,8 @@ class StrayClaim(Answer):
     start: float = measure("s", "Start of the time asked about")
     stop: float = measure("s", "End of the time asked about")
     stray: float = measure("m", "Proven safe; 0: no stray is known to be safe")
-    touches: bool = Field(description="Whether something touches with everybody in place")
-    between: Between | None = Field(
+    touches: bool = Field(description="Whether there is a contact with everybody in place")
+    between: BenchBetween | None = Field(
         description="Part of the bench between two others. held: it holds them apart, which is used; unused: the two "
         "that limit the stray have one between them, and are assumed to stray independently; null: neither"
     )
@@ -93,13 +93,13 @@ class ProbabilityClaim(Answer):
     """Claim of a probability from dances drawn at random."""
 
     kind: ClaimKind = KIND
-    contacts: int = Field(description="Number of samples in which two benches touch")
+    contacts: int = Field(description="Number of samples with a contact")
     samples: int = Field(description="Number of samples")
     instants: int = Field(description="Number of instants of each sample")
     step: float = measure("s", "Time between two instants")
     confidence: float = Field(description="Probability that the limits hold")
     union_bound: float | None = Field(description="Upper bound of the probability of the model; null without")
-    tolerance: float | None = measure("m", "Stray within which nothing touches; null or 0: none is known")
+    tolerance: float | None = measure("m", "Stray that is proven safe; null or 0: none is known")
     within: int = Field(description="Number of samples without a larger stray")
 
 

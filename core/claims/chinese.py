@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from core.claims.claim import (
-    Between,
+    BenchBetween,
     Claim,
     ClaimKind,
     ContactClaim,
@@ -15,8 +15,8 @@ from core.claims.claim import (
     GroundClaim,
     ProbabilityClaim,
     StrayClaim,
+    format_safe,
 )
-from core.claims.numbers import format_safe
 from core.dance import EndReason
 from core.errors import said as format_number
 from core.passages import Passage
@@ -39,8 +39,8 @@ ENDS = {
 HULLS = "对板凳此时可能占据的全部位置的凸包逐步证明，方法与首次碰撞相同；以双精度计算，并计入舍入误差。"
 BETWEEN = {
     None: "",
-    Between.HELD: "中间只隔一节的两节板凳由中间那节撑开：由把手间的距离证明。",
-    Between.UNUSED: "起限制作用的两节板凳中间只隔一节，此处未计入那一节的作用，视两者独立离位，因此所得离位偏小。",
+    BenchBetween.HELD: "中间只隔一节的两节板凳由中间那节撑开：由把手间的距离证明。",
+    BenchBetween.UNUSED: "起限制作用的两节板凳中间只隔一节，此处未计入那一节的作用，视两者独立离位，因此所得离位偏小。",
 }
 PIECES = {"line": "直线", "arc": "圆弧", "coil": "螺线", "waypoints": "过点曲线"}
 
@@ -161,8 +161,8 @@ def _passage(passage: Passage) -> str:
     return f"{format_number(passage.speed)} m/s 直到 {end}"
 
 
-# The sentences of each class of claims.
-WORDS: dict[type[Claim], Callable[[Any], str]] = {
+# The function that puts each class of claims in sentences.
+SENTENCES: dict[type[Claim], Callable[[Any], str]] = {
     ContactClaim: contact,
     StrayClaim: stray,
     ProbabilityClaim: probability,

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple, Self
+from typing import Self
 
 from core.dance import Dance, EndReason
 from core.dragon import Dragon
+from core.errors import said as format_number
+from core.errors import said_bound as format_bound
 from core.passages import Passage
 from core.paths.path import PathSummary
+from core.shown import Readable
 
 # Most passages that a summary lists one by one [1].
 PASSAGES_LISTED = 6
@@ -35,7 +38,8 @@ class ClaimKind(StrEnum):
     SWEPT_GROUND = "swept_ground"
 
 
-class DragonSummary(NamedTuple):
+@dataclass(frozen=True, slots=True, repr=False)
+class DragonSummary(Readable):
     """Benches of a dragon [m].
 
     lengths, widths: the smallest and the largest one
@@ -61,7 +65,8 @@ class DragonSummary(NamedTuple):
         return cls(count, extent, (width, width), head, body if count > 1 else None, width, float(overhangs[0]))
 
 
-class DanceSummary(NamedTuple):
+@dataclass(frozen=True, slots=True, repr=False)
+class DanceSummary(Readable):
     """A dance.
 
     head_speed: outside the passages [m/s]; passages: those before that speed, none if there are more than
@@ -81,8 +86,8 @@ class DanceSummary(NamedTuple):
         return cls(DragonSummary.of(dance.dragon), dance.path.summary(), dance.clock.head_speed, listed, count)
 
 
-@dataclass(frozen=True, slots=True)
-class ContactClaim:
+@dataclass(frozen=True, slots=True, repr=False)
+class ContactClaim(Readable):
     """Claim of a search for first contact.
 
     margin, stray: [m]; start: of the search [s]; clear_until: time until which no two benches come within the margin
@@ -101,7 +106,7 @@ class ContactClaim:
     time: float | None = None
 
 
-class Between(StrEnum):
+class BenchBetween(StrEnum):
     """Part that the bench between two others plays in a safe stray. HELD: it holds them apart, which is used;
     UNUSED: the two that limit the stray have one between them, and are assumed to stray independently."""
 
@@ -109,8 +114,8 @@ class Between(StrEnum):
     UNUSED = "unused"
 
 
-@dataclass(frozen=True, slots=True)
-class StrayClaim:
+@dataclass(frozen=True, slots=True, repr=False)
+class StrayClaim(Readable):
     """Claim of a tolerance.
 
     venue: whether the edges of a venue count; start, stop: [s]; stray: proven safe [m], 0 if none is known to be
@@ -124,11 +129,11 @@ class StrayClaim:
     stop: float
     stray: float
     touches: bool
-    between: Between | None
+    between: BenchBetween | None
 
 
-@dataclass(frozen=True, slots=True)
-class ProbabilityClaim:
+@dataclass(frozen=True, slots=True, repr=False)
+class ProbabilityClaim(Readable):
     """Claim of a probability from dances drawn at random.
 
     confidence: of its limits; step: between two instants [s]; union_bound: upper bound of the probability, None without
@@ -146,8 +151,8 @@ class ProbabilityClaim:
     within: int
 
 
-@dataclass(frozen=True, slots=True)
-class GroundClaim:
+@dataclass(frozen=True, slots=True, repr=False)
+class GroundClaim(Readable):
     """Claim of an envelope: it holds all ground that benches cover between two times, and reaches little further.
 
     start, stop: [s]; excess: furthest that it reaches [m]; sizes: different benches; length: of path that they pass [m]
@@ -161,6 +166,15 @@ class GroundClaim:
     sizes: int
     length: float
     cells: int
+
+
+def format_safe(stray: float) -> str:
+    """A stray that is proven safe [m], rounded down to 1e-12 m, so that it stays proven.
+
+    >>> format_safe(0.8250000000000001), format_safe(0.02)
+    ('0.825', '0.02')
+    """
+    return format_number(float(format_bound(stray, 12)))
 
 
 Claim = ContactClaim | StrayClaim | ProbabilityClaim | GroundClaim

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from core.claims.claim import (
-    Between,
+    BenchBetween,
     Claim,
     ClaimKind,
     ContactClaim,
@@ -19,8 +19,8 @@ from core.claims.claim import (
     GroundClaim,
     ProbabilityClaim,
     StrayClaim,
+    format_safe,
 )
-from core.claims.numbers import format_safe
 from core.dance import EndReason
 from core.errors import said as format_number
 from core.passages import Passage
@@ -46,9 +46,9 @@ HULLS = (
 )
 BETWEEN = {
     None: "",
-    Between.HELD: " Two benches with one between them are held apart by it: distances of handles prove that.",
-    Between.UNUSED: " The two benches that limit it have one between them, which is not used here: they are assumed "
-    "to stray independently, so the stray is lower than it could be.",
+    BenchBetween.HELD: " Two benches with one between them are held apart by it: distances of handles prove that.",
+    BenchBetween.UNUSED: " The two benches that limit it have one between them, which is not used here: they are "
+    "assumed to stray independently, so the stray is lower than it could be.",
 }
 
 
@@ -173,8 +173,8 @@ def _passage(passage: Passage) -> str:
     return f"{format_number(passage.speed)} m/s until {end}"
 
 
-# The sentences of each class of claims.
-WORDS: dict[type[Claim], Callable[[Any], str]] = {
+# The function that puts each class of claims in sentences.
+SENTENCES: dict[type[Claim], Callable[[Any], str]] = {
     ContactClaim: contact,
     StrayClaim: stray,
     ProbabilityClaim: probability,

@@ -101,7 +101,7 @@ class Envelope(WithArrays):
     start: float
     stop: float
     certificate: SweepProof
-    _units = {"area": "m2", "excess": "m", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    _units = {"area": "m2", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         beyond = f"at most {self.excess:.3g} m beyond the benches"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, Self
+from typing import Protocol, Self
 
 from core import kernels
 from core.paths.frame import Frame
@@ -24,7 +24,8 @@ class HeadState(Readable):
     y: float
 
 
-class PathSummary(NamedTuple):
+@dataclass(frozen=True, slots=True, repr=False)
+class PathSummary(Readable):
     """A path by all that matters for a claim.
 
     kind: spiral or route; pitch [m], start_turns: of a spiral; begin, end: smallest and largest s of the head [m]
@@ -37,6 +38,7 @@ class PathSummary(NamedTuple):
     pitch: float | None = None
     start_turns: float | None = None
     pieces: tuple[str, ...] = ()
+    _units = {"begin": "m", "end": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 class Path(Protocol):

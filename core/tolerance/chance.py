@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.claims.certificate import claim_words
+from core.claims.certificate import Certificate
 from core.claims.claim import ClaimKind, ProbabilityClaim
 from core.dance import Dance
 from core.error_free import paired
@@ -49,7 +49,7 @@ CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class ContactProbability(WithArrays):
+class ContactProbability(WithArrays, Certificate):
     """Probability that two benches touch at one of some instants when people wobble.
 
     probability: share of the samples with a contact; limits: Clopper and Pearson's, between which the probability of
@@ -92,11 +92,6 @@ class ContactProbability(WithArrays):
             ClaimKind.CONTACT_PROBABILITY, self.contacts, self.samples, self.instants, self.step, CONFIDENCE,
             self.union_bound, self.tolerance, self.samples - (self.strayed or 0),
         )  # fmt: skip
-
-    @property
-    def method(self) -> str:
-        """Evidence for the probability, in sentences."""
-        return claim_words(self.claim)
 
     def _line(self) -> str:
         low, high = self.limits

@@ -14,7 +14,7 @@ from enum import StrEnum
 import numpy as np
 
 from core.claims.certificate import Certificate
-from core.claims.claim import Between, ClaimKind, DanceSummary, StrayClaim
+from core.claims.claim import BenchBetween, ClaimKind, DanceSummary, StrayClaim
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges
 from core.dance import Dance
@@ -173,9 +173,9 @@ def _claim(
 ) -> StrayClaim:
     between = None
     if independent < found.stray:
-        between = Between.HELD
+        between = BenchBetween.HELD
     elif found.dip is not None and found.dip.benches[1] == found.dip.benches[0] + 2:
-        between = Between.UNUSED
+        between = BenchBetween.UNUSED
     kind = ClaimKind.SAFE_STRAY if found.stray > 0.0 else ClaimKind.NO_SAFE_STRAY
     touches, placed = found.stray <= 0.0 and found.touches, venue is not None
     return StrayClaim(kind, DanceSummary.of(dance), placed, *span, max(found.stray, 0.0), touches, between)
