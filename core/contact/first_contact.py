@@ -77,10 +77,10 @@ def first_contact(
     ('contact', 412.473838, (0, 8))
     """
     budget = budget or Budget()
-    found = contact_within(budget, dance, margin=margin, stray=stray, start=start, stop=stop)
-    if found.outcome is Outcome.UNDECIDED:
+    answer = contact_within(budget, dance, margin=margin, stray=stray, start=start, stop=stop)
+    if answer.outcome is Outcome.UNDECIDED:
         budget.afford()  # it may be undecided because the work is spent
-    return found
+    return answer
 
 
 def contact_within(
@@ -103,27 +103,27 @@ def contact_within(
     first, last = clock.travel(begin), clock.travel(until)
     to_fold = dance.nears_fold(until)
     stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
-    state, found, half_bracket = search.approach(first, stops[0][0], head_speed)
+    state, march, half_bracket = search.approach(first, stops[0][0], head_speed)
     if to_fold and state not in TOUCHES:
-        state, found, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, found, half_bracket))
-    narrow = search.narrow_half((state, found, half_bracket), head_speed)
+        state, march, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, march, half_bracket))
+    narrow = search.narrow_half((state, march, half_bracket), head_speed)
     if narrow is not None:
-        known = narrowed(search, found, narrow, None if dance.passages else head_speed)
-        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
+        known = narrowed(search, march, narrow, None if dance.passages else head_speed)
+        march, half_bracket = (march, half_bracket) if known is None else (known, narrow)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     if state is Ended.STUCK:
-        met = overlap_beyond(search, found.proven, stops[-1][0], head_speed)
-        return _undecided(dance, search, found, met, (begin, until))
-    return _result(dance, search, state, found, end, (begin, until), half_bracket)
+        met = overlap_beyond(search, march.proven, stops[-1][0], head_speed)
+        return _undecided(dance, search, march, met, (begin, until))
+    return _result(dance, search, state, march, end, (begin, until), half_bracket)
 
 
 def _undecided(
-    dance: Dance, search: Search, found: Marched, met: Marched | None, span: tuple[float, float]
+    dance: Dance, search: Search, march: Marched, met: Marched | None, span: tuple[float, float]
 ) -> FirstContact:
     """The answer of a search that gave up. met: overlap_beyond(); span: of the search [s]"""
     clock, (begin, until) = dance.clock, span
-    proven, overlapping, overlap_time = max(clock.time(found.proven), begin), None, None
+    proven, overlapping, overlap_time = max(clock.time(march.proven), begin), None, None
     if met is not None and met.touching is not None:
         until = overlap_time = clock.time(met.touching)
         overlapping = met.benches
@@ -132,8 +132,8 @@ def _undecided(
         ClaimKind.UNDECIDED, DanceSummary.of(dance), search.margin, search.stray, begin, clear_until,
         benches=overlapping, time=overlap_time,
     )  # fmt: skip
-    graze = _graze(found, clock, begin)
-    evidence = Evidence(claim, found.steps, clear_until, found.gap_curvature, graze)
+    graze = _graze(march, clock, begin)
+    evidence = Evidence(claim, march.steps, clear_until, march.gap_curvature, graze)
     return FirstContact(
         Outcome.UNDECIDED,
         time_bracket=(proven, until),
@@ -145,9 +145,9 @@ def _undecided(
     )
 
 
-def _graze(found: Marched, clock: Clock, begin: float) -> Graze | None:
+def _graze(march: Marched, clock: Clock, begin: float) -> Graze | None:
     """The narrowest graze of a march that begins at a time [s]."""
-    graze = found.graze
+    graze = march.graze
     return None if graze is None else Graze(max(clock.time(graze.travel), begin), graze.gap, graze.benches)
 
 
@@ -155,30 +155,30 @@ def _result(
     dance: Dance,
     search: Search,
     state: Ended,
-    found: Marched,
+    march: Marched,
     end: RunEnd,
     span: tuple[float, float],
     half_bracket: float,
 ) -> FirstContact:
     clock, outcome = dance.clock, OUTCOMES[state]
     at_start = outcome is Outcome.CONTACT_AT_START
-    proven = end.time if state is Ended.REACHED else max(clock.time(found.proven), span[0])
+    proven = end.time if state is Ended.REACHED else max(clock.time(march.proven), span[0])
     clear_until = proven if proven > span[0] and not at_start else None
-    claim = _claim(dance, search, outcome, found, end, (span[0], proven))
-    certificate = Evidence(claim, found.steps, clear_until, found.gap_curvature, _graze(found, clock, span[0]))
+    claim = _claim(dance, search, outcome, march, end, (span[0], proven))
+    certificate = Evidence(claim, march.steps, clear_until, march.gap_curvature, _graze(march, clock, span[0]))
     answer = partial(
         FirstContact, outcome, certificate=certificate, margin=search.margin, stray=search.stray, dance=dance
     )
     if outcome is Outcome.CLEAR:
         return answer(end=end)
-    assert found.touching is not None
-    travel = found.touching if at_start else found.touching - half_bracket
-    corner, edge, point, gap = _touching_features(search, travel, found.benches)
+    assert march.touching is not None
+    travel = march.touching if at_start else march.touching - half_bracket
+    corner, edge, point, gap = _touching_features(search, travel, march.benches)
     return answer(
         time=span[0] if at_start else max(clock.time(travel), span[0]),
-        time_bracket=None if at_start else (proven, clock.time(found.touching)),
+        time_bracket=None if at_start else (proven, clock.time(march.touching)),
         head=search.path.head(travel),
-        benches=found.benches,
+        benches=march.benches,
         corner=corner,
         edge=edge,
         point=point,
@@ -187,7 +187,7 @@ def _result(
 
 
 def _claim(
-    dance: Dance, search: Search, outcome: Outcome, found: Marched, end: RunEnd, span: tuple[float, float]
+    dance: Dance, search: Search, outcome: Outcome, march: Marched, end: RunEnd, span: tuple[float, float]
 ) -> ContactClaim:
     """What a decided search claims. span: of the search, up to the time until which it is proven to be clear [s]"""
     begin, proven = span
@@ -195,10 +195,10 @@ def _claim(
     if outcome is Outcome.CLEAR:
         return ContactClaim(ClaimKind.CLEAR, *about, proven, end=end.reason)
     if outcome is Outcome.CONTACT_AT_START:
-        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=found.benches, time=begin)
-    assert found.touching is not None
+        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=march.benches, time=begin)
+    assert march.touching is not None
     kind, clear_until = (ClaimKind.CONTACT, proven) if proven > begin else (ClaimKind.CONTACT_AT_START, None)
-    return ContactClaim(kind, *about, clear_until, benches=found.benches, time=dance.clock.time(found.touching))
+    return ContactClaim(kind, *about, clear_until, benches=march.benches, time=dance.clock.time(march.touching))
 
 
 def _touching_features(

@@ -169,13 +169,13 @@ def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhib
 
 
 def _claim(
-    dance: Dance, found: SafeStray, independent: float, span: tuple[float, float], venue: Venue | None
+    dance: Dance, safe: SafeStray, independent: float, span: tuple[float, float], venue: Venue | None
 ) -> StrayClaim:
     between = None
-    if independent < found.stray:
+    if independent < safe.stray:
         between = BenchBetween.HELD
-    elif found.dip is not None and found.dip.benches[1] == found.dip.benches[0] + 2:
+    elif safe.dip is not None and safe.dip.benches[1] == safe.dip.benches[0] + 2:
         between = BenchBetween.UNUSED
-    kind = ClaimKind.SAFE_STRAY if found.stray > 0.0 else ClaimKind.NO_SAFE_STRAY
-    touches, placed = found.stray <= 0.0 and found.touches, venue is not None
-    return StrayClaim(kind, DanceSummary.of(dance), placed, *span, max(found.stray, 0.0), touches, between)
+    kind = ClaimKind.SAFE_STRAY if safe.stray > 0.0 else ClaimKind.NO_SAFE_STRAY
+    touches, placed = safe.stray <= 0.0 and safe.touches, venue is not None
+    return StrayClaim(kind, DanceSummary.of(dance), placed, *span, max(safe.stray, 0.0), touches, between)
