@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import pytest
+
 import core
-from core import Dance, Dragon, Spiral
+from core import Dance, Dragon, InvalidValue, Spiral
 from core.claims.certificate import Certificate, claim_words
 from core.claims.claim import ClaimKind
 
@@ -26,3 +28,11 @@ def test_a_probability_has_its_claim_too() -> None:
     assert found.claim.kind is ClaimKind.CONTACT_PROBABILITY
     assert found.claim.within == 3 - found.strayed
     assert found.method == claim_words(found.claim)
+
+
+def test_a_certificate_has_words_in_two_languages_and_in_no_other_one() -> None:
+    certificate = core.first_contact(DANCE, stop=10.0).certificate
+    assert certificate.in_words() == certificate.in_words("en") == certificate.method
+    assert certificate.in_words("zh").startswith("5 节板凳（龙头长 3.41 m，")
+    with pytest.raises(InvalidValue, match="language must be en or zh, got 'fr'"):
+        certificate.in_words("fr")
