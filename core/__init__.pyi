@@ -1,4 +1,14 @@
 from . import proof as proof
+from .claims.claim import (
+    BenchBetween,
+    ClaimKind,
+    ContactClaim,
+    DanceSummary,
+    DragonSummary,
+    GroundClaim,
+    ProbabilityClaim,
+    StrayClaim,
+)
 from .contact.answer import Evidence, Feature, FirstContact, Outcome
 from .contact.clearance import ClearanceProfile, Graze, LeastClearance, clearance_profile, least_clearance
 from .contact.cross_check import ContactCheck, contact_check
@@ -41,7 +51,7 @@ from .kernels import Budget
 from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
 from .paths.legs import Legs
-from .paths.path import HeadState
+from .paths.path import HeadState, PathSummary
 from .paths.pieces import Arc, Coil, Line, Piece, Waypoints
 from .paths.route import Route
 from .paths.spiral import Spiral
@@ -61,17 +71,22 @@ __all__ = [
     "Arc",
     "Area",
     "AreaClearance",
+    "BenchBetween",
     "BenchDragonError",
     "Budget",
+    "ClaimKind",
     "ClearanceProfile",
     "Coil",
     "ContactCheck",
+    "ContactClaim",
     "ContactProbability",
     "Course",
     "CrossCheck",
     "Dance",
+    "DanceSummary",
     "DeepestTurn",
     "Dragon",
+    "DragonSummary",
     "EndReason",
     "Engine",
     "Envelope",
@@ -84,6 +99,7 @@ __all__ = [
     "FirstExcess",
     "Given",
     "Graze",
+    "GroundClaim",
     "HeadState",
     "HighestSpeed",
     "InvalidValue",
@@ -103,8 +119,10 @@ __all__ = [
     "Overlaps",
     "Parameter",
     "Passage",
+    "PathSummary",
     "Piece",
     "PitchScan",
+    "ProbabilityClaim",
     "ProofRefused",
     "Quantity",
     "Report",
@@ -115,6 +133,7 @@ __all__ = [
     "ShortestTurn",
     "Spiral",
     "Stray",
+    "StrayClaim",
     "StrayProof",
     "SweepProof",
     "TightBend",

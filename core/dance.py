@@ -30,9 +30,8 @@ from core.errors import (
     checked_type,
     filled,
     quantities,
-    said,
 )
-from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes, words
+from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
@@ -144,11 +143,6 @@ class Clock:
             first, origin = self.travel(start), (self.times[node], self.travels[node])
             last = self.travel(end) if end == until else self.travels[self.times.index(end)]
             yield Period(start, end, first, last, self.speeds[k], passage, origin)
-
-    def words(self) -> str:
-        """The speeds of the head in a sentence."""
-        after = f"{said(self.head_speed)} m/s"
-        return words(self.passages, after) if self.passages else after
 
 
 @dataclass(frozen=True, repr=False)

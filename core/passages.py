@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from typing import NamedTuple
 
-from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number, said
+from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number
 from core.shown import Readable
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
@@ -17,8 +17,6 @@ S_MAX = 1e9  # [m]
 PASSAGES_MAX = 1_000
 # Digits in which the ends of passages are added up [1].
 NODE_DIGITS = 60
-# Most passages that a sentence lists one by one [1].
-LISTED = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,11 +29,6 @@ class Passage(Readable):
     speed: float
     until_s: float | None = None
     until_time: float | None = None
-
-    def words(self) -> str:
-        """The passage in a sentence, with all its digits."""
-        end = f"{said(self.until_s)} m" if self.until_s is not None else f"{said(self.until_time or 0.0)} s"
-        return f"{said(self.speed)} m/s until {end}"
 
 
 class Period(NamedTuple):
@@ -119,10 +112,3 @@ def _checked(name: str, passage: object) -> Passage:
         rule = "must be given: a pause does not reach {place}"
         raise InvalidValue(f"{name}.until_time", rule, place=Parameter("until_s"))
     return Passage(speed, checked_number(f"{name}.until_s", s, "m", -S_MAX, S_MAX))
-
-
-def words(passages: Sequence[Passage], after: str) -> str:
-    """The speeds of the head in a sentence. after: its speed after the passages, with the unit"""
-    if len(passages) > LISTED:
-        return f"{after} after {len(passages)} passages given one by one"
-    return f"{', '.join(passage.words() for passage in passages)}, and then at {after}"

@@ -19,14 +19,15 @@ ENTRIES_MOST = 6
 _FIELDS = {
     "rad": "angle end_heading rotation start_angle start_heading start_theta sweep theta",
     "m": """
-        at_least centre chords clearance depth distance entry_bracket exit_bracket forward gap head_radius hole
-        independent lateral length length_bracket lengths margin other_feasible_intervals overhangs people pin pitch
-        pitch_bracket pitch_error point points position proven_from proven_up_to radius rings scan_step separation
-        simple stray stray_bracket strays tolerance until_s wall widths witness_a witness_b x y
+        at_least body_length centre chords clearance depth distance entry_bracket excess exit_bracket forward gap
+        head_length head_radius hole independent lateral length length_bracket lengths margin other_feasible_intervals
+        overhang overhangs people pin pitch pitch_bracket pitch_error point points position proven_from proven_up_to
+        radius rings scan_step separation simple stray stray_bracket strays tolerance until_s wall width widths
+        witness_a witness_b x y
     """,
     "1/m": "bound",
     "s": "clear_until correlation_time peak_time start step stop time time_at_unit_head_speed time_bracket until_time",
-    "": "correlation_benches limits normal probability speed_ratio union_bound",
+    "": "confidence correlation_benches limits normal probability speed_ratio union_bound",
     "turns": "end_turns start_turns",
     "m/rad": "growth",
     "m/s": "head_speed head_speed_bracket peak_speed speed speed_bracket velocity",

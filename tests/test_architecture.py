@@ -26,6 +26,7 @@ core.values core.error_free core.errors core.names core.extras core.shown core.t
 core.passages core.dragon
 core.paths
 core.dance core.course core.plots
+core.claims
 core.shapes
 core.venue
 core.motion

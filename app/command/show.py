@@ -32,6 +32,8 @@ PIPE_WIDTH = 120
 # Proven fields, which are shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
 SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
+# Fields whose values the sentences beside them have.
+UNSHOWN = frozenset({"claim"})
 # Most entries of a list in a table; of a longer list only their number is shown.
 LISTED_MOST = 50
 # Fields that are separations of two benches: below zero the benches overlap.
@@ -166,6 +168,8 @@ def near(word: str, margin: float) -> str:
 def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tuple[str, str]]:
     for name, field in type(answer).model_fields.items():
         value = getattr(answer, name)
+        if name in UNSHOWN:
+            continue
         label = prefix + name.replace("_", " ")
         if isinstance(value, answers.Feature):
             yield label, ", ".join(f"{word} {shown(said)}" for word, said in value)

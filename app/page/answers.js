@@ -1,6 +1,7 @@
 /** The answers, each with its evidence. */
 
 import { button, make } from "./elements.js";
+import { bound } from "./numbers.js";
 import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
@@ -16,11 +17,6 @@ export function gapWords(metres) {
   return gap.startsWith("-") ? say("overlap", { depth: gap.slice(1) }) : say("gap", { gap });
 }
 
-/** A bound with the given number of decimals, rounded to the side on which it still holds; way: 1 up, -1 down. */
-const bound = (value, decimals, way) => {
-  const text = value.toFixed(decimals);
-  return way * (Number(text) - value) < 0 ? (Number(text) + way * 10 ** -decimals).toFixed(decimals) : text;
-};
 /** A safe stray in centimetres, rounded down. metres: [m] */
 export const centimetres = (metres) => bound(100 * metres, 2, -1);
 const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: bound(high, decimals, 1) });
@@ -105,7 +101,7 @@ function certificateWords({ outcome, certificate: { steps, clear_until: until } 
   return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", asked);
 }
 
-const methodOf = ({ method }) => paragraph(proofWords(method), { className: "method" });
+const methodOf = (certificate) => paragraph(proofWords(certificate), { className: "method" });
 
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, asked) {

@@ -1,7 +1,7 @@
 /** Texts of the page: its words in the chosen language, and the service's refusals. */
 
 import { strayOf } from "./fields.js";
-import { proofInChinese } from "./proofs.js";
+import { claimInChinese } from "./proofs.js";
 import { refusalIn } from "./refusals.js";
 import { WORDS } from "./words.js";
 
@@ -52,8 +52,8 @@ export function titleOf(key, asked) {
 /** A refusal of the service in the language of the page: the properties of an element. told: a problem or one of its errors */
 export const refusalWords = (told) => refusalIn(told.errors?.[0] ?? told, column === 1, say);
 
-/** The proof of an answer in the language of the page. */
-export const proofWords = (method) => (column ? proofInChinese(method) : method);
+/** The proof of an answer in the language of the page: the service's own sentences, or its claim in Chinese. */
+export const proofWords = ({ method, claim }) => (column ? claimInChinese(claim) : method);
 
 export const nameBenches = (names) => (households = names);
 const named = (words, k) => (households[k] ? say("named", { words, name: households[k] }) : words);

@@ -8,6 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire.answers import TOTAL_STRAY, End, Feature, Graze, Head, Pair, PairCheck, Point
+from app.wire.claims import ContactClaim
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.question import (
     UNKNOWN_COST,
@@ -46,6 +47,7 @@ class Certificate(Answer):
     """Evidence for the answer."""
 
     method: str = Field(description="The claim and its proof, in sentences")
+    claim: ContactClaim = Field(description="The claim as a kind and values")
     steps: int = Field(description="Number of proven steps")
     clear_until: float | None = measure(
         "s",

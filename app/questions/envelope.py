@@ -11,6 +11,7 @@ from pydantic import Field
 import core
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_dxf, envelope_geojson
 from app.wire.answers import MultiPolygon, Polygon
+from app.wire.claims import GroundClaim
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.geojson import geometry_of
 from app.wire.paths import Point
@@ -49,6 +50,7 @@ class SweepProof(Answer):
     """Proven bounds of the envelope."""
 
     method: str = Field(description="The claim and its proof, in sentences")
+    claim: GroundClaim = Field(description="The claim as a kind and values")
     cells: int = Field(description="Number of stretches of the path, each with a bound on the motion")
 
 

@@ -8,6 +8,7 @@ from pydantic import Field
 
 import core
 from app.wire.answers import Point
+from app.wire.claims import StrayClaim
 from app.wire.dances import PlacedDance, SpanFields
 from app.wire.question import Answer, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
 from core import InvalidValue, Limit
@@ -61,6 +62,7 @@ class StrayProof(Answer):
     """Evidence for the safe stray."""
 
     method: str = Field(description="The claim and its proof, in sentences")
+    claim: StrayClaim = Field(description="The claim as a kind and values")
     steps: int = Field(description="Number of steps taken")
 
 

@@ -50,21 +50,23 @@ def _dumped(value: Any) -> Any:
 @lru_cache(maxsize=16)
 def answer_columns(model: type[BaseModel], left_out: frozenset[str] = frozenset()) -> tuple[Column, ...]:
     """A column for every number, text and truth value of an answer: dotted names for inner objects and pairs, JSON for
-    lists of any length."""
-    return tuple(column for column in _columns_of(model, ()) if column.name not in left_out)
+    lists of any length. left_out: fields without columns"""
+    return tuple(_columns_of(model, (), left_out))
 
 
-def _columns_of(kind: Any, steps: tuple[str | int, ...]) -> Iterator[Column]:
+def _columns_of(kind: Any, steps: tuple[str | int, ...], left_out: frozenset[str]) -> Iterator[Column]:
     name = ".".join(map(str, steps))
+    if name in left_out:
+        return
     options = [one for one in get_args(kind) if one is not NoneType]
     if get_origin(kind) in (Union, UnionType) and len(options) == 1:
-        yield from _columns_of(options[0], steps)
+        yield from _columns_of(options[0], steps, left_out)
     elif isinstance(kind, type) and issubclass(kind, BaseModel):
         for inner, field in kind.model_fields.items():
-            yield from _columns_of(field.annotation, (*steps, inner))
+            yield from _columns_of(field.annotation, (*steps, inner), left_out)
     elif get_origin(kind) is tuple and Ellipsis not in options:
         for k, option in enumerate(get_args(kind)):
-            yield from _columns_of(option, (*steps, k))
+            yield from _columns_of(option, (*steps, k), left_out)
     elif get_origin(kind) is Literal or (isinstance(kind, type) and issubclass(kind, Enum)):
         yield Column(name, steps, str)
     elif kind in TYPES:

@@ -40,7 +40,7 @@ class Question:
     ask: function from a request to its answer
     seconds: estimated cost of a design [s]; it fixes the number of designs in a shard, equal on every machine
     shown: the default column of a map
-    left_out: columns that no table needs
+    left_out: fields that no table needs, with all that is in them
     """
 
     name: str
@@ -65,6 +65,11 @@ def _ways(name: str, seconds: float, shown: str, *left_out: str, **own: Any) -> 
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
     known = (question.model, ask, seconds, shown, frozenset(left_out))
     return tuple(Question(question.name, request, *known) for request in requests if request)
+
+
+def _words(place: str) -> tuple[str, str]:
+    """The fields of a certificate that say in words and in values what a row says anyway. place: where they are"""
+    return f"{place}method", f"{place}claim"
 
 
 # Questions with lists as answers, answered with the numbers that a table of many designs has.
@@ -150,7 +155,7 @@ def least_clearance(asked: DanceQuery | DanceFields, terms: Terms) -> LeastClear
 
 # The forms of each question, the flat one first. The seconds are for the defaults on one core of a small machine.
 _ALL = {
-    "collision_time": _ways("collision_time", 1e-3, "time", "certificate.method"),
+    "collision_time": _ways("collision_time", 1e-3, "time", *_words("certificate.")),
     "minimum_pitch": _ways("minimum_pitch", 2e-2, "pitch"),
     "turn": _ways("turn", 1e-4, "length"),
     "shortest_turn": _ways("shortest_turn", 0.5, "length"),
@@ -158,9 +163,9 @@ _ALL = {
     "least_clearance": _ways(
         "check", 2e-2, "distance", answer=least_clearance, model=LeastClearance, flat=DanceQuery, body=DanceFields
     ),
-    "check": _ways("check", 0.1, "least_clearance.distance", "first_contact.certificate.method"),
-    "tolerance": _ways("tolerance", 0.3, "stray", "certificate.method"),
-    "contact_probability": _ways("contact_probability", 3.0, "probability", "method"),
+    "check": _ways("check", 0.1, "least_clearance.distance", *_words("first_contact.certificate.")),
+    "tolerance": _ways("tolerance", 0.3, "stray", *_words("certificate.")),
+    "contact_probability": _ways("contact_probability", 3.0, "probability", *_words("")),
     "clearance": _ways("clearance", 0.2, "clearance", answer=clearance_row, model=ClearanceRow),
     "trajectory": _ways("trajectory", 2e-3, "greatest_speed", answer=trajectory_row, model=TrajectoryRow),
     "overlaps": _ways("overlaps", 1e-2, "separation", answer=overlaps_row, model=OverlapsRow),

@@ -7,6 +7,8 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from core import plots
+from core.claims.certificate import Certificate
+from core.claims.claim import ContactClaim
 from core.contact.clearance import Graze
 from core.dance import Dance, EndReason, RunEnd
 from core.errors import InvalidValue, said
@@ -44,10 +46,10 @@ class Feature(Readable):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Evidence(Readable):
+class Evidence(Certificate):
     """Evidence for the answer; a certificate that others can check comes from `core.proof`.
 
-    method: the claim and its proof, in sentences (core/contact/first_contact.py)
+    claim: what is known, as a kind and values; method: the claim and its proof in sentences (core/claims)
     steps: number of proven steps
     clear_until: time until which nothing touches [s]; None if no time is proven clear, because benches touch at the
         start or the search is undecided from the start
@@ -55,7 +57,7 @@ class Evidence(Readable):
     least_clearance: the narrowest graze met before the contact (or over the whole run), None if none
     """
 
-    method: str
+    claim: ContactClaim
     steps: int
     clear_until: float | None
     bound: float

@@ -15,6 +15,7 @@ import math
 from functools import partial
 
 from core import kernels
+from core.claims.claim import ClaimKind, ContactClaim, DanceSummary
 from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze, overlap_beyond
 from core.contact.fold import approach_fold
@@ -22,8 +23,8 @@ from core.contact.march import TOUCHES
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
-from core.dragon import Dragon, Stray, checked_stray
-from core.errors import asked_of, checked_number, said
+from core.dragon import Stray, checked_stray
+from core.errors import asked_of, checked_number
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
@@ -42,23 +43,6 @@ CORNERS = (
     ("front-inner", "front-outer", "rear-outer", "rear-inner"),
 )
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
-
-# The claim of an answer, in complete sentences. Numbers have all their digits, because a rounded one would describe
-# another dance, or an instant that is not proven.
-PROOF = (
-    "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
-    "out by ring bounds in closed form; computed in doubles, with allowances for their rounding."
-)
-NO_PAIR = "Of fewer than three benches, any two share a handle, so there is no pair to judge."
-TRIED = "Computed in doubles, with allowances for their rounding."
-MEASURED = "Measured at that instant, in doubles."
-ENDS = {
-    EndReason.FOLD: "; there a bench folds, and the run ends.",
-    EndReason.CENTRE: "; there the head is at the centre.",
-    EndReason.END: "; there the path ends.",
-    EndReason.STOP: "; the search was to stop there.",
-}
-UNDECIDED_THEN = "; whether any do after that is not decided"
 
 
 @asked_of("dance", Dance, "the first contact was not decided")
@@ -93,10 +77,10 @@ def first_contact(
     ('contact', 412.473838, (0, 8))
     """
     budget = budget or Budget()
-    found = contact_within(budget, dance, margin=margin, stray=stray, start=start, stop=stop)
-    if found.outcome is Outcome.UNDECIDED:
+    answer = contact_within(budget, dance, margin=margin, stray=stray, start=start, stop=stop)
+    if answer.outcome is Outcome.UNDECIDED:
         budget.afford()  # it may be undecided because the work is spent
-    return found
+    return answer
 
 
 def contact_within(
@@ -119,35 +103,37 @@ def contact_within(
     first, last = clock.travel(begin), clock.travel(until)
     to_fold = dance.nears_fold(until)
     stops = search.fold_stops(first, last, end) if to_fold else [(last, 0.0)]
-    state, found, half_bracket = search.approach(first, stops[0][0], head_speed)
+    state, march, half_bracket = search.approach(first, stops[0][0], head_speed)
     if to_fold and state not in TOUCHES:
-        state, found, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, found, half_bracket))
-    narrow = search.narrow_half((state, found, half_bracket), head_speed)
+        state, march, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, march, half_bracket))
+    narrow = search.narrow_half((state, march, half_bracket), head_speed)
     if narrow is not None:
-        known = narrowed(search, found, narrow, None if dance.passages else head_speed)
-        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
+        known = narrowed(search, march, narrow, None if dance.passages else head_speed)
+        march, half_bracket = (march, half_bracket) if known is None else (known, narrow)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     if state is Ended.STUCK:
-        met = overlap_beyond(search, found.proven, stops[-1][0], head_speed)
-        return _undecided(dance, search, found, met, (begin, until))
-    return _result(dance, search, state, found, end, (begin, until), half_bracket)
+        met = overlap_beyond(search, march.proven, stops[-1][0], head_speed)
+        return _undecided(dance, search, march, met, (begin, until))
+    return _result(dance, search, state, march, end, (begin, until), half_bracket)
 
 
 def _undecided(
-    dance: Dance, search: Search, found: Marched, met: Marched | None, span: tuple[float, float]
+    dance: Dance, search: Search, march: Marched, met: Marched | None, span: tuple[float, float]
 ) -> FirstContact:
     """The answer of a search that gave up. met: overlap_beyond(); span: of the search [s]"""
-    clock, (begin, until), asked = dance.clock, span, (dance, search.margin, search.stray)
-    proven, overlapping, ends = max(clock.time(found.proven), begin), None, ""
+    clock, (begin, until) = dance.clock, span
+    proven, overlapping, overlap_time = max(clock.time(march.proven), begin), None, None
     if met is not None and met.touching is not None:
-        until, overlapping = clock.time(met.touching), met.benches
-        ends = before_overlap(overlapping, search.margin, search.stray, until)
-    known = proven > begin
-    words = claim(*asked, (begin, proven), f"{UNDECIDED_THEN}{ends}.")
-    method = words if known else claim_undecided(*asked, begin, ends)
-    graze = _graze(found, clock, begin)
-    evidence = Evidence(method, found.steps, proven if known else None, found.gap_curvature, graze)
+        until = overlap_time = clock.time(met.touching)
+        overlapping = met.benches
+    clear_until = proven if proven > begin else None
+    claim = ContactClaim(
+        ClaimKind.UNDECIDED, DanceSummary.of(dance), search.margin, search.stray, begin, clear_until,
+        benches=overlapping, time=overlap_time,
+    )  # fmt: skip
+    graze = _graze(march, clock, begin)
+    evidence = Evidence(claim, march.steps, clear_until, march.gap_curvature, graze)
     return FirstContact(
         Outcome.UNDECIDED,
         time_bracket=(proven, until),
@@ -159,9 +145,9 @@ def _undecided(
     )
 
 
-def _graze(found: Marched, clock: Clock, begin: float) -> Graze | None:
+def _graze(march: Marched, clock: Clock, begin: float) -> Graze | None:
     """The narrowest graze of a march that begins at a time [s]."""
-    graze = found.graze
+    graze = march.graze
     return None if graze is None else Graze(max(clock.time(graze.travel), begin), graze.gap, graze.benches)
 
 
@@ -169,31 +155,30 @@ def _result(
     dance: Dance,
     search: Search,
     state: Ended,
-    found: Marched,
+    march: Marched,
     end: RunEnd,
     span: tuple[float, float],
     half_bracket: float,
 ) -> FirstContact:
-    clock = dance.clock
-    proven = end.time if state is Ended.REACHED else max(clock.time(found.proven), span[0])
-    outcome = OUTCOMES[state]
-    method = _method(dance, search, outcome, found, end, (span[0], proven))
-    clear_until = proven if proven > span[0] and outcome is not Outcome.CONTACT_AT_START else None
-    certificate = Evidence(method, found.steps, clear_until, found.gap_curvature, _graze(found, clock, span[0]))
-    told = partial(
+    clock, outcome = dance.clock, OUTCOMES[state]
+    at_start = outcome is Outcome.CONTACT_AT_START
+    proven = end.time if state is Ended.REACHED else max(clock.time(march.proven), span[0])
+    clear_until = proven if proven > span[0] and not at_start else None
+    claim = _claim(dance, search, outcome, march, end, (span[0], proven))
+    certificate = Evidence(claim, march.steps, clear_until, march.gap_curvature, _graze(march, clock, span[0]))
+    answer = partial(
         FirstContact, outcome, certificate=certificate, margin=search.margin, stray=search.stray, dance=dance
     )
     if outcome is Outcome.CLEAR:
-        return told(end=end)
-    at_start = outcome is Outcome.CONTACT_AT_START
-    assert found.touching is not None
-    travel = found.touching if at_start else found.touching - half_bracket
-    corner, edge, point, gap = _touching_features(search, travel, found.benches)
-    return told(
+        return answer(end=end)
+    assert march.touching is not None
+    travel = march.touching if at_start else march.touching - half_bracket
+    corner, edge, point, gap = _touching_features(search, travel, march.benches)
+    return answer(
         time=span[0] if at_start else max(clock.time(travel), span[0]),
-        time_bracket=None if at_start else (proven, clock.time(found.touching)),
+        time_bracket=None if at_start else (proven, clock.time(march.touching)),
         head=search.path.head(travel),
-        benches=found.benches,
+        benches=march.benches,
         corner=corner,
         edge=edge,
         point=point,
@@ -201,21 +186,19 @@ def _result(
     )
 
 
-def _method(
-    dance: Dance, search: Search, outcome: Outcome, found: Marched, end: RunEnd, span: tuple[float, float]
-) -> str:
-    margin = search.margin
-    asked = (dance, margin, search.stray)
+def _claim(
+    dance: Dance, search: Search, outcome: Outcome, march: Marched, end: RunEnd, span: tuple[float, float]
+) -> ContactClaim:
+    """What a decided search claims. span: of the search, up to the time until which it is proven to be clear [s]"""
+    begin, proven = span
+    about = (DanceSummary.of(dance), search.margin, search.stray, begin)
     if outcome is Outcome.CLEAR:
-        return claim(*asked, span, ENDS[end.reason])
-    pair = found.benches
+        return ContactClaim(ClaimKind.CLEAR, *about, proven, end=end.reason)
     if outcome is Outcome.CONTACT_AT_START:
-        return claim_at_start(*asked, span[0], pair)
-    assert found.touching is not None
-    touching = dance.clock.time(found.touching)
-    if not span[1] > span[0]:
-        return claim_at_start(*asked, touching, pair)
-    return claim(*asked, span, contact_then(pair, margin, search.stray, touching))
+        return ContactClaim(ClaimKind.CONTACT_AT_START, *about, benches=march.benches, time=begin)
+    assert march.touching is not None
+    kind, clear_until = (ClaimKind.CONTACT, proven) if proven > begin else (ClaimKind.CONTACT_AT_START, None)
+    return ContactClaim(kind, *about, clear_until, benches=march.benches, time=dance.clock.time(march.touching))
 
 
 def _touching_features(
@@ -237,66 +220,3 @@ def _touching_features(
     cos, sin = math.cos(turned), math.sin(turned)
     point, frame = (float(x * cos - y * sin), float(x * sin + y * cos)), search.path.frame
     return corner, edge, point if frame == WORLD else frame.point(*point), float(met.separation)
-
-
-def claim(dance: Dance, margin: float, stray: float, span: tuple[float, float], then: str) -> str:
-    """The claim in words: dragon, path, head speed, margin, stray, and the span of time [s] without a contact.
-
-    then: the rest of the sentence
-    """
-    start, stop = map(said, span)
-    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
-    never = f"from {start} s to {stop} s no two benches that share no handle {near}"
-    return f"{_dance(dance)}: {_strayed(stray)}{never}{then} {PROOF if dance.dragon.benches > 2 else NO_PAIR}"
-
-
-def claim_at_start(dance: Dance, margin: float, stray: float, start: float, pair: tuple[int, int]) -> str:
-    """claim() for two benches within the margin at the start [s]."""
-    near = f"{_be(stray)} nearer to each other than {said(margin)} m" if margin else f"{'may ' if stray else ''}touch"
-    touching = f"at {said(start)} s benches {pair[0]} and {pair[1]} {near}."
-    return f"{_dance(dance)}: {_strayed(stray)}{touching} {MEASURED}"
-
-
-def claim_undecided(dance: Dance, margin: float, stray: float, start: float, before: str) -> str:
-    """claim() for a search that gave up at the start [s]. before: of a certain contact, see before_overlap()"""
-    near = f"are nearer to each other than {said(margin)} m" if margin else "touch"
-    never = f"from {said(start)} s on it is not decided whether two benches that share no handle {near}{before}."
-    return f"{_dance(dance)}: {_strayed(stray)}{never} {TRIED}"
-
-
-def before_overlap(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
-    """The end of the sentence of a search that gave up, if a contact is certain at a later time [s]."""
-    return f" before {said(time)} s, when benches {pair[0]} and {pair[1]} {_nearer(margin, stray)}"
-
-
-def contact_then(pair: tuple[int, int], margin: float, stray: float, time: float) -> str:
-    """The end of a claim's sentence for a contact that is certain at a time [s]."""
-    return f", and at {said(time)} s benches {pair[0]} and {pair[1]} {_nearer(margin, stray)}."
-
-
-def _nearer(margin: float, stray: float) -> str:
-    return f"{_be(stray)} nearer than {said(margin)} m" if margin else f"{'may ' if stray else ''}overlap"
-
-
-def _strayed(stray: float) -> str:
-    return (
-        f"while every hole is within {said(stray)} m of its place, and every chord keeps its length, " if stray else ""
-    )
-
-
-def _be(stray: float) -> str:
-    return "may be" if stray else "are"
-
-
-def _dance(dance: Dance) -> str:
-    return f"{_dragon(dance.dragon)} on {dance.path.words()}, the head at {dance.clock.words()}"
-
-
-def _dragon(dragon: Dragon) -> str:
-    count = f"{dragon.benches} bench{'es' if dragon.benches > 1 else ''}"
-    widths, overhangs = dragon.widths, dragon.overhangs
-    if dragon.uniform_from > 1 or widths[0] != widths[-1] or overhangs[0] != overhangs[-1]:
-        return f"{count} given one by one"
-    head, body, width, overhang = map(said, (dragon.lengths[0], dragon.lengths[-1], widths[0], overhangs[0]))
-    lengths = f"head {head} m" + (f", body {body} m" if dragon.benches > 1 else "")
-    return f"{count} ({lengths}, width {width} m, overhang {overhang} m)"

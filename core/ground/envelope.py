@@ -45,10 +45,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.claims.certificate import Certificate
+from core.claims.claim import ClaimKind, GroundClaim
 from core.dance import Dance
 from core.dragon import Dragon
 from core.error_free import paired
-from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed, said
+from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
@@ -77,10 +79,10 @@ CELL_WORK, ENVELOPE_WORK = 300.0, 1e8
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class SweepProof(Readable):
-    """Evidence of an envelope: the claim in sentences, and the number of cells."""
+class SweepProof(Certificate):
+    """Evidence of an envelope: the claim, and the number of cells."""
 
-    method: str
+    claim: GroundClaim
     cells: int
 
 
@@ -99,7 +101,7 @@ class Envelope(WithArrays):
     start: float
     stop: float
     certificate: SweepProof
-    _units = {"area": "m2", "excess": "m", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    _units = {"area": "m2", "polygons": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
         beyond = f"at most {self.excess:.3g} m beyond the benches"
@@ -156,24 +158,14 @@ def envelope(
     polygons = united(core, rest, added, LEFT_OUT * excess, budget)
     most = GROWTH_MOST * added + GRID + BOW_AND_SLIP * excess + max(part.over for part in parts) + ROUNDING
     cells = sum(part.cells for part in parts)
-    proof = SweepProof(_method(found, cells, (begin, until), most), cells)
+    length = sum(track.length for track in found)
+    claim = GroundClaim(ClaimKind.SWEPT_GROUND, begin, until, most, len(found), length, cells)
+    proof = SweepProof(claim, cells)
     area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
     frame, onwards = dance.path.frame, slice(None, None, 1 if dance.path.frame.clockwise else -1)
     # in the world frame, each ring still in its direction
     polygons = tuple(tuple(frame.points(ring)[onwards] for ring in rings) for rings in polygons)
     return Envelope(polygons, most, area, begin, until, proof)
-
-
-def _method(found: list[Track], cells: int, span: tuple[float, float], most: float) -> str:
-    length = sum(track.length for track in found)
-    over = f"{counted(len(found), 'size')}, {length:.6g} m of the path, {counted(cells, 'cell')}"
-    return (
-        f"From {said(span[0])} to {said(span[1])} s no bench leaves the polygons, and no point of theirs is more than "
-        f"{most:.3g} m from ground that a bench covers. Benches of one size sweep together what one of them sweeps "
-        f"over all their places: {over}. In each cell a bound on the second derivative shows how far a point of a "
-        "bench can be from the straight line between its first and its last place. The polygons are the union of what "
-        "edges sweep along such lines, grown by more than that."
-    )
 
 
 @dataclass(frozen=True, slots=True)

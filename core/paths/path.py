@@ -24,6 +24,23 @@ class HeadState(Readable):
     y: float
 
 
+@dataclass(frozen=True, slots=True, repr=False)
+class PathSummary(Readable):
+    """A path by all that matters for a claim.
+
+    kind: spiral or route; pitch [m], start_turns: of a spiral; begin, end: smallest and largest s of the head [m]
+    pieces: kinds of the pieces of a route in their order, or the different kinds if there are many
+    """
+
+    kind: str
+    begin: float
+    end: float
+    pitch: float | None = None
+    start_turns: float | None = None
+    pieces: tuple[str, ...] = ()
+    _units = {"begin": "m", "end": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+
 class Path(Protocol):
     """A curve by its arc length s [m], which is 0 at the head's place at time 0 and grows in the direction of travel.
 
@@ -143,5 +160,5 @@ class Path(Protocol):
     def drawn(self, reached: Floats) -> Floats:
         """Points (N, 2) [m] for a picture; on a spiral as far out as the given points (..., 2)."""
 
-    def words(self) -> str:
-        """The path in a sentence that names all that matters for a proof."""
+    def summary(self) -> PathSummary:
+        """The path by all that matters for a claim."""

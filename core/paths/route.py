@@ -10,7 +10,7 @@ import numpy as np
 
 from core import kernels
 from core.error_free import paired
-from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_number, listed, said, too_much
+from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_number, listed, too_much
 from core.kernels import Budget, Halted
 from core.kernels.constants import (
     K_END,
@@ -26,7 +26,7 @@ from core.kernels.constants import (
     TY,
 )
 from core.paths.frame import WORLD
-from core.paths.path import Columns, HeadState
+from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Arc, Coil, Line, Piece
 from core.shown import REPR_MOST, TABLE_DIGITS, Readable, counted, worded
 from core.values import Floats
@@ -222,11 +222,11 @@ class Route(Readable):
         """Minus the s up to which handles stand on the first piece itself, if its curvature does not fall [m]."""
         return kernels.BLEND - float(self.table[0, S_END]) if self.calm_beginning else kernels.FREE
 
-    def words(self) -> str:
-        """The route in a sentence that names all that matters for a proof."""
+    def summary(self) -> PathSummary:
+        """The route by its ends and the kinds of its pieces."""
         kinds = [type(piece).__name__.lower() for piece in self.pieces]
         listed = kinds if len(kinds) <= PIECES_LISTED else sorted(set(kinds))
-        return f"a route from s = {said(self.begin)} m to {said(self.end)} m ({', '.join(listed)})"
+        return PathSummary("route", self.begin, self.end, pieces=tuple(listed))
 
     def gentle_lag(self, curvature: float) -> float:
         """Minus infinity, because no handle reverses on a route that a dance can follow."""

@@ -14,9 +14,9 @@ import numpy as np
 from core import kernels
 from core.dragon import Dragon
 from core.error_free import paired
-from core.errors import Given, InvalidValue, checked_angle, checked_number, checked_point, checked_size, said
+from core.errors import Given, InvalidValue, checked_angle, checked_number, checked_point, checked_size
 from core.paths.frame import WORLD, Frame
-from core.paths.path import Columns, HeadState
+from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.sampling import bisected
@@ -242,9 +242,9 @@ class Spiral(Readable):
         """Polar angle from which outwards the |curvature| is at most this [1/m], as for gentle_lag() [rad]."""
         return self.gentle_lag(curvature)
 
-    def words(self) -> str:
-        """The spiral in a sentence that names all that matters for a proof."""
-        return f"a spiral of {said(self.pitch)} m pitch from {said(self.start_turns)} turns"
+    def summary(self) -> PathSummary:
+        """The spiral by its pitch and its start."""
+        return PathSummary("spiral", self.begin, self.end, self.pitch, self.start_turns)
 
     def drawn(self, reached: Floats) -> Floats:
         """Points (N, 2) [m] for a picture: from the centre to the start, or further out to the given points."""

@@ -19,14 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.claims.certificate import Certificate
+from core.claims.claim import ClaimKind, ProbabilityClaim
 from core.dance import Dance
 from core.error_free import paired
-from core.errors import Given, InvalidValue, Quantity, asked_of, checked_type, said, too_much
+from core.errors import Given, InvalidValue, Quantity, asked_of, checked_type, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
 from core.shapes.reach import gains
 from core.shown import WithArrays, counted, worded
-from core.tolerance.safe import safe_words
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
@@ -48,7 +49,7 @@ CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class ContactProbability(WithArrays):
+class ContactProbability(WithArrays, Certificate):
     """Probability that two benches touch at one of some instants when people wobble.
 
     probability: share of the samples with a contact; limits: Clopper and Pearson's, between which the probability of
@@ -85,25 +86,12 @@ class ContactProbability(WithArrays):
         return None if self.tolerance is None else int((self.strays > self.tolerance).sum())
 
     @property
-    def method(self) -> str:
-        """Evidence for the probability, in sentences."""
-        told = (
-            f"In {self.contacts} of {self.samples} dances drawn from the model two benches that share no handle touch "
-            f"at one of {self.instants} instants {said(self.step)} s apart; what happens between two of them is not "
-            f"judged. The limits are Clopper and Pearson's: whatever the probability of the model is, it lies outside "
-            f"them for at most {100.0 * (1.0 - CONFIDENCE):.3g} % of all seeds."
-        )
-        if self.union_bound is not None:
-            most = f"is at most {said(self.union_bound)} at these instants, whatever the samples say"
-            order = "in first order with bounds of the rest, computed in doubles"
-            told += f" The probability of the model {most}: a union bound over all pairs and instants, {order}."
-        if self.tolerance:
-            safe = f"While no hole is further than {safe_words(self.tolerance)} m from its place, nothing touches"
-            count = self.samples - (self.strayed or 0)
-            within = "in every sample a hole is further away at one of these instants"
-            within = f"in {count} samples no hole is further away at any of these instants" if count else within
-            told += f" {safe} at any time, which is proven; {within}."
-        return told
+    def claim(self) -> ProbabilityClaim:
+        """What is known about the probability, as values."""
+        return ProbabilityClaim(
+            ClaimKind.CONTACT_PROBABILITY, self.contacts, self.samples, self.instants, self.step, CONFIDENCE,
+            self.union_bound, self.tolerance, self.samples - (self.strayed or 0),
+        )  # fmt: skip
 
     def _line(self) -> str:
         low, high = self.limits

@@ -26,7 +26,6 @@ from core.contact.march import TOUCHES
 from core.contact.search import Search
 from core.dance import Dance
 from core.dragon import Dragon
-from core.errors import said, said_bound
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip
 from core.shapes.reach import Reach, gains, reach, simple_reach
@@ -190,12 +189,3 @@ def _grazing(
         if stray != last[0]:
             slope = max(slope, (dip.gap - last[1]) / (last[0] - stray))
     return stray, dip
-
-
-def safe_words(stray: float) -> str:
-    """A stray that is proven safe [m], as sentences print it: rounded down to 1e-12 m, so that it stays proven.
-
-    >>> safe_words(0.8250000000000001), safe_words(0.02)
-    ('0.825', '0.02')
-    """
-    return said(float(said_bound(stray, 12)))

@@ -13,17 +13,19 @@ from enum import StrEnum
 
 import numpy as np
 
+from core.claims.certificate import Certificate
+from core.claims.claim import BenchBetween, ClaimKind, DanceSummary, StrayClaim
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges
 from core.dance import Dance
-from core.errors import asked_of, checked_type, said
+from core.errors import asked_of, checked_type
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.shapes.rectangles import bench_poses, frames, frames_separation
 from core.shown import Readable, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
-from core.tolerance.safe import Field, SafeStray, held_stray, safe_words
+from core.tolerance.safe import Field, SafeStray, held_stray
 from core.venue import Venue
 
 
@@ -37,10 +39,10 @@ class Limit(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class StrayProof(Readable):
-    """Evidence of the safe stray: the claim in sentences, and the number of steps that the march took."""
+class StrayProof(Certificate):
+    """Evidence of the safe stray: the claim, and the number of steps that the march took."""
 
-    method: str
+    claim: StrayClaim
     steps: int
 
 
@@ -120,7 +122,7 @@ def tolerance(
         if safe.dip is not None:
             found, limit = safe, field
     known = (found.stray, min(independent, found.stray), min(simple, found.stray))
-    proof = StrayProof(_method(dance, found, known[1], (begin, until), venue), steps)
+    proof = StrayProof(_claim(dance, found, known[1], (begin, until), venue), steps)
     if found.dip is None or limit is None:
         return Tolerance(*known, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
     _, travel, (a, b) = found.dip
@@ -166,21 +168,14 @@ def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhib
     return None if shown is None else replace(shown, handles=frame.points(shown.handles))
 
 
-def _method(dance: Dance, found: SafeStray, independent: float, span: tuple[float, float], venue: Venue | None) -> str:
-    square = " or an edge of the venue" if venue is not None else ""
-    what = f"{dance.dragon._line()} on {dance.path.words()}: from {said(span[0])} s to {said(span[1])} s"
-    if found.stray <= 0.0:
-        why = f"a bench touches another{square} with everybody in place" if found.touches else "none was proven"
-        return f"{what} no stray is known to be safe: {why}."
-    between = ""
-    if independent < found.stray:
-        between = " Two benches with one between them are held apart by it: distances of handles prove that."
-    elif found.dip is not None and found.dip.benches[1] == found.dip.benches[0] + 2:
-        between = " The two benches that limit it have one between them, which is not used here: they are assumed"
-        between += " to stray independently, so the stray is lower than it could be."
-    return (
-        f"{what}, while every hole is within {safe_words(found.stray)} m of its place and every chord keeps its "
-        f"length, no bench touches another that it shares no handle with{square}. Proven in steps for the hulls of all "
-        "places that benches can have then, as first contacts are for benches; computed in doubles, with allowances "
-        f"for their rounding.{between}"
-    )
+def _claim(
+    dance: Dance, safe: SafeStray, independent: float, span: tuple[float, float], venue: Venue | None
+) -> StrayClaim:
+    between = None
+    if independent < safe.stray:
+        between = BenchBetween.HELD
+    elif safe.dip is not None and safe.dip.benches[1] == safe.dip.benches[0] + 2:
+        between = BenchBetween.UNUSED
+    kind = ClaimKind.SAFE_STRAY if safe.stray > 0.0 else ClaimKind.NO_SAFE_STRAY
+    touches, placed = safe.stray <= 0.0 and safe.touches, venue is not None
+    return StrayClaim(kind, DanceSummary.of(dance), placed, *span, max(safe.stray, 0.0), touches, between)

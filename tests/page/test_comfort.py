@@ -25,6 +25,8 @@ SMALL = """(least) => [...document.querySelectorAll("button, select, input, summ
   .filter((one) => one.getBoundingClientRect().height < least - 0.5).map((one) => one.outerHTML)"""
 # Latin letters that are no unit, no name and no symbol.
 ENGLISH = re.compile(r"[A-Za-z]{4,}")
+# Claims in Chinese, as the page words them.
+CHINESE = "claims => import('/page/proofs.js').then((one) => claims.map(one.claimInChinese))"
 
 
 def shows(page: Any, selector: str, *words: str) -> None:
@@ -219,13 +221,13 @@ def test_in_chinese_proofs_and_refusals_are_chinese(visit: Any, server: str) -> 
         proof = page.locator(f"{place} .method").inner_text()
         assert "证明" in proof
         assert not ENGLISH.search(proof)
-    methods = [
-        polite.get(f"{server}/collision-time", params=query).json()["certificate"]["method"]
+    claims = [
+        polite.get(f"{server}/collision-time", params=query).json()["certificate"]["claim"]
         for query in ({}, {"pitch": 0.3}, {"pitch": 2, "start_turns": 8, "benches": 9}, {"benches": 2})
     ]
     turn = {"path": {"kind": "turn", "pitch": 1.7}, "start": -10, "stop": 10, "dragon": {"benches": 5}}
-    methods.append(polite.post(f"{server}/check", json=turn).json()["first_contact"]["certificate"]["method"])
-    proofs = page.evaluate("m => import('/page/proofs.js').then((one) => m.map(one.proofInChinese))", methods)
+    claims.append(polite.post(f"{server}/check", json=turn).json()["first_contact"]["certificate"]["claim"])
+    proofs = page.evaluate(CHINESE, claims)
     assert [proof for proof in proofs if ENGLISH.search(proof)] == []
 
 

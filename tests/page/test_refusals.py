@@ -13,7 +13,10 @@ import httpx
 
 from app.service.main import create_app
 from app.settings import Settings
+from app.wire import claims as wire
 from app.wire.problem import DETAIL_MAX
+from core.claims.claim import ContactClaim, StrayClaim
+from tests.core.claims.every_kind import CLAIMS, SENTENCES
 from tests.page.pending import settled
 
 ROOT = Path(__file__).parent.parent.parent
@@ -21,6 +24,9 @@ ROOT = Path(__file__).parent.parent.parent
 ENGLISH = re.compile(
     r"(?<![A-Za-z])(?!GeoJSON|HTTP|TOML|JSON|KMZ?|DXF|DWG|ASCII|XML|name|length|width|overhang)[A-Za-z]{3,}"
 )
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+# Claims in Chinese, as the page words them.
+CHINESE = "claims => import('/page/proofs.js').then((one) => claims.map(one.claimInChinese))"
 QUOTED = re.compile("“[^”]*”")
 # Words that no person should read: names of fields, units in brackets, words for programs.
 INSIDE = re.compile(r"[a-z]_[a-z]|\[|\bgot\b|venue|csv|dragon\.\w|path\.\w|POST|header|\bNone\b")
@@ -214,7 +220,16 @@ def _told(part: str, said: str) -> bool:
     return all(word in said for word in words) and sum(pair not in said for pair in pairs) <= 3
 
 
-def test_every_proof_is_told_in_chinese(visit: Any, server: str) -> None:
+def test_every_proof_is_told_in_chinese_as_the_library_does(visit: Any) -> None:
+    shown = {name: claim for name, claim in CLAIMS.items() if isinstance(claim, (ContactClaim, StrayClaim))}
+    values = [
+        getattr(wire, type(claim).__name__).model_validate(claim).model_dump(mode="json") for claim in shown.values()
+    ]
+    proofs = visit("?benches=9").evaluate(CHINESE, values)
+    assert dict(zip(shown, proofs, strict=True)) == {name: SENTENCES[name][1] for name in shown}
+
+
+def test_every_proof_of_the_service_is_told_in_chinese(visit: Any, server: str) -> None:
     paths = [{"kind": "waypoints", "points": PLAIN, "start": 20}, {"kind": "turn", "pitch": 1.7}, {"kind": "spiral"}]
     few = [{"speed": 0.5, "until_s": 5}, {"speed": 0, "until_time": 60}, {"speed": 2, "until_time": 61}]
     many = [{"speed": 1, "until_time": 1 + 0.1 * k} for k in range(30)]
@@ -222,21 +237,26 @@ def test_every_proof_is_told_in_chinese(visit: Any, server: str) -> None:
     venue = {"type": "FeatureCollection", "features": [feature("square", "Polygon", [SQUARE]), tree]}
     mores: tuple[dict[str, Any], ...] = ({}, {"passages": few}, {"passages": many}, {"stray": 0.02}, {"margin": 0.05})
     with httpx.Client(base_url=server, timeout=60.0) as client:
-        methods = []
+        certificates = []
         for path in paths:
             body = {"dragon": {"benches": 9}, "path": path}
             body |= {"start": -20, "stop": 40} if path["kind"] == "turn" else {}
             for more in mores:
                 answer = client.post("/check", json=body | more).raise_for_status().json()["first_contact"]
-                methods.append(answer["certificate"]["method"])
+                certificates.append(answer["certificate"])
             end = {"turning_diameter": 9} if path["kind"] == "spiral" else {}
             for place in ({}, {"venue": venue}) if path is paths[0] else ({},):
                 answer = client.post("/tolerance", json=body | end | place).raise_for_status().json()
-                methods.append(answer["certificate"]["method"])
+                certificates.append(answer["certificate"])
     page = visit("?benches=9")
-    chinese = page.evaluate("m => import('/page/proofs.js').then((one) => m.map(one.proofInChinese))", methods)
+    chinese = page.evaluate(CHINESE, [one["claim"] for one in certificates])
     assert len(set(chinese)) > 15
     assert [words for words in chinese if ENGLISH.search(words)] == []
+    numbers = [
+        [set(NUMBER.findall(words)) for words in (one["method"], zh)]
+        for one, zh in zip(certificates, chinese, strict=True)
+    ]
+    assert [pair for pair in numbers if not pair[0] <= pair[1]] == []
 
 
 def test_what_is_asked_in_centimetres_is_refused_in_centimetres(visit: Any) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,7 @@ def test_the_service_and_the_command_answer_what_core_answers(client: httpx.Clie
     )
     assert {name: got[name] for name in names} == {name: getattr(found, name) for name in names}
     assert tuple(got["limits"]) == found.limits
+    assert got["claim"] == asdict(found.claim)
     assert got["time_quantiles"] == np.quantile(found.time, (0.05, 0.5, 0.95)).tolist()
     pairs = [tuple(pair) for pair in found.benches.tolist()]
     assert tuple(got["benches"]) == max(sorted(set(pairs)), key=pairs.count)

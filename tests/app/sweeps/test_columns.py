@@ -38,8 +38,11 @@ def test_what_is_shown_and_what_is_left_out_are_columns(name: str) -> None:
     question = question_of(name)
     names = {column.name: column for column in answer_columns(question.answer)}
     assert names[question.shown].kind is float
-    assert question.left_out <= names.keys()
     assert len(names) == len(answer_columns(question.answer))
+    kept = {column.name for column in answer_columns(question.answer, question.left_out)}
+    for field in question.left_out:
+        assert {name for name in names.keys() - kept if f"{name}.".startswith(f"{field}.")}
+    assert all(f"{name}.".startswith(tuple(f"{field}." for field in question.left_out)) for name in names.keys() - kept)
 
 
 @pytest.mark.parametrize(

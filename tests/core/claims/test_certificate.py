@@ -1,0 +1,38 @@
+"""Certificates carry a claim, and show its sentences."""
+
+from __future__ import annotations
+
+import pytest
+
+import core
+from core import Dance, Dragon, InvalidValue, Spiral
+from core.claims.certificate import Certificate, claim_words
+from core.claims.claim import ClaimKind
+
+DANCE = Dance(Dragon(5), Spiral())
+
+
+def test_every_certificate_shows_the_sentences_of_its_claim() -> None:
+    contact, strays = core.first_contact(DANCE, stop=10.0), core.tolerance(DANCE, stop=10.0)
+    for certificate in (contact.certificate, strays.certificate, core.envelope(DANCE, stop=1.0).certificate):
+        assert isinstance(certificate, Certificate)
+        assert certificate.method == claim_words(certificate.claim)
+        table = certificate._repr_html_()
+        assert '<tr><th scope="row">method</th><td>' in table
+        assert "claim" not in table
+        assert "method" not in repr(certificate)  # too long for a line
+
+
+def test_a_probability_has_its_claim_too() -> None:
+    found = core.contact_probability(DANCE, core.Wobble(), 3, 1, stop=10.0)
+    assert found.claim.kind is ClaimKind.CONTACT_PROBABILITY
+    assert found.claim.within == 3 - found.strayed
+    assert found.method == claim_words(found.claim)
+
+
+def test_a_certificate_has_words_in_two_languages_and_in_no_other_one() -> None:
+    certificate = core.first_contact(DANCE, stop=10.0).certificate
+    assert certificate.in_words() == certificate.in_words("en") == certificate.method
+    assert certificate.in_words("zh").startswith("5 节板凳（龙头长 3.41 m，")
+    with pytest.raises(InvalidValue, match="language must be en or zh, got 'fr'"):
+        certificate.in_words("fr")
