@@ -6,7 +6,8 @@ bends tightly, and where the curvature jumps from one arc to the other, handles 
 shortest turn is not the quickest.
 
 Scanned, not proven: the time is computed on a grid of entries and exits by samples of the rate, and then lowered from
-the best places of the grid by steps that halve. The rate of the answer is proven, and so is that nothing touches.
+the best places of the grid by steps that halve. Turns with an overlap in a sampled pose are left out of both. The rate
+of the answer is proven, and so is that nothing touches.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from core.dance import Dance
 from core.design.deepest_turn import contact_in, refuse_bend
 from core.design.turn_boxes import sizes_of
 from core.design.turn_moves import least_bend
+from core.design.turn_overlap import Overlap, most_benches
 from core.dragon import Dragon, told_chords
 from core.errors import InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities, too_much
 from core.kernels import Budget, Halted
@@ -36,8 +38,10 @@ from core.shown import Readable, worded
 GRID = 0.02
 # Step of the samples of a rate [m of head travel]; handles after the first ones do not go faster on a turn.
 SAMPLE, LEADING = 0.1, 16
-# Places of the grid from which the time is lowered, and the width to which [m].
-PLACES, WIDTH = 4, 1e-4
+# Most places of the grid from which the time is lowered, and the width to which [m].
+PLACES, WIDTH = 8, 1e-4
+# Steps to the eight neighbours of a place.
+BESIDE_IT = tuple((x, y) for x, y in product((-1, 0, 1), repeat=2) if x or y)
 # Travel of the head before and after the turn in which the highest rate is looked for [m].
 BESIDE = 100.0
 
@@ -126,40 +130,50 @@ class _Times:
         self.dragon, self.margin, self.budget = dragon, margin, budget
         self.pitch, self.radius, self.ratio, self.start_turns = asked
         self.front = dragon.leading(min(dragon.benches, LEADING))
+        least = least_bend(dragon)
+        self.overlap = Overlap(dragon, margin, least, most_benches(dragon, self.radius))
         self.known: dict[tuple[float, float], float] = {}
 
     def quickest(self) -> Turn | None:
         """The quickest turn that can be danced; None if none of the tried ones can."""
-        timed = sorted((self.time(place), place) for place in self._grid())
         best: tuple[float, Turn] | None = None
-        tried = 0
-        for time, place in timed:
-            if tried >= PLACES or (best is not None and time >= best[0] * (1.0 + GRID)):
+        for time, place in self._dips()[:PLACES]:
+            if best is not None and time >= best[0] * (1.0 + GRID):
                 break
             lowered, at = self._lowered(time, place)
             turn = self._turn(at)
             if turn is None or (best is not None and lowered >= best[0]):
                 continue
-            touch = contact_in(self.budget, self.dragon, turn, self.margin, 0.0)
-            if touch.outcome is Outcome.CLEAR:
-                best, tried = (lowered, turn), tried + 1
+            if contact_in(self.budget, self.dragon, turn, self.margin, 0.0).outcome is Outcome.CLEAR:
+                best = lowered, turn
         return None if best is None else best[1]
 
-    def _grid(self) -> list[tuple[float, float]]:
-        """Entry and exit radii of turns that benches can follow [m]."""
+    def _dips(self) -> list[tuple[float, tuple[float, float]]]:
+        """Times and places of the grid that are not slower than their neighbours on it, the quickest first."""
         growth, radii = self.pitch / (2.0 * math.pi), self.radius * np.arange(1.0, 0.2, -GRID)
-        entry, leaving = (axis.ravel() for axis in np.meshgrid(radii, radii))
-        log_ratio = np.full(entry.size, math.log(self.ratio))
-        sizes = sizes_of(growth, entry, (leaving - entry) / growth, log_ratio)
-        fits = np.flatnonzero(sizes[:2].min(axis=0) >= least_bend(self.dragon))
-        return [(float(entry[k]), float(leaving[k])) for k in fits]
+        entry, leaving = np.meshgrid(radii, radii, indexing="ij")
+        sizes = sizes_of(
+            growth, entry.ravel(), (leaving - entry).ravel() / growth, np.full(entry.size, math.log(self.ratio))
+        )
+        fits = (sizes[:2].min(axis=0) >= least_bend(self.dragon)).reshape(entry.shape)
+        times = np.full(np.add(entry.shape, 2), np.inf)
+        for i, j in np.argwhere(fits).tolist():
+            times[i + 1, j + 1] = self.time((float(radii[i]), float(radii[j])))
+        inside = times[1:-1, 1:-1]
+        around = [times[1 + i : 1 + i + len(radii), 1 + j : 1 + j + len(radii)] for i, j in BESIDE_IT]
+        dips = np.argwhere(np.isfinite(inside) & (inside <= np.minimum.reduce(around))).tolist()
+        return sorted((float(inside[i, j]), (float(radii[i]), float(radii[j]))) for i, j in dips)
 
     def time(self, place: tuple[float, float]) -> float:
-        """Length of the turn at a place times the highest sampled rate [m]; infinite if it cannot be followed."""
+        """Length of the turn at a place times the highest sampled rate [m].
+
+        It is infinite if a bench cannot follow the turn, or benches of a sampled pose overlap.
+        """
         if place not in self.known:
             self.budget.look()
             turn = self._turn(place)
-            self.known[place] = math.inf if turn is None else turn.length * self._rate(turn)
+            danced = turn is not None and self.overlap.deepest(turn) <= 0.0
+            self.known[place] = turn.length * self._rate(turn) if turn is not None and danced else math.inf
         return self.known[place]
 
     def _rate(self, turn: Turn) -> float:
@@ -180,7 +194,7 @@ class _Times:
         """The time lowered by steps along both radii and both diagonals, which halve down to WIDTH."""
         step = 0.5 * GRID * self.radius
         while step > WIDTH:
-            around = [(place[0] + step * x, place[1] + step * y) for x, y in product((-1, 0, 1), repeat=2) if x or y]
+            around = [(place[0] + step * x, place[1] + step * y) for x, y in BESIDE_IT]
             around = [(min(x, self.radius), min(y, self.radius)) for x, y in around if min(x, y) > 0.0]
             lower, at = min((self.time(one), one) for one in around)
             if lower < time:

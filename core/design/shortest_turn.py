@@ -38,7 +38,7 @@ from core.design.turn_bounds import (
 )
 from core.design.turn_boxes import Turns, sizes_of, turns_in
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
-from core.design.turn_overlap import Overlap
+from core.design.turn_overlap import Overlap, most_benches
 from core.design.turn_places import polished, starts
 from core.dragon import Dragon, Stray, checked_stray, told_chords
 from core.errors import (
@@ -175,9 +175,7 @@ class _Search:
         self.growth = self.pitch / (2.0 * math.pi)
         self.least = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
-        around = 2.0 * math.pi * self.radius + 4.0 * self.radius
-        most = 4 + math.ceil(around / float(dragon.chords[1:].min(initial=dragon.chords[0])))
-        self.overlap = Overlap(dragon, self.margin, self.least, most)
+        self.overlap = Overlap(dragon, self.margin, self.least, most_benches(dragon, self.radius))
         self.best: Turn | None = None
         self.boxes = self.overlaps = self.evaluations = 0
         self.longer: list[Boxes] = []

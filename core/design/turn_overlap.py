@@ -205,6 +205,12 @@ class Overlap:
         return float((1.0 + over) * far + over * near + 0.5 * self.widths[bench] * (near + far) / self.chords[bench])
 
 
+def most_benches(dragon: Dragon, radius: float) -> int:
+    """Number of benches behind one another that may come near the first of them in a circle of this radius [m]."""
+    around = 2.0 * math.pi * radius + 4.0 * radius
+    return 4 + math.ceil(around / float(dragon.chords[1:].min(initial=dragon.chords[0])))
+
+
 def _padded(values: Floats, count: int) -> Floats:
     return np.concatenate([values, np.full(count - len(values), values[-1])])
 
