@@ -36,7 +36,7 @@ from core.design.turn_bounds import (
     lower_lengths,
     multipliers_at,
 )
-from core.design.turn_boxes import Turns, sizes_of, turns_in
+from core.design.turn_boxes import Turns, sizes_of, too_tight, turns_in
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
 from core.design.turn_overlap import Overlap, most_benches
 from core.design.turn_places import polished, starts
@@ -243,9 +243,11 @@ class _Search:
     def _part(self, boxes: Boxes) -> Boxes:
         """Exclude boxes and divide the others."""
         self.budget.spend(BOX_WORK * boxes.lows.size)
+        count = boxes.lows.size
+        boxes = boxes.taken(np.flatnonzero(~too_tight(self.growth, boxes.centres, boxes.halves, self.least)))
         turns = turns_in(self.growth, boxes.centres, boxes.halves)
         bounds = [known.lower(turns, boxes.centres, boxes.halves) for known in self.multipliers]
-        lows = np.maximum.reduce([boxes.lows, lower_lengths(turns), *bounds])
+        lows = np.maximum.reduce([boxes.lows, lower_lengths(turns, self.least), *bounds])
         boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
         target = math.inf if self.best is None else self.best.length - self.width
         out = (turns.exit.low > self.radius) | (turns.exit.high < self.inner)
@@ -255,7 +257,7 @@ class _Search:
         left = np.flatnonzero(~(out | longer))
         left = left[np.argsort(lows[left], kind="stable")]
         left = np.setdiff1d(left, self._overlapping(turns, boxes, left))
-        self.boxes += lows.size - left.size
+        self.boxes += count - left.size
         slope = np.array([slope.furthest for slope in turns.slopes[2]])
         return divided(boxes.taken(left), slope[:, left])
 
