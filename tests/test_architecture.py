@@ -235,6 +235,8 @@ ORDER = (
     "app.questions.turn",
     "app.questions.shortest_turn",
     "app.questions.maximum_head_speed",
+    "app.questions.turn_time",
+    "app.questions.quickest_turn",
     "app.questions.check",
     "app.questions.envelope",
     "app.questions.tolerance",

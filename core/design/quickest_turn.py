@@ -117,21 +117,25 @@ def quickest_turn(
     if turn is None:
         refuse_bend(dragon, Turn(pitch, radius, ratio, start_turns=start_turns))
         why = "in every turn that was tried inside it benches come within {margin}"
-        raise InvalidValue(
-            "turning_radius", f"must be larger, or the pitch: {why}", **quantities("m", got=radius, margin=margin)
-        )
+        told = quantities("m", got=radius, margin=margin)
+        raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)
     return turn_time(dragon, turn, limit, budget=budget)
 
 
 class _Times:
     """Search for the quickest turn: times are computed for a speed limit of 1 m/s."""
 
-    def __init__(self, dragon: Dragon, asked: tuple[float, float, float, float], margin: float, budget: Budget) -> None:
+    def __init__(
+        self,
+        dragon: Dragon,
+        asked: tuple[float, float, float, float],
+        margin: float,
+        budget: Budget,
+    ) -> None:
         self.dragon, self.margin, self.budget = dragon, margin, budget
         self.pitch, self.radius, self.ratio, self.start_turns = asked
         self.front = dragon.leading(min(dragon.benches, LEADING))
-        least = least_bend(dragon)
-        self.overlap = Overlap(dragon, margin, least, most_benches(dragon, self.radius))
+        self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
         self.known: dict[tuple[float, float], float] = {}
 
     def quickest(self) -> Turn | None:

@@ -10,8 +10,10 @@ Below: branch and bound. Boxes of (a, v, log ratio) cover all turns (v: core/des
     - if one arc of all its turns is too tight, or an end is outside the circle, or on a coil too tight to follow;
     - if all its turns are longer than the shortest known turn less the width of the bracket;
     - if one pose is exhibited that overlaps in all its turns (core/design/turn_overlap.py);
-and divided otherwise. When no box is left, no shorter turn exists. That arcs stay inside the circle is required of the
-turn above, and not used below: arcs of short turns do, and without it the bound is lower at most.
+and divided otherwise. When no box is left, no shorter turn exists. If the ratio is free or 1, and the benches of poses
+are equal, only one of a turn and the same danced backwards is in a box: the other is as long and has the same arcs, and
+an overlapping pose of one, its handles in reverse order, is a pose of the other. That arcs stay inside the circle is
+required of the turn above, and not used below: arcs of short turns do, and without it the bound is lower at most.
 The search is over all turns of the family; it assumes the arithmetic of doubles, with allowances for its rounding.
 """
 
@@ -35,6 +37,7 @@ from core.design.turn_bounds import (
     least_entry,
     lower_lengths,
     multipliers_at,
+    one_of_mirrored,
 )
 from core.design.turn_boxes import Turns, sizes_of, too_tight, turns_in
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
@@ -55,11 +58,12 @@ from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 from core.shown import Readable, worded
 from core.values import Floats
 
-# Width of the bracket of the length [m], and over all ratios.
+# Width of the bracket of the length [m].
 LENGTH_WIDTH = 1e-6
-RATIO_WIDTH = 1e-3
 # Largest work [1], see core/kernels/constants.py: 10 to 25 s. The contest's turn takes 2e6, one with equal arcs 1e8.
 SHORTEST_WORK = 1.5e8
+# The same over all ratios, of which the contest's dragon takes 5e8 and a minute.
+RATIOS_WORK = 1.5e9
 # Work by the time that it takes [1]: of the closed forms of a box, of the preparation of a box for its poses, and of a
 # bench of a pose.
 BOX_WORK, PREPARED_WORK, POSE_WORK = 200.0, 1e4, 8.0
@@ -128,9 +132,9 @@ def shortest_turn(
 
     pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second, None: any from RATIO_MIN
     to RATIO_MAX; start_turns: of the coils; stray: largest distance of every hole from its place [m]
-    The bracket is LENGTH_WIDTH wide, with a free ratio RATIO_WIDTH; wider if the budget is spent, or for strays,
-    because overlaps are exhibited without them
-    budget: default: SHORTEST_WORK
+    The bracket is LENGTH_WIDTH wide; wider if the budget is spent, or for strays, because overlaps are exhibited
+    without them
+    budget: default: SHORTEST_WORK, with a free ratio RATIOS_WORK
     raises: TooMuchWork if it is stopped, or spent before a turn was danced; InvalidValue (turning_radius) if neither a
         locally shortest turn by the closed forms nor the one that begins and ends on the circle can be danced
 
@@ -140,12 +144,11 @@ def shortest_turn(
     """
     radius, pitch = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch)
     margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
-    width = RATIO_WIDTH if ratio is None else LENGTH_WIDTH
     if ratio is not None:
         ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
     Turn(pitch, radius, 1.0 if ratio is None else ratio, start_turns=start_turns)  # refuses what no turn can have
-    work = (budget or Budget()).within(SHORTEST_WORK)
-    search = _Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), width, work)
+    work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
+    search = _Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), work)
     try:
         return search.answer()
     except Halted as halted:
@@ -157,8 +160,9 @@ def shortest_turn(
 class _Search:
     """Branch and bound over boxes.
 
-    best: the shortest turn that was danced with proof; longer: boxes that were excluded by their length; tried: places
-    of locally shortest turns; multipliers: those of the ones that are nearly the best
+    mirrored: whether a turn stands for the same danced backwards too; best: the shortest turn that was danced with
+        proof; longer: boxes that were excluded by their length; tried: places of locally shortest turns; multipliers:
+        those of the ones that are nearly the best
     """
 
     def __init__(
@@ -166,16 +170,16 @@ class _Search:
         dragon: Dragon,
         asked: tuple[float, float, float | None, float],
         kept: tuple[float, float],
-        width: float,
         budget: Budget,
     ) -> None:
-        self.dragon, self.budget, self.width = dragon, budget, width
+        self.dragon, self.budget = dragon, budget
         self.pitch, self.radius, self.ratio, self.start_turns = asked
         self.margin, self.stray = kept
         self.growth = self.pitch / (2.0 * math.pi)
         self.least = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
-        self.overlap = Overlap(dragon, self.margin, self.least, most_benches(dragon, self.radius))
+        self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
+        self.mirrored = self.overlap.equal and self.ratio in (None, 1.0)
         self.best: Turn | None = None
         self.boxes = self.overlaps = self.evaluations = 0
         self.longer: list[Boxes] = []
@@ -194,6 +198,8 @@ class _Search:
         if self.best is None:
             self._dance_from_circle()
         boxes = first_boxes(self.growth, self.inner, self.radius, self.ratio)
+        if self.mirrored:
+            boxes = one_of_mirrored(boxes, self.ratio)
         while boxes.lows.size and self.budget.left > 0.0:
             self.budget.look()
             parts = [self._part(boxes.taken(slice(k, k + TOGETHER))) for k in range(0, boxes.lows.size, TOGETHER)]
@@ -249,7 +255,7 @@ class _Search:
         bounds = [known.lower(turns, boxes.centres, boxes.halves) for known in self.multipliers]
         lows = np.maximum.reduce([boxes.lows, lower_lengths(turns, self.least), *bounds])
         boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
-        target = math.inf if self.best is None else self.best.length - self.width
+        target = math.inf if self.best is None else self.best.length - LENGTH_WIDTH
         out = (turns.exit.low > self.radius) | (turns.exit.high < self.inner)
         out |= (turns.radii[0].high < self.least) | (turns.radii[1].high < self.least)
         longer = ~out & (lows >= target)
@@ -323,12 +329,16 @@ class _Search:
         """The answer. left: the boxes that were not excluded when the work was spent, none otherwise"""
         assert self.best is not None
         best = self.best
-        lowest = min(float(left.lows.min(initial=math.inf)), best.length - self.width)
+        lowest = min(float(left.lows.min(initial=math.inf)), best.length - LENGTH_WIDTH)
         near = [boxes.taken(np.flatnonzero(boxes.lows <= best.length)) for boxes in (*self.longer, left)]
         middles, sizes = (np.hstack([getattr(boxes, name) for boxes in near]) for name in ("centres", "halves"))
         leaving, spread = middles[0] + self.growth * middles[1], sizes[0] + self.growth * sizes[1]
+        ends = [(middles[0], sizes[0]), (leaving, spread)]
+        if self.mirrored:
+            both = np.hstack([middles[0], leaving]), np.hstack([sizes[0], spread])
+            ends = [both, both]
         brackets = []
-        for at, half, own in ((middles[0], sizes[0], best.entry_radius), (leaving, spread, best.exit_radius)):
+        for (at, half), own in zip(ends, (best.entry_radius, best.exit_radius), strict=True):
             low, high = (at - half).min(initial=own), (at + half).max(initial=own)
             brackets.append((max(float(low), self.inner), min(float(high), self.radius)))
         limit = TurnLimit.CONTACT

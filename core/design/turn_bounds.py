@@ -70,6 +70,16 @@ def first_boxes(growth: float, inner: float, radius: float, ratio: float | None)
     return Boxes(centres, np.repeat(half[:, None], count, axis=1), np.zeros(count, dtype=np.int64), np.zeros(count))
 
 
+def one_of_mirrored(boxes: Boxes, ratio: float | None) -> Boxes:
+    """The boxes without those whose turns are all danced backwards in the others.
+
+    Backwards, the turn (a, v, log ratio) is (b, -v, -log ratio), as long, in the same circle and with the same arcs.
+    """
+    across = 2 if ratio is None else 1
+    kept = np.flatnonzero(boxes.centres[across] + boxes.halves[across] >= -ROUNDING)
+    return boxes.taken(kept) if ratio in (None, 1.0) else boxes
+
+
 def lower_lengths(turns: Turns, least: float = 0.0) -> Floats:
     """Lower bounds of the length of all turns of each box whose arcs have radii of `least` or more [m], (N,).
 
@@ -77,7 +87,9 @@ def lower_lengths(turns: Turns, least: float = 0.0) -> Floats:
     """
     arcs = []
     for radius, angle, arc in zip(turns.radii, turns.angles, turns.arcs, strict=True):
-        swept = np.nan_to_num(np.maximum(radius.low, least) * np.maximum(angle.low, 0.0), nan=0.0, posinf=0.0, neginf=0.0)
+        swept = np.nan_to_num(
+            np.maximum(radius.low, least) * np.maximum(angle.low, 0.0), nan=0.0, posinf=0.0, neginf=0.0
+        )
         alone = np.where(angle.high < 2.0 * math.pi, np.fmax(arc.low, swept), 0.0)
         arcs.append(np.fmax(alone, 0.0))
     single = (turns.angles[0].high < 2.0 * math.pi) & (turns.angles[1].high < 2.0 * math.pi)

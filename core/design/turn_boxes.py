@@ -145,13 +145,14 @@ def too_tight(growth: float, centres: Floats, halves: Floats, least: float) -> N
     spare = ROUNDING * (1.0 + ratio.value.high) * (1.0 + size**2)
     lows = [
         np.fmax(mean_value(at, known.slopes, halves).low, known.value.low)
-        for at, known in zip(_excesses(growth, *centres, least), excess, strict=True)
+        for at, known in zip(_excesses(growth, centres, least), excess, strict=True)
     ]
     return np.asarray((lows[0] > spare) | (lows[1] > spare))
 
 
-def _excesses(growth: float, entry: Floats, turned: Floats, log_ratio: Floats, least: float) -> tuple[Floats, Floats]:
-    """The two left sides less the right sides of the radii's conditions, positive where an arc is too tight [m^2]."""
+def _excesses(growth: float, points: Floats, least: float) -> tuple[Floats, Floats]:
+    """Left sides less right sides of the conditions for r2 and r1 at points (3, N), positive where too tight [m^2]."""
+    entry, turned, log_ratio = points
     ratio, leaving = np.exp(log_ratio), entry + growth * turned
     t, u, around = entry / growth, leaving / growth, np.exp(1j * turned)
     n, m = (1j - t) / np.hypot(1.0, t), around * (1j - u) / np.hypot(1.0, u)
