@@ -148,7 +148,7 @@ def shortest_turn(
         ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
     Turn(pitch, radius, 1.0 if ratio is None else ratio, start_turns=start_turns)  # refuses what no turn can have
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
-    search = _Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), work)
+    search = Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), work)
     try:
         return search.answer()
     except Halted as halted:
@@ -157,12 +157,12 @@ def shortest_turn(
         raise too_much(work, "turning_radius", rule, Quantity(radius, "m"), **told_chords(dragon)) from halted
 
 
-class _Search:
+class Search:
     """Branch and bound over boxes.
 
-    mirrored: whether a turn stands for the same danced backwards too; best: the shortest turn that was danced with
-        proof; longer: boxes that were excluded by their length; tried: places of locally shortest turns; multipliers:
-        those of the ones that are nearly the best
+    mirrored: whether a turn stands for the same danced backwards too; best, shortest: the shortest turn that was danced
+        with proof, and its length; longer: boxes that were excluded by their length; tried: places of locally shortest
+        turns; multipliers: those of the ones that are nearly the best
     """
 
     def __init__(
@@ -181,6 +181,7 @@ class _Search:
         self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
         self.mirrored = self.overlap.equal and self.ratio in (None, 1.0)
         self.best: Turn | None = None
+        self.shortest = math.inf
         self.boxes = self.overlaps = self.evaluations = 0
         self.longer: list[Boxes] = []
         self.multipliers: list[Multipliers] = []
@@ -196,7 +197,8 @@ class _Search:
             if self.overlap.deepest(turn) <= 0.0 and (self._is_near(start, COARSE) or self.best is None):
                 self._improve(start)
         if self.best is None:
-            self._dance_from_circle()
+            self.best = self._from_circle()
+            self.shortest = self.best.length
         boxes = first_boxes(self.growth, self.inner, self.radius, self.ratio)
         if self.mirrored:
             boxes = one_of_mirrored(boxes, self.ratio)
@@ -207,8 +209,8 @@ class _Search:
             boxes = boxes.taken(np.argsort(boxes.lows, kind="stable"))
         return self._result(boxes)
 
-    def _dance_from_circle(self) -> None:
-        """Dance the turn that begins and ends on the circle.
+    def _from_circle(self) -> Turn:
+        """The turn that begins and ends on the circle, danced with proof.
 
         raises: InvalidValue with the reason if it cannot be danced
         """
@@ -221,7 +223,7 @@ class _Search:
             raise Halted(self.budget)
         if touch.outcome is not Outcome.CLEAR:
             raise refusal(self.radius, touch, self.margin, self.stray)
-        self.best = danced
+        return danced
 
     def _improve(self, place: Floats) -> bool:
         """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one.
@@ -244,7 +246,7 @@ class _Search:
 
     def _is_near(self, place: Floats, most: float) -> bool:
         """Whether the turn at a place is shorter than the best one, or longer by at most this [m]."""
-        return self.best is not None and bool(sizes_of(self.growth, *place[:, None])[4, 0] < self.best.length + most)
+        return bool(sizes_of(self.growth, *place[:, None])[4, 0] < self.shortest + most < math.inf)
 
     def _part(self, boxes: Boxes) -> Boxes:
         """Exclude boxes and divide the others."""
@@ -255,7 +257,7 @@ class _Search:
         bounds = [known.lower(turns, boxes.centres, boxes.halves) for known in self.multipliers]
         lows = np.maximum.reduce([boxes.lows, lower_lengths(turns, self.least), *bounds])
         boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
-        target = math.inf if self.best is None else self.best.length - LENGTH_WIDTH
+        target = self.shortest - LENGTH_WIDTH
         out = (turns.exit.low > self.radius) | (turns.exit.high < self.inner)
         out |= (turns.radii[0].high < self.least) | (turns.radii[1].high < self.least)
         longer = ~out & (lows >= target)
@@ -302,7 +304,7 @@ class _Search:
         return np.array(shared, dtype=np.intp)
 
     def _dance(self, point: Floats | None) -> bool:
-        """Whether the turn at a point is shorter than the best one and proven clear; it is the best one then."""
+        """Whether the turn at a point is shorter than the best one and allowed; it is the best one then."""
         if point is None:
             return False
         entry, leaving = float(point[0]), min(float(point[0] + self.growth * point[1]), self.radius)
@@ -316,14 +318,18 @@ class _Search:
             )  # fmt: skip
         except InvalidValue:
             return False
-        if not follows(self.dragon, danced) or (self.best is not None and danced.length >= self.best.length):
+        if danced.length >= self.shortest or not self._allows(danced):
+            return False
+        self.best, self.shortest = danced, danced.length
+        return True
+
+    def _allows(self, danced: Turn) -> bool:
+        """Whether a turn can be danced, with a proof."""
+        if not follows(self.dragon, danced):
             return False
         self.evaluations += 1
         touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
-        if touch.outcome is not Outcome.CLEAR:
-            return False
-        self.best = danced
-        return True
+        return touch.outcome is Outcome.CLEAR
 
     def _result(self, left: Boxes) -> ShortestTurn:
         """The answer. left: the boxes that were not excluded when the work was spent, none otherwise"""
