@@ -225,7 +225,7 @@ def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios() -> N
         assert first_contact(Dance(Dragon(), turn[1]), start=-20.0, stop=60.0).time is not None
     assert longer
     assert shorter or not DEEP
-    assert all(answer(ratio).length_bracket[0] >= low for ratio in some(list(FOUND), 2))
+    assert all(answer(ratio).turn.length > low for ratio in some(list(FOUND), 2))
     assert first_contact(Dance(Dragon(), found.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
