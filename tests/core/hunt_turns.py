@@ -64,8 +64,9 @@ def spiral_case(rng):
     spiral = Spiral(pitch, turns)
     dance, slow = Dance(dragon, spiral), SlowDance.of(dragon, spiral)
     left = pitch / (2.0 * math.pi) * float(arc_length(2.0 * math.pi * rng.uniform(1.0, 7.0)))
-    start = float(max(slow.way - left, 0.0))
-    end = float(start + RUN * (min(slow.end(), dance.end.time) - start))
+    fold = min(slow.end(), dance.end.time)
+    start = float(max(fold - left, 0.0))
+    end = float(start + RUN * (fold - start))
     look = SlowLook(slow, start, end)
     stop = look.until if look.until < end - 1.0 else None
     accuracy = GAP + OF_PATH * slow.way

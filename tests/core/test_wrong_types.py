@@ -122,7 +122,7 @@ ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 # Places where nothing is refused although it is taken elsewhere.
 SPELLED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
 SPELLED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
-SPELLED |= {(core.deepest_turn, "ratio"), (core.turn_length_bounds, "ratio")}
+SPELLED |= {(core.deepest_turn, "ratio")}
 
 
 def spoken(call: Callable[..., Any]) -> str:
