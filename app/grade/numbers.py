@@ -35,10 +35,10 @@ EXACTLY = 1e-6
 OVERLAP_MOST = 0.1
 # Most decimals of a rounded number.
 DECIMALS_MOST = 4
-# Shortest turn that counts as possible [m]: question 4 leaves open where the dance enters and leaves the circle, and
-# the ratio. core.turn_length_bounds(core.Dragon(), 1.7, ratio=None) proves in a minute that in every shorter turn an arc
-# is tighter than half of the head's chord, or benches overlap; a test recomputes it. core.shortest_turn with ratio=None,
-# whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
+# Shortest turn that counts as possible [m]: question 4 leaves open the ratio, and where the dance enters and leaves the
+# circle. core.turn_length_bounds(core.Dragon(), 1.7, ratio=None) proves in a minute that in every shorter turn an arc
+# is tighter than half of the head's chord, or benches overlap; a test recomputes it. core.shortest_turn with a free
+# ratio, whose bends are wider by the rounding that a proof needs, proves 8.223983 m.
 TURN_LENGTH_LEAST = 8.2147138
 
 
