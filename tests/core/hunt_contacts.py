@@ -226,7 +226,8 @@ def least_fault(dance, least, look, contact, accuracy=GAP):
     if least.distance > 0.0 and low < least.distance - 1.1e-3:
         return f"{least!r}, but the gap is {low} at {there} m"
     gap = look.at(travelled(dance, least.time))
-    if abs(max(gap, min(least.distance, 0.0)) - least.distance) > SURE and not (least.distance == 0.0 and gap < SURE):
+    sure = max(SURE, 10.0 * accuracy)
+    if abs(max(gap, min(least.distance, 0.0)) - least.distance) > sure and not (least.distance == 0.0 and gap < sure):
         return f"{least!r}, but the gap there is {gap}"
     if (
         contact is not None
