@@ -7,6 +7,7 @@ from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, ve
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
 from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
+from .design.dubins_turn import DubinsTurn, dubins_turn
 from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_scan import PitchScan, pitch_scan
 from .design.quickest_turn import TurnTime, quickest_turn, turn_time
@@ -71,6 +72,7 @@ __all__ = [
     "Dance",
     "DeepestTurn",
     "Dragon",
+    "DubinsTurn",
     "EndReason",
     "Engine",
     "Envelope",
@@ -139,6 +141,7 @@ __all__ = [
     "course",
     "cross_check",
     "deepest_turn",
+    "dubins_turn",
     "envelope",
     "first_contact",
     "first_excess",

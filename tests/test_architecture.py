@@ -109,6 +109,7 @@ ORDER = (
     "core.design.turn_places",
     "core.design.shortest_turn",
     "core.design.turn_length",
+    "core.design.dubins_turn",
     "core.motion.speed",
     "core.design.quickest_turn",
     "core.motion.joints",

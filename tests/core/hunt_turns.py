@@ -22,8 +22,8 @@ from tests.core.slow_search import STEP, SlowDance, arc_length
 
 # Error of a slow place for each metre of a path, some roundings of a double [1].
 OF_PATH = 3e-15
-# The last part of a way to a fold is left out, in shortest chords [1]: there a handle moves ten times as far as the head
-# does, and so it does by an error of the time, which is some 1e6 s.
+# The last part of a way to a fold is left out, in shortest chords [1]. There a handle moves ten times as far as the
+# head, and so it does by an error of the time, which is some 1e6 s.
 BEFORE_FOLD = 0.01
 # Turns of a box that are laid out.
 LAID_OUT = 2
