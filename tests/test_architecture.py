@@ -100,6 +100,7 @@ ORDER = (
     "core.design.minimum_pitch",
     "core.contact.cross_check",
     "core.design.pitch_scan",
+    "core.design.turn_circle",
     "core.design.deepest_turn",
     "core.design.spans",
     "core.design.turn_boxes",

@@ -23,17 +23,17 @@ from numpy.typing import NDArray
 
 from core.contact.answer import Outcome
 from core.contact.first_contact import contact_within
-from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.turn_bounds import least_entry
+from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import least_bend
 from core.dragon import Dragon, told_chords
-from core.errors import InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities, too_much
+from core.errors import InvalidValue, Quantity, asked_of, quantities, too_much
 from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.pieces import LENGTH_MIN, Arc, Coil, Line, Piece
 from core.paths.route import Route
-from core.paths.turn import OUTSIDE, RATIO_MAX, RATIO_MIN, Turn
+from core.paths.turn import OUTSIDE
 from core.shown import Readable, worded
 from core.values import Floats, Point
 
@@ -94,36 +94,31 @@ def dubins_turn(
     >>> round(found.length, 3), round(found.straight, 2)
     (8.224, 0.0)
     """
-    radius, pitch = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch)
-    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
-    turns = Turn(pitch, radius, 1.0, start_turns=start_turns).start_turns  # refuses what no turn can have
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin)
     least = least_bend(dragon) * (1.0 + WIDER)
     radii = (least * max(1.0, ratio), least * max(1.0, 1.0 / ratio))
     work = (budget or Budget()).within(DUBINS_WORK)
-    search = _Scan(dragon, (pitch, radius, turns), radii, margin, work)
+    search = _Scan(dragon, circle, radii, work)
     try:
         found = search.shortest()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was found {then}; the {benches} chords are {shortest} to"
-        size = Quantity(radius, "m")
+        size = Quantity(circle.radius, "m")
         raise too_much(work, "turning_radius", rule + " {longest} long", size, **told_chords(dragon)) from halted
     if found is None:
         why = "in every turn with a straight piece that was tried inside it benches come within {margin}"
-        told = quantities("m", got=radius, margin=margin)
+        told = quantities("m", got=circle.radius, margin=circle.margin)
         raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)
     return found
 
 
 class _Scan:
-    """The turns of one dragon with arcs of given radii. circle: pitch [m], radius of the circle [m], start_turns"""
+    """The turns of one dragon with arcs of given radii."""
 
-    def __init__(
-        self, dragon: Dragon, circle: tuple[float, float, float], radii: Point, margin: float, budget: Budget
-    ) -> None:
-        self.dragon, self.radii, self.margin, self.budget = dragon, radii, margin, budget
-        self.pitch, self.radius, self.turns = circle
-        self.growth = self.pitch / (2.0 * math.pi)
+    def __init__(self, dragon: Dragon, circle: TurnCircle, radii: Point, budget: Budget) -> None:
+        self.dragon, self.radii, self.budget = dragon, radii, budget
+        self.pitch, self.radius, _, self.turns, self.margin = circle
+        self.growth = circle.growth
         self.evaluations = 0
 
     def shortest(self) -> DubinsTurn | None:

@@ -19,19 +19,19 @@ from itertools import product
 import numpy as np
 
 from core.contact.answer import Outcome
-from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.deepest_turn import contact_in, refuse_bend
 from core.design.turn_boxes import sizes_of
+from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import least_bend
 from core.design.turn_overlap import Overlap, most_benches
 from core.dragon import Dragon, told_chords
-from core.errors import InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities, too_much
+from core.errors import InvalidValue, Quantity, asked_of, quantities, too_much
 from core.kernels import Budget, Halted
 from core.motion.speed import checked_limit, maximum_head_speed
 from core.motion.trajectory import trajectory
 from core.paths.following import follows
-from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
+from core.paths.turn import Turn
 from core.shown import Readable, worded
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1].
@@ -100,24 +100,20 @@ def quickest_turn(
     It is proven that nothing touches in it, and that no handle exceeds the limit; not that no turn is quicker.
     raises: TooMuchWork; InvalidValue (turning_radius) if none of the tried turns can be danced
     """
-    radius, pitch, limit = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch), speed_limit
-    limit = checked_limit(limit)
-    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
-    Turn(pitch, radius, ratio, start_turns=start_turns)  # refuses what no turn can have
-    search = _Times(dragon, (pitch, radius, ratio, start_turns), margin, budget or Budget())
+    circle, limit = checked_circle(pitch, turning_radius, ratio, start_turns, margin), checked_limit(speed_limit)
+    search = _Times(dragon, circle, budget or Budget())
     try:
         turn = search.quickest()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to"
         told = told_chords(dragon)
         raise too_much(
-            search.budget, "turning_radius", rule + " {longest} long", Quantity(radius, "m"), **told
+            search.budget, "turning_radius", rule + " {longest} long", Quantity(circle.radius, "m"), **told
         ) from halted
     if turn is None:
-        refuse_bend(dragon, Turn(pitch, radius, ratio, start_turns=start_turns))
+        refuse_bend(dragon, circle.turn())
         why = "in every turn that was tried inside it benches come within {margin}"
-        told = quantities("m", got=radius, margin=margin)
+        told = quantities("m", got=circle.radius, margin=circle.margin)
         raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)
     return turn_time(dragon, turn, limit, budget=budget)
 
@@ -125,17 +121,11 @@ def quickest_turn(
 class _Times:
     """Search for the quickest turn: times are computed for a speed limit of 1 m/s."""
 
-    def __init__(
-        self,
-        dragon: Dragon,
-        asked: tuple[float, float, float, float],
-        margin: float,
-        budget: Budget,
-    ) -> None:
-        self.dragon, self.margin, self.budget = dragon, margin, budget
-        self.pitch, self.radius, self.ratio, self.start_turns = asked
+    def __init__(self, dragon: Dragon, circle: TurnCircle, budget: Budget) -> None:
+        self.dragon, self.circle, self.budget = dragon, circle, budget
+        self.radius = circle.radius
         self.front = dragon.leading(min(dragon.benches, LEADING))
-        self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
+        self.overlap = Overlap(dragon, circle.margin, most_benches(dragon, self.radius))
         self.known: dict[tuple[float, float], float] = {}
 
     def quickest(self) -> Turn | None:
@@ -148,16 +138,19 @@ class _Times:
             turn = self._turn(at)
             if turn is None or (best is not None and lowered >= best[0]):
                 continue
-            if contact_in(self.budget, self.dragon, turn, self.margin, 0.0).outcome is Outcome.CLEAR:
+            if contact_in(self.budget, self.dragon, turn, self.circle.margin, 0.0).outcome is Outcome.CLEAR:
                 best = lowered, turn
         return None if best is None else best[1]
 
     def _dips(self) -> list[tuple[float, tuple[float, float]]]:
         """Times and places of the grid that are not slower than their neighbours on it, the quickest first."""
-        growth, radii = self.pitch / (2.0 * math.pi), self.radius * np.arange(1.0, 0.2, -GRID)
+        growth, radii = self.circle.growth, self.radius * np.arange(1.0, 0.2, -GRID)
         entry, leaving = np.meshgrid(radii, radii, indexing="ij")
         sizes = sizes_of(
-            growth, entry.ravel(), (leaving - entry).ravel() / growth, np.full(entry.size, math.log(self.ratio))
+            growth,
+            entry.ravel(),
+            (leaving - entry).ravel() / growth,
+            np.full(entry.size, math.log(self.circle.ratio or 1.0)),
         )
         fits = (sizes[:2].min(axis=0) >= least_bend(self.dragon)).reshape(entry.shape)
         times = np.full(np.add(entry.shape, 2), np.inf)
@@ -187,9 +180,8 @@ class _Times:
     def _turn(self, place: tuple[float, float]) -> Turn | None:
         """The turn at a place; None if it is refused or a bench cannot follow it."""
         entry, leaving = (min(radius, self.radius) for radius in place)
-        about = {"start_turns": self.start_turns, "entry_radius": entry, "exit_radius": leaving}
         try:
-            turn = Turn(self.pitch, self.radius, self.ratio, **about)
+            turn = self.circle.turn(entry, leaving)
         except InvalidValue:
             return None
         return turn if follows(self.dragon, turn) else None

@@ -26,7 +26,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.contact.answer import Outcome
-from core.contact.search import MARGIN_MAX
 from core.design.deepest_turn import TurnLimit, contact_in, refusal, refuse_bend
 from core.design.turn_bounds import (
     Boxes,
@@ -40,6 +39,7 @@ from core.design.turn_bounds import (
     one_of_mirrored,
 )
 from core.design.turn_boxes import Turns, sizes_of, too_tight, turns_in
+from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
 from core.design.turn_overlap import Overlap, most_benches
 from core.design.turn_places import polished, starts
@@ -48,8 +48,6 @@ from core.errors import (
     InvalidValue,
     Quantity,
     asked_of,
-    checked_number,
-    checked_size,
     too_much,
 )
 from core.kernels import Budget, Halted
@@ -142,19 +140,15 @@ def shortest_turn(
     >>> round(answer.turn.length, 4), round(answer.turn.entry_radius, 4), answer.turn.exit_radius
     (11.7992, 4.2904, 4.5)
     """
-    radius, pitch = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch)
-    margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
-    if ratio is not None:
-        ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
-    Turn(pitch, radius, 1.0 if ratio is None else ratio, start_turns=start_turns)  # refuses what no turn can have
+    circle, stray = checked_circle(pitch, turning_radius, ratio, start_turns, margin), checked_stray(stray, dragon)
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
-    search = Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), work)
+    search = Search(dragon, circle, stray, work)
     try:
         return search.answer()
     except Halted as halted:
         rule = "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; the"
         rule += " {benches} chords are {shortest} to {longest} long"
-        raise too_much(work, "turning_radius", rule, Quantity(radius, "m"), **told_chords(dragon)) from halted
+        raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **told_chords(dragon)) from halted
 
 
 class Search:
@@ -168,14 +162,13 @@ class Search:
     def __init__(
         self,
         dragon: Dragon,
-        asked: tuple[float, float, float | None, float],
-        kept: tuple[float, float],
+        circle: TurnCircle,
+        stray: float,
         budget: Budget,
     ) -> None:
-        self.dragon, self.budget = dragon, budget
-        self.pitch, self.radius, self.ratio, self.start_turns = asked
-        self.margin, self.stray = kept
-        self.growth = self.pitch / (2.0 * math.pi)
+        self.dragon, self.circle, self.stray, self.budget = dragon, circle, stray, budget
+        self.pitch, self.radius, self.ratio, _, self.margin = circle
+        self.growth = circle.growth
         self.least = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
         self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
@@ -214,8 +207,7 @@ class Search:
 
         raises: InvalidValue with the reason if it cannot be danced
         """
-        ratio = 1.0 if self.ratio is None else self.ratio
-        danced = Turn(self.pitch, self.radius, ratio, start_turns=self.start_turns)
+        danced = self.circle.turn()
         refuse_bend(self.dragon, danced)
         self.evaluations += 1
         touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
@@ -310,12 +302,9 @@ class Search:
         entry, leaving = float(point[0]), min(float(point[0] + self.growth * point[1]), self.radius)
         if min(entry, leaving) < self.inner:
             return False
-        ratio = math.exp(point[2]) if self.ratio is None else self.ratio
+        ratio = self.ratio or min(max(math.exp(point[2]), RATIO_MIN), RATIO_MAX)
         try:
-            danced = Turn(
-                self.pitch, self.radius, min(max(ratio, RATIO_MIN), RATIO_MAX), start_turns=self.start_turns,
-                entry_radius=min(entry, self.radius), exit_radius=leaving,
-            )  # fmt: skip
+            danced = self.circle.turn(min(entry, self.radius), leaving, ratio)
         except InvalidValue:
             return False
         if danced.length >= self.shortest or not self._allows(danced):

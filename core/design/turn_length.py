@@ -10,6 +10,7 @@ from __future__ import annotations
 from core import kernels
 from core.design.shortest_turn import RATIOS_WORK, SHORTEST_WORK, Search
 from core.design.turn_bounds import least_entry
+from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import apart_from_circle
 from core.dragon import Dragon, told_chords
 from core.errors import Quantity, asked_of, too_much
@@ -40,33 +41,29 @@ def turn_length_bounds(
     >>> [round(length, 4) for length in turn_length_bounds(Dragon(), 1.7)]
     [11.7729, 13.6212]
     """
-    whole = Turn(pitch, turning_radius, 1.0 if ratio is None else ratio, start_turns=start_turns)
-    asked = whole.pitch, whole.turning_radius, None if ratio is None else whole.ratio, whole.start_turns
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns)
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
-    search = _Lengths(dragon, asked, whole, work)
+    search, longest = _Lengths(dragon, circle, 0.0, work), circle.turn().length
     try:
         low = search.answer().length_bracket[0]
         work.afford()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no length was proven {then}; the {benches} chords are {shortest} to"
-        size = Quantity(whole.turning_radius, "m")
+        size = Quantity(circle.radius, "m")
         raise too_much(work, "turning_radius", rule + " {longest} long", size, **told_chords(dragon)) from halted
-    return min(low, whole.length), whole.length
+    return min(low, longest), longest
 
 
 class _Lengths(Search):
-    """Search for a length below which no turn is justifiable. whole: the turn that begins and ends on the circle"""
+    """Search for a length below which no turn is justifiable."""
 
-    def __init__(
-        self, dragon: Dragon, asked: tuple[float, float, float | None, float], whole: Turn, budget: Budget
-    ) -> None:
-        super().__init__(dragon, asked, (0.0, 0.0), budget)
-        self.whole = whole
+    def __init__(self, dragon: Dragon, circle: TurnCircle, stray: float, budget: Budget) -> None:
+        super().__init__(dragon, circle, stray, budget)
         self.least *= kernels.ROUTE_SINE_LIMIT
         self.inner = least_entry(self.growth, self.radius, self.least)
 
     def _from_circle(self) -> Turn:
-        return self.whole
+        return self.circle.turn()
 
     def _allows(self, danced: Turn) -> bool:
         ends = danced.entry_radius, danced.exit_radius

@@ -10,10 +10,9 @@ import pytest
 from core import Turn
 from core.design.turn_bounds import Multipliers, lower_lengths
 from core.design.turn_boxes import sizes_of, too_tight, turns_in
+from tests.core.design.boxes_of_turns import GROWTH, LEAST
 
-GROWTH = 1.7 / (2.0 * math.pi)
 BOXES, PLACES = 1_500, 30
-LEAST = 1.43 / 0.999  # [m], the bend that the contest's head can follow
 ROUNDED = 1e-9  # [m], [rad]
 
 
