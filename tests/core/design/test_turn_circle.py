@@ -30,7 +30,7 @@ def test_a_turn_of_the_circle_is_the_turn() -> None:
         ("ratio", 0.001),
         ("ratio", 101.0),
         ("start_turns", 2.0),
-        ("margin", 2.1),
+        ("margin", -1.0),
     ],
 )
 def test_every_question_refuses_the_same_numbers_by_their_names(ask: object, field: str, value: float) -> None:
