@@ -94,6 +94,17 @@ def test_the_shortest_turn_of_any_exit_has_a_proven_bracket(client: httpx.Client
     assert opposite["length"] > high + 1
 
 
+def test_the_shortest_turn_of_any_ratio_has_equal_arcs_and_a_proven_bracket(client: httpx.Client) -> None:
+    """One bench touches nothing, so that closed forms are enough; and what is given as the ratio does not matter."""
+    got = client.get("/shortest-turn?benches=1&any_ratio=true&ratio=3").raise_for_status().json()
+    low, high = got["length_bracket"]
+    assert 0 < high - low <= 1.1e-6
+    assert (got["ratio"], high) == (pytest.approx(1, abs=1e-6), got["length"])
+    equal = client.get("/shortest-turn?benches=1&ratio=1").raise_for_status().json()
+    assert got["length"] == pytest.approx(equal["length"], abs=2e-6)
+    assert client.get("/shortest-turn?benches=1&ratio=1.1").raise_for_status().json()["length"] > high
+
+
 def test_the_quickest_turn_is_a_turn_with_its_time(client: httpx.Client) -> None:
     """It is neither the contest's turn nor the shortest one, and quicker than both."""
     known = reference("maximum_head_speed")
