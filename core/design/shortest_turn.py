@@ -140,7 +140,8 @@ def shortest_turn(
     >>> round(answer.turn.length, 4), round(answer.turn.entry_radius, 4), answer.turn.exit_radius
     (11.7992, 4.2904, 4.5)
     """
-    circle, stray = checked_circle(pitch, turning_radius, ratio, start_turns, margin), checked_stray(stray, dragon)
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin, any_ratio=True)
+    stray = checked_stray(stray, dragon)
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
     search = Search(dragon, circle, stray, work)
     try:

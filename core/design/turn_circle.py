@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from core.contact.search import MARGIN_MAX
 from core.errors import checked_number
-from core.paths.turn import Turn
+from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 
 
 class TurnCircle(NamedTuple):
@@ -37,11 +37,20 @@ class TurnCircle(NamedTuple):
 
 
 def checked_circle(
-    pitch: float, turning_radius: float, ratio: float | None, start_turns: float, margin: float = 0.0
+    pitch: float,
+    turning_radius: float,
+    ratio: float | None,
+    start_turns: float,
+    margin: float = 0.0,
+    *,
+    any_ratio: bool = False,
 ) -> TurnCircle:
-    """The circle of a question. raises: InvalidValue for what no turn can have"""
+    """The circle of a question. any_ratio: whether a ratio of None counts, as a free one
+
+    raises: InvalidValue for what no turn can have
+    """
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    whole = Turn(pitch, turning_radius, 1.0 if ratio is None else ratio, start_turns=start_turns)
-    return TurnCircle(
-        whole.pitch, whole.turning_radius, None if ratio is None else whole.ratio, whole.start_turns, margin
-    )
+    free = any_ratio and ratio is None
+    chosen = 1.0 if free else checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
+    whole = Turn(pitch, turning_radius, chosen, start_turns=start_turns)
+    return TurnCircle(whole.pitch, whole.turning_radius, None if free else chosen, whole.start_turns, margin)

@@ -41,7 +41,7 @@ def turn_length_bounds(
     >>> [round(length, 4) for length in turn_length_bounds(Dragon(), 1.7)]
     [11.7729, 13.6212]
     """
-    circle = checked_circle(pitch, turning_radius, ratio, start_turns)
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns, any_ratio=True)
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
     search, longest = _Lengths(dragon, circle, 0.0, work), circle.turn().length
     try:

@@ -18,7 +18,7 @@ def test_a_turn_of_the_circle_is_the_turn() -> None:
     assert circle.turn(4.3, 4.45) == Turn(1.7, start_turns=12.0, entry_radius=4.3, exit_radius=4.45)
     assert circle.turn(4.3, 4.45, 1.5) == Turn(1.7, 4.5, 1.5, start_turns=12.0, entry_radius=4.3, exit_radius=4.45)
     assert circle.growth == 1.7 / (2.0 * math.pi)
-    assert checked_circle(1.7, 4.5, None, 16.0).turn() == Turn(1.7, ratio=1.0)
+    assert checked_circle(1.7, 4.5, None, 16.0, any_ratio=True).turn() == Turn(1.7, ratio=1.0)
 
 
 @pytest.mark.parametrize("ask", QUESTIONS, ids=lambda ask: ask.__name__)
