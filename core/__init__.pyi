@@ -17,6 +17,7 @@ from .contact.walls import AreaClearance, Misplaced, Nearest, VenueClearance, ve
 from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
 from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
+from .design.dubins_turn import DubinsTurn, dubins_turn
 from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
 from .design.pitch_check import pitch_check
 from .design.pitch_scan import PitchScan, pitch_scan
@@ -87,6 +88,7 @@ __all__ = [
     "DeepestTurn",
     "Dragon",
     "DragonSummary",
+    "DubinsTurn",
     "EndReason",
     "Engine",
     "Envelope",
@@ -159,6 +161,7 @@ __all__ = [
     "course",
     "cross_check",
     "deepest_turn",
+    "dubins_turn",
     "envelope",
     "first_contact",
     "first_excess",

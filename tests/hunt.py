@@ -13,6 +13,7 @@ from importlib import import_module
 # Module of each campaign, and what it judges.
 CAMPAIGNS = {
     "tests.core.hunt_contacts": "first contacts, least clearances and verdicts on any path, with passages",
+    "tests.core.hunt_turns": "turns with any entry and exit, long spirals, boxes of turns that share an overlap",
     "tests.core.hunt_venues": "walls and obstacles, up to the fold",
     "tests.core.proof.differential": "certificates with a changed number, judged by both verifiers",
     "tests.app.grade.hunt_grades": "sheets and typed numbers that are nearly right",

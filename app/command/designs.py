@@ -1,4 +1,5 @@
-"""The commands that choose a path or a speed: minimum pitch, turn, shortest turn, maximum head speed."""
+"""The commands that choose a path or a speed: minimum pitch, the turn, its time, the shortest and the quickest one,
+maximum head speed."""
 
 from __future__ import annotations
 
@@ -6,12 +7,16 @@ from app.command import show
 from app.command.options import Json, asks
 from app.questions import maximum_head_speed as speeds
 from app.questions import minimum_pitch as pitches
+from app.questions import quickest_turn as quickest
 from app.questions import shortest_turn as shortest
 from app.questions import turn as turns
+from app.questions import turn_time as times
 from app.questions.maximum_head_speed import MaximumHeadSpeedQuery, MaximumHeadSpeedRequest
 from app.questions.minimum_pitch import MinimumPitchQuery, MinimumPitchRequest
+from app.questions.quickest_turn import QuickestTurnQuery, QuickestTurnRequest
 from app.questions.shortest_turn import ShortestTurnQuery, ShortestTurnRequest
 from app.questions.turn import TurnQuery
+from app.questions.turn_time import TurnTimeQuery, TurnTimeRequest
 from app.wire.question import Terms
 from core.errors import said
 
@@ -39,6 +44,23 @@ def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, json: Json = F
         answer = shortest.shortest_turn(asked, Terms())
     gap = f" with no bench within {said(asked.margin)} m of another" if asked.margin else ""
     show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
+
+
+@asks(TurnTimeQuery, TurnTimeRequest)
+def turn_time(asked: TurnTimeQuery | TurnTimeRequest, json: Json = False) -> None:
+    """How long the head takes through a turn at the highest speed at which no handle exceeds the limit."""
+    answer = times.turn_time(asked, Terms())
+    show.print_answer(f"Time through the turn with no handle above {said(asked.speed_limit)} m/s", answer, json)
+
+
+@asks(QuickestTurnQuery, QuickestTurnRequest)
+def quickest_turn(asked: QuickestTurnQuery | QuickestTurnRequest, json: Json = False) -> None:
+    """The turn inside its circle that takes the head the shortest time of those in a scan."""
+    with show.waiting("quickest turn"):
+        answer = quickest.quickest_turn(asked, Terms())
+    show.print_answer(
+        f"Quickest turn with no handle above {said(asked.speed_limit)} m/s", answer, json, margin=asked.margin
+    )
 
 
 @asks(MaximumHeadSpeedQuery, MaximumHeadSpeedRequest)

@@ -40,6 +40,8 @@ ROOMS = {
     "minimum-pitch": "designs",
     "turn": "designs",
     "shortest-turn": "designs",
+    "turn-time": "designs",
+    "quickest-turn": "designs",
     "tolerance": "strays",
     "tolerance-curve": "strays",
     "contact-probability": "strays",

@@ -23,7 +23,7 @@ const ends = ([low, high], decimals) => ({ low: bound(low, decimals, -1), high: 
 const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, decimals))];
 
 /** The section of the page "How it works" that explains the answer in a box. */
-const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "highest-speed": "chord", "run-end": "chord" };
+const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "turn-time": "chord", "highest-speed": "chord", "run-end": "chord" };
 const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.lang.slice(0, 2)}#${IDEAS[id] ?? "step"}`, textContent: say("howPage") });
 
 /** Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box */
@@ -157,6 +157,21 @@ export function showShortestTurn(box, answer, asked, use) {
   const known = facts(bracket("bracketLength", answer.length_bracket, 9), bracket("bracketEntry", answer.entry_bracket, 9), bracket("bracketExit", answer.exit_bracket, 9));
   show(box, titleOf("shortestTurn", asked), `${length.toFixed(6)} m`, lines, [known]);
   offer(box, "useEntry", () => use(entry_radius, exit_radius));
+}
+
+const timeWords = ({ length, head_speed }, { speed_limit: limit }) => say("turnTimeIs", { length: length.toFixed(6), speed: head_speed.toFixed(6), limit });
+
+/** answer: of /quickest-turn; use(entry, exit) sets both radii of the turn */
+export function showQuickestTurn(box, answer, asked, use) {
+  const { entry_radius, exit_radius, time, scan_step } = answer;
+  const lines = [timeWords(answer, asked), say("quickestIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
+  show(box, say("quickestTurn"), `${time.toFixed(6)} s`, lines, [paragraph(say("quickestKnown", { step: centimetres(scan_step) }))]);
+  offer(box, "useQuickest", () => use(entry_radius, exit_radius));
+}
+
+/** answer: of /turn-time */
+export function showTurnTime(box, answer, asked) {
+  show(box, say("turnTime"), `${answer.time.toFixed(6)} s`, [timeWords(answer, asked)], [paragraph(say("turnTimeKnown"))]);
 }
 
 /** answer: of /maximum-head-speed; use(speed) sets it */

@@ -1,10 +1,9 @@
 /** The editor of a table of benches: it is typed, pasted, dropped or opened. */
 
-import { Problem, Superseded } from "./api.js";
 import { tableOf, tableText } from "./benches.js";
 import { $, make, worded } from "./elements.js";
 import { bearer } from "./jobs.js";
-import { announce } from "./overlays.js";
+import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
 import { language, nameBenches, refusalWords, say } from "./text.js";
 
@@ -66,9 +65,7 @@ export class BenchTable {
       this.#take(text);
       if (notes.length) announce(() => notes.join(" "), true);
     } catch (error) {
-      if (error instanceof Superseded) return;
-      if (!(error instanceof Problem)) throw error;
-      Object.assign(this.error, { hidden: false }, refusalWords(error.told));
+      announceRefusal(error);
     }
   }
 

@@ -30,6 +30,8 @@ const BUSY = {
   minimum: ["#minimum-pitch"],
   tolerance: ["#tolerance"],
   shortest: ["#shortest-turn"],
+  quickest: ["#quickest-turn"],
+  time: ["#turn-time"],
   head: ["#head-speed"],
   fastest: ["#highest-speed"],
   clearance: ["#clearance"],
@@ -196,6 +198,14 @@ const SHOW = {
     const { answer, asked } = questions.answers.shortest;
     answers.showShortestTurn($("#shortest-turn"), answer, asked, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
   },
+  quickest() {
+    const { answer, asked } = questions.answers.quickest;
+    answers.showQuickestTurn($("#quickest-turn"), answer, asked, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
+  },
+  time() {
+    const { answer, asked } = questions.answers.time;
+    answers.showTurnTime($("#turn-time"), answer, asked);
+  },
   head() {
     const { answer, asked } = questions.answers.head;
     answers.showHeadSpeed($("#head-speed"), answer, asked, (speed) => {
@@ -260,7 +270,7 @@ const SHOW_STATE = {
   turning_diameter: (diameter) => (dance.scene.circle = Number(diameter) / 2),
   path(path) {
     press("path", path);
-    for (const box of ["#shortest-turn", "#head-speed"]) $(box).hidden = path !== "turn";
+    for (const box of ["#shortest-turn", "#quickest-turn", "#turn-time", "#head-speed"]) $(box).hidden = path !== "turn";
     dance.scene.circle = path === "route" ? null : Number(state.get("turning_diameter")) / 2;
     route.show();
     if (questions.answers.minimum) SHOW.minimum();

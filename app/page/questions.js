@@ -33,7 +33,7 @@ const VERDICT = { cross_check: "none", details: false };
 /** Channels of the questions at rest about a drawn dance. */
 const AT_REST = ["speeds", "gap", "clearance", "fastest", "tolerance"];
 /** Questions whose refusals concern an entered number; other refusals only affect what can be shown. The last one wins. */
-const ABOUT_NUMBERS = ["head", "shortest", "minimum", "contact"];
+const ABOUT_NUMBERS = ["time", "quickest", "head", "shortest", "minimum", "contact"];
 /** Those of them that are asked about each kind of path. */
 const ASKED_ON = { spiral: ["minimum", "contact"], turn: ABOUT_NUMBERS, route: ["contact"] };
 
@@ -244,7 +244,9 @@ export class Questions {
     const slow = [["tolerance", "tolerance", this.toleranceOf()]];
     if (this.state.get("path") === "turn") {
       slow.push(["head", "maximum-head-speed", this.#fastestHead()]);
+      slow.push(["time", "turn-time", this.#turnTime()]);
       slow.push(["shortest", "shortest-turn", this.#over([...CIRCLE, ...CONTACT, "pitch", "ratio"])]);
+      slow.push(["quickest", "quickest-turn", this.#over([...CIRCLE, "margin", "pitch", "ratio", "speed_limit"])]);
     }
     const charts = [["scan", "pitch-scan", this.#over(staircase)], ["curve", "tolerance-curve", this.#over(CIRCLE, CURVE)]];
     this.#askInTurn([...slow, ...charts.filter(([kind]) => this.#near.has(kind))]);
@@ -275,6 +277,15 @@ export class Questions {
     const { head_speed, ...flat } = query;
     const asked = { ...query, benches: asking.numbers.benches };
     return isPlain(asking) ? { asked, query: flat } : { asked, body: this.body({ speed_limit: asking.numbers.speed_limit }, asking) };
+  }
+
+  /** The request for the time of the head through the shown turn. */
+  #turnTime() {
+    const query = this.state.texts(HEAD);
+    const asking = this.#asking("turn", query);
+    if (!asking.said.csv) return { asked: query, query };
+    const { dragon, path } = this.body({}, asking);
+    return { asked: query, body: { dragon, path, speed_limit: asking.numbers.speed_limit } };
   }
 
   /** The requests for the smallest pitch, and for the radius at first contact against the pitch. */

@@ -12,6 +12,7 @@ export const QUESTIONS = {
   minimum_pitch: { parameters: [...CIRCLE, ...CONTACT], value: "pitch", path: "spiral" },
   least_clearance: { parameters: SPIRAL, value: "distance", path: "spiral" },
   shortest_turn: { parameters: [...CIRCLE, "pitch", ...CONTACT], value: "length", path: "turn" },
+  quickest_turn: { parameters: [...CIRCLE, "pitch", "margin"], value: "time", path: "turn" },
   tolerance: { parameters: [...SPIRAL, "turning_diameter"], value: "stray", path: "spiral" },
   maximum_head_speed: { parameters: [...CIRCLE, "pitch"], value: "head_speed", path: "turn" },
 };

@@ -5,7 +5,7 @@ import { $ } from "./elements.js";
 import { refusalWords } from "./text.js";
 
 /** Titles of the boxes that show a refusal, in the order of the page. */
-const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", head: "headSpeed", fastest: "highest" };
+const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", quickest: "quickestTurn", time: "turnTime", head: "headSpeed", fastest: "highest" };
 
 /** boxOf(kind): selector of the box of this kind of answer */
 export function tellRefusals(questions, graphs, boxOf) {

@@ -21,11 +21,13 @@ from app.questions import (
     paper,
     pitch_scan,
     plan,
+    quickest_turn,
     shortest_turn,
     tolerance,
     tolerance_curve,
     trajectory,
     turn,
+    turn_time,
 )
 from app.wire.question import Call, Question, calls_of
 
@@ -38,6 +40,8 @@ _ALL = (
     clearance.QUESTION,
     turn.QUESTION,
     shortest_turn.QUESTION,
+    turn_time.QUESTION,
+    quickest_turn.QUESTION,
     maximum_head_speed.QUESTION,
     check.QUESTION,
     course.QUESTION,

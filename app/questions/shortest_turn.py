@@ -22,7 +22,8 @@ class ShortestTurnFields(Strays, TurnCircle):
         "anywhere on the coil outwards inside the circle",
     )
     any_ratio: bool = Field(
-        False, description="true: the ratio is free too, so that `ratio` does not matter; a long search, for a job"
+        False,
+        description="true: the ratio is free too, so that `ratio` does not matter; a search of a minute, for a job",
     )
 
 

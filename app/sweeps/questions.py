@@ -159,6 +159,8 @@ _ALL = {
     "minimum_pitch": _ways("minimum_pitch", 2e-2, "pitch"),
     "turn": _ways("turn", 1e-4, "length"),
     "shortest_turn": _ways("shortest_turn", 0.5, "length"),
+    "turn_time": _ways("turn_time", 2e-2, "time"),
+    "quickest_turn": _ways("quickest_turn", 1.0, "time"),
     "maximum_head_speed": _ways("maximum_head_speed", 5e-2, "head_speed"),
     "least_clearance": _ways(
         "check", 2e-2, "distance", answer=least_clearance, model=LeastClearance, flat=DanceQuery, body=DanceFields

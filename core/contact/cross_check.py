@@ -84,7 +84,7 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     returns: None if nothing touches or nothing is decided
     raises: TooMuchWork
 
-    >>> from core import first_contact
+    >>> from core import Dragon, Spiral, first_contact
     >>> check = contact_check(first_contact(Dance(Dragon(), Spiral())))
     >>> check.agree, len(check.judged)
     (True, 223)

@@ -24,16 +24,14 @@ from core import kernels
 from core.contact.answer import FirstContact, Outcome
 from core.contact.coils import STRETCH, TwoCoils, beyond, free_arc
 from core.contact.first_contact import contact_within
-from core.contact.search import MARGIN_MAX
 from core.dance import Dance
+from core.design.turn_circle import checked_circle
 from core.dragon import Dragon, Stray, checked_stray, told_chords
 from core.errors import (
     InvalidValue,
     Quantity,
     TooMuchWork,
     asked_of,
-    checked_number,
-    checked_size,
     quantities,
     too_much,
 )
@@ -133,17 +131,13 @@ def deepest_turn(
     >>> round(deepest_turn(Dragon(), 1.7).turn.entry_radius, 6)
     4.285762
     """
-    radius = checked_size("turning_radius", turning_radius)
-    margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
-
-    def turn_at(entry: float) -> Turn:
-        return Turn(pitch, radius, ratio, start_turns=start_turns, entry_radius=entry)
-
+    circle, stray = checked_circle(pitch, turning_radius, ratio, start_turns, margin), checked_stray(stray, dragon)
+    radius, turn_at = circle.radius, circle.turn
     border, floor = _follow_border(dragon, turn_at, radius)
-    entries = _Entries(dragon, turn_at, margin, stray, (budget or Budget()).within(TURN_WORK))
+    entries = _Entries(dragon, turn_at, circle.margin, stray, (budget or Budget()).within(TURN_WORK))
     touch = entries.tried(radius)
     if touch.outcome is not Outcome.CLEAR:
-        raise refusal(radius, touch, margin, stray)
+        raise refusal(radius, touch, circle.margin, stray)
     entry, step = radius, ENTRY_STEP * radius
     while touch.outcome is Outcome.CLEAR and entry > floor:
         entry = max(entry - step, floor)

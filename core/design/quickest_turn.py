@@ -6,7 +6,8 @@ bends tightly, and where the curvature jumps from one arc to the other, handles 
 shortest turn is not the quickest.
 
 Scanned, not proven: the time is computed on a grid of entries and exits by samples of the rate, and then lowered from
-the best places of the grid by steps that halve. The rate of the answer is proven, and so is that nothing touches.
+the best places of the grid by steps that halve. Turns with an overlap in a sampled pose are left out of both. The rate
+of the answer is proven, and so is that nothing touches.
 """
 
 from __future__ import annotations
@@ -18,26 +19,29 @@ from itertools import product
 import numpy as np
 
 from core.contact.answer import Outcome
-from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.deepest_turn import contact_in, refuse_bend
 from core.design.turn_boxes import sizes_of
+from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import least_bend
+from core.design.turn_overlap import Overlap, most_benches
 from core.dragon import Dragon, told_chords
-from core.errors import InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities, too_much
+from core.errors import InvalidValue, Quantity, asked_of, quantities, too_much
 from core.extremes.speed import checked_limit, maximum_head_speed
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
 from core.paths.following import follows
-from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
+from core.paths.turn import Turn
 from core.shown import Readable, worded
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1].
 GRID = 0.02
 # Step of the samples of a rate [m of head travel]; handles after the first ones do not go faster on a turn.
 SAMPLE, LEADING = 0.1, 16
-# Places of the grid from which the time is lowered, and the width to which [m].
-PLACES, WIDTH = 4, 1e-4
+# Most places of the grid from which the time is lowered, and the width to which [m].
+PLACES, WIDTH = 8, 1e-4
+# Steps to the eight neighbours of a place.
+BESIDE_IT = tuple((x, y) for x, y in product((-1, 0, 1), repeat=2) if x or y)
 # Travel of the head before and after the turn in which the highest rate is looked for [m].
 BESIDE = 100.0
 
@@ -96,70 +100,77 @@ def quickest_turn(
     It is proven that nothing touches in it, and that no handle exceeds the limit; not that no turn is quicker.
     raises: TooMuchWork; InvalidValue (turning_radius) if none of the tried turns can be danced
     """
-    radius, pitch, limit = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch), speed_limit
-    limit = checked_limit(limit)
-    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
-    Turn(pitch, radius, ratio, start_turns=start_turns)  # refuses what no turn can have
-    search = _Times(dragon, (pitch, radius, ratio, start_turns), margin, budget or Budget())
+    circle, limit = checked_circle(pitch, turning_radius, ratio, start_turns, margin), checked_limit(speed_limit)
+    search = _Times(dragon, circle, budget or Budget())
     try:
         turn = search.quickest()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to"
         told = told_chords(dragon)
         raise too_much(
-            search.budget, "turning_radius", rule + " {longest} long", Quantity(radius, "m"), **told
+            search.budget, "turning_radius", rule + " {longest} long", Quantity(circle.radius, "m"), **told
         ) from halted
     if turn is None:
-        refuse_bend(dragon, Turn(pitch, radius, ratio, start_turns=start_turns))
+        refuse_bend(dragon, circle.turn())
         why = "in every turn that was tried inside it benches come within {margin}"
-        raise InvalidValue(
-            "turning_radius", f"must be larger, or the pitch: {why}", **quantities("m", got=radius, margin=margin)
-        )
+        told = quantities("m", got=circle.radius, margin=circle.margin)
+        raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)
     return turn_time(dragon, turn, limit, budget=budget)
 
 
 class _Times:
     """Search for the quickest turn: times are computed for a speed limit of 1 m/s."""
 
-    def __init__(self, dragon: Dragon, asked: tuple[float, float, float, float], margin: float, budget: Budget) -> None:
-        self.dragon, self.margin, self.budget = dragon, margin, budget
-        self.pitch, self.radius, self.ratio, self.start_turns = asked
+    def __init__(self, dragon: Dragon, circle: TurnCircle, budget: Budget) -> None:
+        self.dragon, self.circle, self.budget = dragon, circle, budget
+        self.radius = circle.radius
         self.front = dragon.leading(min(dragon.benches, LEADING))
+        self.overlap = Overlap(dragon, circle.margin, most_benches(dragon, self.radius))
         self.known: dict[tuple[float, float], float] = {}
 
     def quickest(self) -> Turn | None:
         """The quickest turn that can be danced; None if none of the tried ones can."""
-        timed = sorted((self.time(place), place) for place in self._grid())
         best: tuple[float, Turn] | None = None
-        tried = 0
-        for time, place in timed:
-            if tried >= PLACES or (best is not None and time >= best[0] * (1.0 + GRID)):
+        for time, place in self._dips()[:PLACES]:
+            if best is not None and time >= best[0] * (1.0 + GRID):
                 break
             lowered, at = self._lowered(time, place)
             turn = self._turn(at)
             if turn is None or (best is not None and lowered >= best[0]):
                 continue
-            touch = contact_in(self.budget, self.dragon, turn, self.margin, 0.0)
-            if touch.outcome is Outcome.CLEAR:
-                best, tried = (lowered, turn), tried + 1
+            if contact_in(self.budget, self.dragon, turn, self.circle.margin, 0.0).outcome is Outcome.CLEAR:
+                best = lowered, turn
         return None if best is None else best[1]
 
-    def _grid(self) -> list[tuple[float, float]]:
-        """Entry and exit radii of turns that benches can follow [m]."""
-        growth, radii = self.pitch / (2.0 * math.pi), self.radius * np.arange(1.0, 0.2, -GRID)
-        entry, leaving = (axis.ravel() for axis in np.meshgrid(radii, radii))
-        log_ratio = np.full(entry.size, math.log(self.ratio))
-        sizes = sizes_of(growth, entry, (leaving - entry) / growth, log_ratio)
-        fits = np.flatnonzero(sizes[:2].min(axis=0) >= least_bend(self.dragon))
-        return [(float(entry[k]), float(leaving[k])) for k in fits]
+    def _dips(self) -> list[tuple[float, tuple[float, float]]]:
+        """Times and places of the grid that are not slower than their neighbours on it, the quickest first."""
+        growth, radii = self.circle.growth, self.radius * np.arange(1.0, 0.2, -GRID)
+        entry, leaving = np.meshgrid(radii, radii, indexing="ij")
+        sizes = sizes_of(
+            growth,
+            entry.ravel(),
+            (leaving - entry).ravel() / growth,
+            np.full(entry.size, math.log(self.circle.ratio or 1.0)),
+        )
+        fits = (sizes[:2].min(axis=0) >= least_bend(self.dragon)).reshape(entry.shape)
+        times = np.full(np.add(entry.shape, 2), np.inf)
+        for i, j in np.argwhere(fits).tolist():
+            times[i + 1, j + 1] = self.time((float(radii[i]), float(radii[j])))
+        inside = times[1:-1, 1:-1]
+        around = [times[1 + i : 1 + i + len(radii), 1 + j : 1 + j + len(radii)] for i, j in BESIDE_IT]
+        dips = np.argwhere(np.isfinite(inside) & (inside <= np.minimum.reduce(around))).tolist()
+        return sorted((float(inside[i, j]), (float(radii[i]), float(radii[j]))) for i, j in dips)
 
     def time(self, place: tuple[float, float]) -> float:
-        """Length of the turn at a place times the highest sampled rate [m]; infinite if it cannot be followed."""
+        """Length of the turn at a place times the highest sampled rate [m].
+
+        It is infinite if a bench cannot follow the turn, or benches of a sampled pose overlap.
+        """
         if place not in self.known:
             self.budget.look()
             turn = self._turn(place)
-            self.known[place] = math.inf if turn is None else turn.length * self._rate(turn)
+            danced = turn is not None and self.overlap.deepest(turn) <= 0.0
+            self.known[place] = turn.length * self._rate(turn) if turn is not None and danced else math.inf
         return self.known[place]
 
     def _rate(self, turn: Turn) -> float:
@@ -169,9 +180,8 @@ class _Times:
     def _turn(self, place: tuple[float, float]) -> Turn | None:
         """The turn at a place; None if it is refused or a bench cannot follow it."""
         entry, leaving = (min(radius, self.radius) for radius in place)
-        about = {"start_turns": self.start_turns, "entry_radius": entry, "exit_radius": leaving}
         try:
-            turn = Turn(self.pitch, self.radius, self.ratio, **about)
+            turn = self.circle.turn(entry, leaving)
         except InvalidValue:
             return None
         return turn if follows(self.dragon, turn) else None
@@ -180,7 +190,7 @@ class _Times:
         """The time lowered by steps along both radii and both diagonals, which halve down to WIDTH."""
         step = 0.5 * GRID * self.radius
         while step > WIDTH:
-            around = [(place[0] + step * x, place[1] + step * y) for x, y in product((-1, 0, 1), repeat=2) if x or y]
+            around = [(place[0] + step * x, place[1] + step * y) for x, y in BESIDE_IT]
             around = [(min(x, self.radius), min(y, self.radius)) for x, y in around if min(x, y) > 0.0]
             lower, at = min((self.time(one), one) for one in around)
             if lower < time:

@@ -10,8 +10,10 @@ Below: branch and bound. Boxes of (a, v, log ratio) cover all turns (v: core/des
     - if one arc of all its turns is too tight, or an end is outside the circle, or on a coil too tight to follow;
     - if all its turns are longer than the shortest known turn less the width of the bracket;
     - if one pose is exhibited that overlaps in all its turns (core/design/turn_overlap.py);
-and divided otherwise. When no box is left, no shorter turn exists. That arcs stay inside the circle is required of the
-turn above, and not used below: arcs of short turns do, and without it the bound is lower at most.
+and divided otherwise. When no box is left, no shorter turn exists. If the ratio is free or 1, and the benches of poses
+are equal, only one of a turn and the same danced backwards is in a box: the other is as long and has the same arcs, and
+an overlapping pose of one, its handles in reverse order, is a pose of the other. That arcs stay inside the circle is
+required of the turn above, and not used below: arcs of short turns do, and without it the bound is lower at most.
 The search is over all turns of the family; it assumes the arithmetic of doubles, with allowances for its rounding.
 """
 
@@ -24,7 +26,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.contact.answer import Outcome
-from core.contact.search import MARGIN_MAX
 from core.design.deepest_turn import TurnLimit, contact_in, refusal, refuse_bend
 from core.design.turn_bounds import (
     Boxes,
@@ -35,18 +36,18 @@ from core.design.turn_bounds import (
     least_entry,
     lower_lengths,
     multipliers_at,
+    one_of_mirrored,
 )
-from core.design.turn_boxes import Turns, sizes_of, turns_in
+from core.design.turn_boxes import Turns, sizes_of, too_tight, turns_in
+from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
-from core.design.turn_overlap import Overlap
+from core.design.turn_overlap import Overlap, most_benches
 from core.design.turn_places import polished, starts
 from core.dragon import Dragon, Stray, checked_stray, told_chords
 from core.errors import (
     InvalidValue,
     Quantity,
     asked_of,
-    checked_number,
-    checked_size,
     too_much,
 )
 from core.kernels import Budget, Halted
@@ -55,11 +56,12 @@ from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 from core.shown import Readable, worded
 from core.values import Floats
 
-# Width of the bracket of the length [m], and over all ratios.
+# Width of the bracket of the length [m].
 LENGTH_WIDTH = 1e-6
-RATIO_WIDTH = 1e-3
 # Largest work [1], see core/kernels/constants.py: 10 to 25 s. The contest's turn takes 2e6, one with equal arcs 1e8.
 SHORTEST_WORK = 1.5e8
+# The same over all ratios, of which the contest's dragon takes 5e8 and a minute.
+RATIOS_WORK = 1.5e9
 # Work by the time that it takes [1]: of the closed forms of a box, of the preparation of a box for its poses, and of a
 # bench of a pose.
 BOX_WORK, PREPARED_WORK, POSE_WORK = 200.0, 1e4, 8.0
@@ -128,9 +130,9 @@ def shortest_turn(
 
     pitch, turning_radius, margin [m]; ratio: radius of the first arc over that of the second, None: any from RATIO_MIN
     to RATIO_MAX; start_turns: of the coils; stray: largest distance of every hole from its place [m]
-    The bracket is LENGTH_WIDTH wide, with a free ratio RATIO_WIDTH; wider if the budget is spent, or for strays,
-    because overlaps are exhibited without them
-    budget: default: SHORTEST_WORK
+    The bracket is LENGTH_WIDTH wide; wider if the budget is spent, or for strays, because overlaps are exhibited
+    without them
+    budget: default: SHORTEST_WORK, with a free ratio RATIOS_WORK
     raises: TooMuchWork if it is stopped, or spent before a turn was danced; InvalidValue (turning_radius) if neither a
         locally shortest turn by the closed forms nor the one that begins and ends on the circle can be danced
 
@@ -138,47 +140,42 @@ def shortest_turn(
     >>> round(answer.turn.length, 4), round(answer.turn.entry_radius, 4), answer.turn.exit_radius
     (11.7992, 4.2904, 4.5)
     """
-    radius, pitch = checked_size("turning_radius", turning_radius), checked_size("pitch", pitch)
-    margin, stray = checked_number("margin", margin, "m", 0.0, MARGIN_MAX), checked_stray(stray, dragon)
-    width = RATIO_WIDTH if ratio is None else LENGTH_WIDTH
-    if ratio is not None:
-        ratio = checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
-    Turn(pitch, radius, 1.0 if ratio is None else ratio, start_turns=start_turns)  # refuses what no turn can have
-    work = (budget or Budget()).within(SHORTEST_WORK)
-    search = _Search(dragon, (pitch, radius, ratio, start_turns), (margin, stray), width, work)
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin, any_ratio=True)
+    stray = checked_stray(stray, dragon)
+    work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
+    search = Search(dragon, circle, stray, work)
     try:
         return search.answer()
     except Halted as halted:
         rule = "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; the"
         rule += " {benches} chords are {shortest} to {longest} long"
-        raise too_much(work, "turning_radius", rule, Quantity(radius, "m"), **told_chords(dragon)) from halted
+        raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **told_chords(dragon)) from halted
 
 
-class _Search:
+class Search:
     """Branch and bound over boxes.
 
-    best: the shortest turn that was danced with proof; longer: boxes that were excluded by their length; tried: places
-    of locally shortest turns; multipliers: those of the ones that are nearly the best
+    mirrored: whether a turn stands for the same danced backwards too; best, shortest: the shortest turn that was danced
+        with proof, and its length; longer: boxes that were excluded by their length; tried: places of locally shortest
+        turns; multipliers: those of the ones that are nearly the best
     """
 
     def __init__(
         self,
         dragon: Dragon,
-        asked: tuple[float, float, float | None, float],
-        kept: tuple[float, float],
-        width: float,
+        circle: TurnCircle,
+        stray: float,
         budget: Budget,
     ) -> None:
-        self.dragon, self.budget, self.width = dragon, budget, width
-        self.pitch, self.radius, self.ratio, self.start_turns = asked
-        self.margin, self.stray = kept
-        self.growth = self.pitch / (2.0 * math.pi)
+        self.dragon, self.circle, self.stray, self.budget = dragon, circle, stray, budget
+        self.pitch, self.radius, self.ratio, _, self.margin = circle
+        self.growth = circle.growth
         self.least = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
-        around = 2.0 * math.pi * self.radius + 4.0 * self.radius
-        most = 4 + math.ceil(around / float(dragon.chords[1:].min(initial=dragon.chords[0])))
-        self.overlap = Overlap(dragon, self.margin, self.least, most)
+        self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
+        self.mirrored = self.overlap.equal and self.ratio in (None, 1.0)
         self.best: Turn | None = None
+        self.shortest = math.inf
         self.boxes = self.overlaps = self.evaluations = 0
         self.longer: list[Boxes] = []
         self.multipliers: list[Multipliers] = []
@@ -194,8 +191,11 @@ class _Search:
             if self.overlap.deepest(turn) <= 0.0 and (self._is_near(start, COARSE) or self.best is None):
                 self._improve(start)
         if self.best is None:
-            self._dance_from_circle()
+            self.best = self._from_circle()
+            self.shortest = self.best.length
         boxes = first_boxes(self.growth, self.inner, self.radius, self.ratio)
+        if self.mirrored:
+            boxes = one_of_mirrored(boxes, self.ratio)
         while boxes.lows.size and self.budget.left > 0.0:
             self.budget.look()
             parts = [self._part(boxes.taken(slice(k, k + TOGETHER))) for k in range(0, boxes.lows.size, TOGETHER)]
@@ -203,13 +203,12 @@ class _Search:
             boxes = boxes.taken(np.argsort(boxes.lows, kind="stable"))
         return self._result(boxes)
 
-    def _dance_from_circle(self) -> None:
-        """Dance the turn that begins and ends on the circle.
+    def _from_circle(self) -> Turn:
+        """The turn that begins and ends on the circle, danced with proof.
 
         raises: InvalidValue with the reason if it cannot be danced
         """
-        ratio = 1.0 if self.ratio is None else self.ratio
-        danced = Turn(self.pitch, self.radius, ratio, start_turns=self.start_turns)
+        danced = self.circle.turn()
         refuse_bend(self.dragon, danced)
         self.evaluations += 1
         touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
@@ -217,7 +216,7 @@ class _Search:
             raise Halted(self.budget)
         if touch.outcome is not Outcome.CLEAR:
             raise refusal(self.radius, touch, self.margin, self.stray)
-        self.best = danced
+        return danced
 
     def _improve(self, place: Floats) -> bool:
         """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one.
@@ -240,16 +239,18 @@ class _Search:
 
     def _is_near(self, place: Floats, most: float) -> bool:
         """Whether the turn at a place is shorter than the best one, or longer by at most this [m]."""
-        return self.best is not None and bool(sizes_of(self.growth, *place[:, None])[4, 0] < self.best.length + most)
+        return bool(sizes_of(self.growth, *place[:, None])[4, 0] < self.shortest + most < math.inf)
 
     def _part(self, boxes: Boxes) -> Boxes:
         """Exclude boxes and divide the others."""
         self.budget.spend(BOX_WORK * boxes.lows.size)
+        count = boxes.lows.size
+        boxes = boxes.taken(np.flatnonzero(~too_tight(self.growth, boxes.centres, boxes.halves, self.least)))
         turns = turns_in(self.growth, boxes.centres, boxes.halves)
         bounds = [known.lower(turns, boxes.centres, boxes.halves) for known in self.multipliers]
-        lows = np.maximum.reduce([boxes.lows, lower_lengths(turns), *bounds])
+        lows = np.maximum.reduce([boxes.lows, lower_lengths(turns, self.least), *bounds])
         boxes = boxes._replace(lows=lows, waits=boxes.waits.copy())
-        target = math.inf if self.best is None else self.best.length - self.width
+        target = self.shortest - LENGTH_WIDTH
         out = (turns.exit.low > self.radius) | (turns.exit.high < self.inner)
         out |= (turns.radii[0].high < self.least) | (turns.radii[1].high < self.least)
         longer = ~out & (lows >= target)
@@ -257,7 +258,7 @@ class _Search:
         left = np.flatnonzero(~(out | longer))
         left = left[np.argsort(lows[left], kind="stable")]
         left = np.setdiff1d(left, self._overlapping(turns, boxes, left))
-        self.boxes += lows.size - left.size
+        self.boxes += count - left.size
         slope = np.array([slope.furthest for slope in turns.slopes[2]])
         return divided(boxes.taken(left), slope[:, left])
 
@@ -296,39 +297,44 @@ class _Search:
         return np.array(shared, dtype=np.intp)
 
     def _dance(self, point: Floats | None) -> bool:
-        """Whether the turn at a point is shorter than the best one and proven clear; it is the best one then."""
+        """Whether the turn at a point is shorter than the best one and allowed; it is the best one then."""
         if point is None:
             return False
         entry, leaving = float(point[0]), min(float(point[0] + self.growth * point[1]), self.radius)
         if min(entry, leaving) < self.inner:
             return False
-        ratio = math.exp(point[2]) if self.ratio is None else self.ratio
+        ratio = self.ratio or min(max(math.exp(point[2]), RATIO_MIN), RATIO_MAX)
         try:
-            danced = Turn(
-                self.pitch, self.radius, min(max(ratio, RATIO_MIN), RATIO_MAX), start_turns=self.start_turns,
-                entry_radius=min(entry, self.radius), exit_radius=leaving,
-            )  # fmt: skip
+            danced = self.circle.turn(min(entry, self.radius), leaving, ratio)
         except InvalidValue:
             return False
-        if not follows(self.dragon, danced) or (self.best is not None and danced.length >= self.best.length):
+        if danced.length >= self.shortest or not self._allows(danced):
+            return False
+        self.best, self.shortest = danced, danced.length
+        return True
+
+    def _allows(self, danced: Turn) -> bool:
+        """Whether a turn can be danced, with a proof."""
+        if not follows(self.dragon, danced):
             return False
         self.evaluations += 1
         touch = contact_in(self.budget, self.dragon, danced, self.margin, self.stray)
-        if touch.outcome is not Outcome.CLEAR:
-            return False
-        self.best = danced
-        return True
+        return touch.outcome is Outcome.CLEAR
 
     def _result(self, left: Boxes) -> ShortestTurn:
         """The answer. left: the boxes that were not excluded when the work was spent, none otherwise"""
         assert self.best is not None
         best = self.best
-        lowest = min(float(left.lows.min(initial=math.inf)), best.length - self.width)
+        lowest = min(float(left.lows.min(initial=math.inf)), best.length - LENGTH_WIDTH)
         near = [boxes.taken(np.flatnonzero(boxes.lows <= best.length)) for boxes in (*self.longer, left)]
         middles, sizes = (np.hstack([getattr(boxes, name) for boxes in near]) for name in ("centres", "halves"))
         leaving, spread = middles[0] + self.growth * middles[1], sizes[0] + self.growth * sizes[1]
+        ends = [(middles[0], sizes[0]), (leaving, spread)]
+        if self.mirrored:
+            both = np.hstack([middles[0], leaving]), np.hstack([sizes[0], spread])
+            ends = [both, both]
         brackets = []
-        for at, half, own in ((middles[0], sizes[0], best.entry_radius), (leaving, spread, best.exit_radius)):
+        for (at, half), own in zip(ends, (best.entry_radius, best.exit_radius), strict=True):
             low, high = (at - half).min(initial=own), (at + half).max(initial=own)
             brackets.append((max(float(low), self.inner), min(float(high), self.radius)))
         limit = TurnLimit.CONTACT

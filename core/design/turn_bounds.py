@@ -70,16 +70,28 @@ def first_boxes(growth: float, inner: float, radius: float, ratio: float | None)
     return Boxes(centres, np.repeat(half[:, None], count, axis=1), np.zeros(count, dtype=np.int64), np.zeros(count))
 
 
-def lower_lengths(turns: Turns) -> Floats:
-    """Lower bounds of the length of all turns of each box [m], (N,); -infinity where nothing is known.
+def one_of_mirrored(boxes: Boxes, ratio: float | None) -> Boxes:
+    """The boxes without those whose turns are all danced backwards in the others.
+
+    Backwards, the turn (a, v, log ratio) is (b, -v, -log ratio), as long, in the same circle and with the same arcs.
+    """
+    across = 2 if ratio is None else 1
+    kept = np.flatnonzero(boxes.centres[across] + boxes.halves[across] >= -ROUNDING)
+    return boxes.taken(kept) if ratio in (None, 1.0) else boxes
+
+
+def lower_lengths(turns: Turns, least: float = 0.0) -> Floats:
+    """Lower bounds of the length of all turns of each box whose arcs have radii of `least` or more [m], (N,).
 
     An angle that is followed above 2 pi is 2 pi smaller in truth, so at least 0 then.
     """
     arcs = []
     for radius, angle, arc in zip(turns.radii, turns.angles, turns.arcs, strict=True):
-        swept = np.nan_to_num(np.maximum(radius.low, 0.0) * np.maximum(angle.low, 0.0), nan=0.0, posinf=0.0, neginf=0.0)
-        least = np.where(angle.high < 2.0 * math.pi, np.fmax(arc.low, swept), 0.0)
-        arcs.append(np.fmax(least, 0.0))
+        swept = np.nan_to_num(
+            np.maximum(radius.low, least) * np.maximum(angle.low, 0.0), nan=0.0, posinf=0.0, neginf=0.0
+        )
+        alone = np.where(angle.high < 2.0 * math.pi, np.fmax(arc.low, swept), 0.0)
+        arcs.append(np.fmax(alone, 0.0))
     single = (turns.angles[0].high < 2.0 * math.pi) & (turns.angles[1].high < 2.0 * math.pi)
     both = np.where(single & np.isfinite(turns.length.low), turns.length.low, 0.0)
     return np.asarray(np.fmax(arcs[0] + arcs[1], both))

@@ -12,6 +12,11 @@ With D, A, B, r2 as in core/paths/turn.py; w = C2 - C1 = -(D + r1 n + r2 n') has
 clockwise from -n to w, the second one counter-clockwise from -w to n':
     alpha1 = arg(-n conj(w)),  alpha2 = arg(-n' conj(w)),  from 0 to 2 pi,  length L = r1 alpha1 + r2 alpha2.
 
+The quadratic of core/paths/turn.py has one positive root, r2, and is negative below it. So r2 is l or more where it is
+not positive at l, and r1 where it is not at l / ratio. With D = E - X and q the ratio, without a division,
+    r2 >= l  <=>  q (c - 2 l D . n) <= 2 l D . n' + |D|^2,   c = 2 (1 - n . n') l^2,
+    r1 >= l  <=>  c - 2 l D . n' <= q (2 l D . n + |D|^2).
+
 Both angles are followed without jumps from their values at the middle of the box. A turn of the box whose angle so
 followed is outside [0, 2 pi) has it 2 pi larger or smaller; `whole` says that none is.
 """
@@ -20,6 +25,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -77,15 +83,8 @@ def turns_in(growth: float, centres: Floats, halves: Floats) -> Turns:
     Where they say nothing, a number is infinite or NaN, and no comparison with it holds.
     """
     middle = sizes_of(growth, *centres)
-    a, v, logarithm = parameters(centres, halves)
-    ratio = logarithm.exponential()
-    b = a + v.scaled(growth)
-    t, u, sine, cosine = a.scaled(1.0 / growth), b.scaled(1.0 / growth), v.sine(), v.cosine()
-    over, under = t.squared().plus(1.0).root().inverse(), u.squared().plus(1.0).root().inverse()
-    nx, ny = -t * over, over
-    mx, my = -(u * cosine + sine) * under, (cosine - u * sine) * under
-    dx, dy = a + b * cosine, b * sine
-    squared = a.squared() + b.squared() + (a * b * cosine).scaled(2.0)
+    ends = _ends(growth, centres, halves)
+    ratio, b, (nx, ny), (mx, my), (dx, dy), squared = ends
     level = ratio * (dx * nx + dy * ny) + dx * mx + dy * my
     curved = -((ratio * (nx * mx + ny * my).plus(-1.0)).scaled(2.0))
     root = (level.squared() + curved * squared).root()
@@ -112,6 +111,55 @@ def turns_in(growth: float, centres: Floats, halves: Floats) -> Turns:
         (r1.slopes, r2.slopes, total.slopes),
         np.asarray((lows >= 0.0).all(axis=0) & (highs < 2.0 * math.pi).all(axis=0)),
     )
+
+
+class _Ends(NamedTuple):
+    """Ratio, exit radius b [m], normals n and n', D = E - X [m] and |D|^2 of all turns of each box."""
+
+    ratio: Known
+    b: Known
+    n: tuple[Known, Known]
+    m: tuple[Known, Known]
+    apart: tuple[Known, Known]
+    squared: Known
+
+
+def _ends(growth: float, centres: Floats, halves: Floats) -> _Ends:
+    a, v, logarithm = parameters(centres, halves)
+    b = a + v.scaled(growth)
+    t, u, sine, cosine = a.scaled(1.0 / growth), b.scaled(1.0 / growth), v.sine(), v.cosine()
+    over, under = t.squared().plus(1.0).root().inverse(), u.squared().plus(1.0).root().inverse()
+    squared = a.squared() + b.squared() + (a * b * cosine).scaled(2.0)
+    m = (-(u * cosine + sine) * under, (cosine - u * sine) * under)
+    return _Ends(logarithm.exponential(), b, (-t * over, over), m, (a + b * cosine, b * sine), squared)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def too_tight(growth: float, centres: Floats, halves: Floats, least: float) -> NDArray[np.bool_]:
+    """True where an arc of all turns of a box is tighter than `least` [m], (N,)."""
+    ratio, b, (nx, ny), (mx, my), (dx, dy), squared = _ends(growth, centres, halves)
+    first, second = (dx * nx + dy * ny).scaled(2.0 * least), (dx * mx + dy * my).scaled(2.0 * least)
+    curved = -((nx * mx + ny * my).plus(-1.0).scaled(2.0 * least**2))
+    excess = ratio * (curved - first) - second - squared, curved - second - ratio * (first + squared)
+    size = centres[0] + halves[0] + b.value.furthest + least
+    spare = ROUNDING * (1.0 + ratio.value.high) * (1.0 + size**2)
+    lows = [
+        np.fmax(mean_value(at, known.slopes, halves).low, known.value.low)
+        for at, known in zip(_excesses(growth, centres, least), excess, strict=True)
+    ]
+    return np.asarray((lows[0] > spare) | (lows[1] > spare))
+
+
+def _excesses(growth: float, points: Floats, least: float) -> tuple[Floats, Floats]:
+    """Left sides less right sides of the conditions for r2 and r1 at points (3, N), positive where too tight [m^2]."""
+    entry, turned, log_ratio = points
+    ratio, leaving = np.exp(log_ratio), entry + growth * turned
+    t, u, around = entry / growth, leaving / growth, np.exp(1j * turned)
+    n, m = (1j - t) / np.hypot(1.0, t), around * (1j - u) / np.hypot(1.0, u)
+    apart = entry + leaving * around
+    first, second = (2.0 * least * (apart * one.conj()).real for one in (n, m))
+    curved, squared = 2.0 * least**2 * (1.0 - (n * m.conj()).real), np.abs(apart) ** 2
+    return ratio * (curved - first) - second - squared, curved - second - ratio * (first + squared)
 
 
 def _on(at: Floats, known: Known, halves: Floats) -> Known:

@@ -1,20 +1,20 @@
-"""Lengths between which an answer to the question for the shortest turn is justifiable, by closed forms alone."""
+"""Lengths between which an answer to the question for the shortest turn is justifiable.
+
+The search is that of the shortest turn, but arcs may be as tight as half the longest chord, and turns above are not
+danced: a sampled pose without an overlap is enough for the length that the bound aims at. So a bound that holds may be
+lower than the shortest turn, never higher.
+"""
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
-
 from core import kernels
-from core.design.shortest_turn import BOX_WORK, LENGTH_WIDTH, MULTIPLIERS, SHORTEST_WORK
-from core.design.turn_bounds import Multipliers, divided, first_boxes, least_entry, lower_lengths, multipliers_at
-from core.design.turn_boxes import sizes_of, turns_in
-from core.design.turn_moves import least_bend
-from core.design.turn_places import polished, starts
+from core.design.shortest_turn import RATIOS_WORK, SHORTEST_WORK, Search
+from core.design.turn_bounds import least_entry
+from core.design.turn_circle import TurnCircle, checked_circle
+from core.design.turn_moves import apart_from_circle
 from core.dragon import Dragon, told_chords
 from core.errors import Quantity, asked_of, too_much
-from core.kernels import Budget
+from core.kernels import Budget, Halted
 from core.paths.turn import Turn
 
 
@@ -23,51 +23,48 @@ def turn_length_bounds(
     dragon: Dragon,
     pitch: float,
     turning_radius: float = 4.5,
-    ratio: float = 2.0,
+    ratio: float | None = 2.0,
     *,
     start_turns: float = 16.0,
     budget: Budget | None = None,
 ) -> tuple[float, float]:
     """Lengths between which an answer to "the shortest turn of two arcs inside the circle" is justifiable [m].
 
-    pitch, turning_radius [m]; ratio: radius of the first arc over that of the second; start_turns: of the coils
-    low: no turn is shorter whose arcs have radii of half the longest chord or more: then the chord is the diameter of
-        the bend. shortest_turn() asks for 1 / ROUTE_SINE_LIMIT of that, so its answer is between. Proven by closed
-        forms alone, so a turn with contacts may be between too
+    pitch, turning_radius [m]; ratio: radius of the first arc over that of the second, None: any; start_turns: of the
+    coils
+    low: proven: in every shorter turn an arc is tighter than half the longest chord, which then is the diameter of the
+        bend, or two benches overlap. shortest_turn() asks for 1 / ROUTE_SINE_LIMIT of that, so its answer is between
     high: the turn that begins and ends on the circle, which needs no choice
-    budget: default: SHORTEST_WORK
+    budget: default: SHORTEST_WORK, with a free ratio RATIOS_WORK
     raises: InvalidValue; TooMuchWork
 
     >>> [round(length, 4) for length in turn_length_bounds(Dragon(), 1.7)]
     [11.7729, 13.6212]
     """
-    whole = Turn(pitch, turning_radius, ratio, start_turns=start_turns)
-    growth, radius = whole.pitch / (2.0 * math.pi), whole.turning_radius
-    least = least_bend(dragon) * kernels.ROUTE_SINE_LIMIT
-    inner = least_entry(growth, radius, least)
-    shortest = math.inf
-    known: list[Multipliers] = []
-    for start in starts(growth, inner, radius, whole.ratio, least):
-        place = polished(growth, start, inner, radius, whole.ratio, least)
-        if place is not None:
-            length = float(sizes_of(growth, *place[:, None])[4, 0])
-            if length < shortest:
-                shortest, known = length, [multipliers_at(growth, place, least, radius, False), *known][:MULTIPLIERS]
-    boxes = first_boxes(growth, inner, radius, whole.ratio)
-    work = (budget or Budget()).within(SHORTEST_WORK)
-    while boxes.lows.size:
-        if work.uses_up(BOX_WORK * boxes.lows.size):
-            rule = (
-                "must be smaller, or benches fewer: no length was proven {then}; the {benches} chords are {shortest} to"
-            )
-            size = Quantity(radius, "m")
-            raise too_much(work, "turning_radius", rule + " {longest} long", size, **told_chords(dragon))
-        turns = turns_in(growth, boxes.centres, boxes.halves)
-        bounds = [one.lower(turns, boxes.centres, boxes.halves) for one in known]
-        boxes = boxes._replace(lows=np.maximum.reduce([boxes.lows, lower_lengths(turns), *bounds]))
-        out = (turns.exit.low > radius) | (turns.exit.high < inner) | (boxes.lows >= shortest - LENGTH_WIDTH)
-        out |= (turns.radii[0].high < least) | (turns.radii[1].high < least)
-        left = np.flatnonzero(~out)
-        slope = np.array([slope.furthest for slope in turns.slopes[2]])
-        boxes = divided(boxes.taken(left), slope[:, left])
-    return min(shortest - LENGTH_WIDTH, whole.length), whole.length
+    circle = checked_circle(pitch, turning_radius, ratio, start_turns, any_ratio=True)
+    work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
+    search, longest = _Lengths(dragon, circle, 0.0, work), circle.turn().length
+    try:
+        low = search.answer().length_bracket[0]
+        work.afford()
+    except Halted as halted:
+        rule = "must be smaller, or benches fewer: no length was proven {then}; the {benches} chords are {shortest} to"
+        size = Quantity(circle.radius, "m")
+        raise too_much(work, "turning_radius", rule + " {longest} long", size, **told_chords(dragon)) from halted
+    return min(low, longest), longest
+
+
+class _Lengths(Search):
+    """Search for a length below which no turn is justifiable."""
+
+    def __init__(self, dragon: Dragon, circle: TurnCircle, stray: float, budget: Budget) -> None:
+        super().__init__(dragon, circle, stray, budget)
+        self.least *= kernels.ROUTE_SINE_LIMIT
+        self.inner = least_entry(self.growth, self.radius, self.least)
+
+    def _from_circle(self) -> Turn:
+        return self.circle.turn()
+
+    def _allows(self, danced: Turn) -> bool:
+        ends = danced.entry_radius, danced.exit_radius
+        return self.overlap.deepest(apart_from_circle(self.pitch, *ends, danced.ratio)) <= 0.0

@@ -45,7 +45,7 @@ import numpy as np
 
 from core import kernels
 from core.design.turn_boxes import ROUNDING
-from core.design.turn_moves import Box, bent, displaced
+from core.design.turn_moves import Box, bent, coil_bend, displaced
 from core.dragon import Dragon
 from core.kernels.constants import (
     CHORD,
@@ -67,7 +67,7 @@ POSE_STEP = 0.25
 # Number of deepest poses whose overlap is compared with the moves in the box.
 POSES_TRIED = 3
 # Number of remembered places of poses that were exhibited: neighbouring boxes often share one.
-HINTS = 3
+HINTS = 8
 # D is chosen larger than the places so far need by this [1], because they need more with that D; number of choices.
 SPARE_FACTOR = 1.3
 SPARE_ROUNDS = 5
@@ -95,9 +95,11 @@ class Overlap:
     dragon: its benches from `first` on are the ones of the pose; margin [m]: benches within it count as overlapping
     """
 
-    def __init__(self, dragon: Dragon, margin: float, least: float, most: int) -> None:
-        self.margin, self.least = margin, least
-        first = 1 if dragon.benches > most + 1 else 0
+    def __init__(self, dragon: Dragon, margin: float, most: int) -> None:
+        self.margin = margin
+        first = (
+            1 if dragon.benches > 3 else 0
+        )  # a head is often so long that Lemma 2 says nothing about its rear handle
         count = min(dragon.benches - first, most)
         self.chords = dragon.chords[first : first + count]
         self.overhangs = dragon.overhangs[first : first + count]
@@ -112,6 +114,11 @@ class Overlap:
             self.frames[:, column] = self.sizes[:, half]
         self.out = np.empty((max(0, count - 2), kernels.SEPARATION_COLUMNS))
         self.hints: list[float] = []
+
+    @property
+    def equal(self) -> bool:
+        """Whether all benches of a pose are equal, so that the same pose is one of the turn danced backwards."""
+        return not any(np.ptp(sizes) for sizes in (self.chords, self.overhangs, self.widths))
 
     @property
     def count(self) -> int:
@@ -166,7 +173,9 @@ class Overlap:
         if chain is None:
             return math.inf
         low, at, high = chain
-        moves = np.maximum(high - at, at - low) + [displaced(box, a, b) for a, b in zip(low, high, strict=True)]
+        moves = np.maximum(high - at, at - low) + [
+            displaced(box, a, b) for a, b in zip(low.tolist(), high.tolist(), strict=True)
+        ]
         return self._apart(0, moves) + self._apart(last, moves)
 
     def chain_within(self, box: Box, place: float, last: int) -> tuple[Floats, Floats, Floats] | None:
@@ -176,16 +185,17 @@ class Overlap:
         """
         middle = box.nominal.radii[0] * box.nominal.angles[0]
         chords = self.chords[: last + 1]
+        bend = max(*box.sharpest, *(coil_bend(box.growth, radius) for radius in box.least))
         at = low = high = self.places(box.nominal, place, self.chords, last) - middle
         spare = np.zeros(last + 1)
         for _ in range(SPARE_ROUNDS):
             lengths = high[:-1] - low[1:]
-            turned = np.array([bent(box, a, b) for a, b in zip(low[1:], high[:-1], strict=True)])
+            turned = np.array([bent(box, a, b) for a, b in zip(low[1:].tolist(), high[:-1].tolist(), strict=True)])
             needed = link_spare(chords, lengths, turned) + ROUNDING
             if (needed <= spare).all():
-                return (low, at, high) if lengths.max() < math.pi * self.least else None
+                return (low, at, high) if lengths.max() * bend < math.pi else None
             spare = SPARE_FACTOR * needed
-            if not (chords + spare).max() < 2.0 * self.least * kernels.ROUTE_SINE_LIMIT:
+            if not (chords + spare).max() * bend < 2.0 * kernels.ROUTE_SINE_LIMIT:
                 return None
             high = self.places(box.nominal, place, self.chords - _padded(spare, self.count), last) - middle
             low = self.places(box.nominal, place, self.chords + _padded(spare, self.count), last) - middle
@@ -203,6 +213,12 @@ class Overlap:
         near, far = sorted(moves[bench : bench + 2])
         over = self.overhangs[bench] / self.chords[bench]
         return float((1.0 + over) * far + over * near + 0.5 * self.widths[bench] * (near + far) / self.chords[bench])
+
+
+def most_benches(dragon: Dragon, radius: float) -> int:
+    """Number of benches behind one another that may come near the first of them in a circle of this radius [m]."""
+    around = 2.0 * math.pi * radius + 4.0 * radius
+    return 4 + math.ceil(around / float(dragon.chords[1:].min(initial=dragon.chords[0])))
 
 
 def _padded(values: Floats, count: int) -> Floats:

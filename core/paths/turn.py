@@ -87,7 +87,7 @@ class Turn(Route):
             Coil(pitch, outer / pitch, turns, rotation=math.pi),
         )
         try:
-            super().__init__(pieces, start=Route(pieces).joints[0])
+            super().__init__(pieces, start=Route(pieces[:1]).end)
         except InvalidValue as error:  # every piece is valid, and every joint closes
             rule, long = "must be smaller: no route may be {coil} long before its s = 0", Quantity(coil, "m", 6)
             raise InvalidValue("start_turns", rule, got=Quantity(turns, "turns"), coil=long) from error

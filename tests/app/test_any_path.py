@@ -94,6 +94,38 @@ def test_the_shortest_turn_of_any_exit_has_a_proven_bracket(client: httpx.Client
     assert opposite["length"] > high + 1
 
 
+def test_the_shortest_turn_of_any_ratio_has_equal_arcs_and_a_proven_bracket(client: httpx.Client) -> None:
+    """One bench touches nothing, so that closed forms are enough; and what is given as the ratio does not matter."""
+    got = client.get("/shortest-turn?benches=1&any_ratio=true&ratio=3").raise_for_status().json()
+    low, high = got["length_bracket"]
+    assert 0 < high - low <= 1.1e-6
+    assert (got["ratio"], high) == (pytest.approx(1, abs=1e-6), got["length"])
+    equal = client.get("/shortest-turn?benches=1&ratio=1").raise_for_status().json()
+    assert got["length"] == pytest.approx(equal["length"], abs=2e-6)
+    assert client.get("/shortest-turn?benches=1&ratio=1.1").raise_for_status().json()["length"] > high
+
+
+def test_the_quickest_turn_is_a_turn_with_its_time(client: httpx.Client) -> None:
+    """It is neither the contest's turn nor the shortest one, and quicker than both."""
+    known = reference("maximum_head_speed")
+    query = "pitch=1.7&turning_diameter=9&ratio=2&speed_limit=2"
+    contest = client.get(f"/turn-time?{query}").raise_for_status().json()
+    assert contest["head_speed"] == pytest.approx(known["head_speed"], rel=0, abs=REFERENCE_TOLERANCE)
+    assert contest["time"] == contest["length"] / contest["head_speed"]
+    shortest = client.get("/shortest-turn?pitch=1.7&turning_diameter=9").raise_for_status().json()
+    quickest = client.get(f"/quickest-turn?{query}").raise_for_status().json()
+    times = []
+    for turn in (shortest, quickest):
+        ends = f"entry_radius={turn['entry_radius']!r}&exit_radius={turn['exit_radius']!r}"
+        times.append(client.get(f"/turn-time?{query}&{ends}").raise_for_status().json())
+    assert {name: quickest[name] for name in times[1]} == times[1]
+    assert shortest["length"] < quickest["length"] < contest["length"]
+    assert quickest["time"] < min(contest["time"], times[0]["time"])
+    assert quickest["scan_step"] == pytest.approx(0.09)
+    body = {"path": {"kind": "turn", "entry_radius": quickest["entry_radius"], "exit_radius": quickest["exit_radius"]}}
+    assert posted(client, "/turn-time", **body)["time"] == quickest["time"]
+
+
 def test_the_maximum_head_speed_is_the_known_one(client: httpx.Client) -> None:
     known = reference("maximum_head_speed")
     got = client.get(f"/maximum-head-speed?{TURN_QUERY}&speed_limit=2").raise_for_status().json()
@@ -376,6 +408,13 @@ def test_an_invalid_dance_is_a_problem_that_names_the_place(
         ("/shortest-turn?turning_diameter=8", "turning_diameter", ("too tight", "2.86 m")),
         ("/shortest-turn?pitch=0.8", "turning_diameter", ("benches 0 and 15 touch", "13.286258 s after")),
         ("/shortest-turn?benches=2001", "benches", ("at most 2000",)),
+        ("/turn-time?entry_radius=2", "entry_radius", ("must be larger than 2 m", "bends to a radius of")),
+        ("/turn-time?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
+        ("/quickest-turn?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
+        ("/quickest-turn?turning_diameter=7", "turning_diameter", ("too tight", "2.86 m")),
+        ("/quickest-turn?margin=0.8", "turning_diameter", ("must be larger", "within 0.8 m")),
+        ("/quickest-turn?entry_radius=4", "entry_radius", ("unknown",)),
+        ("/quickest-turn?benches=2001", "benches", ("at most 2000",)),
         ("/maximum-head-speed?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
         ("/maximum-head-speed?turning_diameter=2", "turning_diameter", ("radius", "bench 0")),
         ("/maximum-head-speed?benches=2001", "benches", ("at most 2000",)),

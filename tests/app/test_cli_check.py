@@ -1,4 +1,4 @@
-"""The commands check, turn, shortest-turn and maximum-head-speed, run as a user runs them."""
+"""The commands check, turn, shortest-turn, turn-time, quickest-turn and maximum-head-speed, run as a user runs them."""
 
 from __future__ import annotations
 
@@ -64,6 +64,11 @@ def dance(tmp_path: Path) -> Path:
         (
             ["shortest-turn", "--ratio", "1", "--margin", "0.2", "--benches", "40", "--exit-opposite"],
             "/shortest-turn?ratio=1&margin=0.2&benches=40&exit_opposite=true",
+        ),
+        (["turn-time", "--benches", "20", "--exit-radius", "4.5"], "/turn-time?benches=20&exit_radius=4.5"),
+        (
+            ["quickest-turn", "--benches", "12", "--speed-limit", "3"],
+            "/quickest-turn?benches=12&speed_limit=3",
         ),
         (["maximum-head-speed", "--benches", "20"], "/maximum-head-speed?benches=20"),
         (

@@ -153,11 +153,13 @@ def test_what_does_not_go_with_a_file_is_refused(file: str, tmp_path: Path, argu
 OWN = {("trajectory", "decimals"), ("film", "seconds"), ("tolerance", "turning_diameter"),
        ("contact-probability", "turning_diameter"), ("contact-probability", "step"),
        ("minimum-pitch", "turning_diameter"), ("minimum-pitch", "start_turns"), ("shortest-turn", "turning_diameter"),
-       ("shortest-turn", "start_turns"), ("shortest-turn", "pitch"), ("tolerance-curve", "turning_diameter"),
+       ("shortest-turn", "start_turns"), ("shortest-turn", "pitch"), ("quickest-turn", "turning_diameter"),
+       ("quickest-turn", "start_turns"), ("quickest-turn", "pitch"), ("tolerance-curve", "turning_diameter"),
        ("tolerance-curve", "start_turns")}  # fmt: skip
 MISPLACED = ("pitch", "start_turns", "turning_diameter", "decimals", "seconds", "step")
 ASKING = ("trajectory", "collision-time", "clearance", "maximum-head-speed", "envelope", "film", "figures", "tolerance",
-          "contact-probability", "minimum-pitch", "shortest-turn", "tolerance-curve")  # fmt: skip
+          "contact-probability", "minimum-pitch", "shortest-turn", "turn-time", "quickest-turn",
+          "tolerance-curve")  # fmt: skip
 
 
 @pytest.mark.parametrize(

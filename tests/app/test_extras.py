@@ -80,6 +80,8 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plain]:
         "check examples/paper_dance.toml",
         "turn",
         "shortest-turn --benches 20",
+        "turn-time --benches 20",
+        "quickest-turn --benches 12",
         "maximum-head-speed --benches 20",
         "overlaps --time 412.48",
         "grade --pitch 0.4503",

@@ -32,6 +32,14 @@ SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
         {"path": {"kind": "turn", "ratio": 3, "entry_radius": 4.2, "exit_radius": 4.4}},
     ),
     "shortest_turn": ({"benches": 20}, {"dragon": {"benches": 20}}),
+    "turn_time": (
+        {"benches": 30, "ratio": 1.5, "entry_radius": 4.3, "speed_limit": 1.5},
+        {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5, "entry_radius": 4.3}, "speed_limit": 1.5},
+    ),
+    "quickest_turn": (
+        {"benches": 12, "ratio": 1.9, "margin": 0.01},
+        {"dragon": {"benches": 12}, "ratio": 1.9, "margin": 0.01},
+    ),
     "maximum_head_speed": (
         {"benches": 30, "ratio": 1.5, "speed_limit": 1.5},
         {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5}, "speed_limit": 1.5},
@@ -107,6 +115,6 @@ def test_only_what_repeats_itself_may_be_long(client: httpx.Client) -> None:
     on_a_turn = client.post("/collision-time", json={"dragon": long, "path": {"kind": "turn"}})
     assert on_a_turn.json()["detail"].startswith("benches must be at most 2000 here")
     listed = {"lengths": [2.2] * 2_001, "widths": [0.3] * 2_001, "overhangs": [0.275] * 2_001}
-    for call in ("collision-time", "minimum-pitch", "pitch-scan", "shortest-turn"):
+    for call in ("collision-time", "minimum-pitch", "pitch-scan", "shortest-turn", "turn-time", "quickest-turn"):
         refused = client.post(f"/{call}", json={"dragon": listed})
         assert refused.json()["errors"][0]["pointer"] == "/dragon/lengths"

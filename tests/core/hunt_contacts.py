@@ -164,9 +164,13 @@ def random_case(seed, case):
 def fault(seed, case):
     """The kind of one random answer, and its fault in words ('' for none)."""
     try:
-        dance, margin, start, stop, look = random_case(seed, case)
+        return judged(*random_case(seed, case))
     except BenchDragonError as refused:
         return f"refused: {type(refused).__name__}", ""
+
+
+def judged(dance, margin, start, stop, look, accuracy=GAP):
+    """The kind of the answers about a dance, and their fault in words. accuracy: of slow clearances [m]"""
     span = {"start": start, "stop": stop}
     found = first_contact(dance, margin=margin, **span)
     path = "spiral" if dance.path.spiral is not None else f"{len(dance.path.pieces)} pieces"
@@ -174,14 +178,14 @@ def fault(seed, case):
     known = certain = found.overlapping is not None
     if known:
         kind += ", overlap known"
-    wrong = contact_fault(dance, found, margin, look)
+    wrong = contact_fault(dance, found, margin, look, accuracy)
     least = least_clearance(dance, **span)
-    wrong = wrong or least_fault(dance, least, look, found if margin == 0.0 else None)
+    wrong = wrong or least_fault(dance, least, look, found if margin == 0.0 else None, accuracy)
     verdict = check(dance, margin=margin, **span).verdict
     certain = certain or found.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
     if certain and verdict is not Judgement.FAILS:
         wrong = wrong or f"{found!r}, but check says {verdict.value}"
-    if verdict is Judgement.PASSES and look.least()[0] < margin - GAP:
+    if verdict is Judgement.PASSES and look.least()[0] < margin - accuracy:
         wrong = wrong or f"check passes, but the gap is {look.least()}"
     return kind, wrong and f"{wrong} in {dance!r}, margin {margin!r}, {span}"
 
@@ -194,35 +198,36 @@ def is_wide(dance, found):
     return touching - clear > NARROW / min(1.0, dance.clock.slowest) * 1.01
 
 
-def contact_fault(dance, found, margin, look):
+def contact_fault(dance, found, margin, look, accuracy=GAP):
     """What is wrong with a first contact."""
     if found.outcome is Outcome.CONTACT_AT_START:
         gap = look.at(look.begin)
-        return f"{found!r}, but the gap is {gap}" if gap > margin + GAP else ""
+        return f"{found!r}, but the gap is {gap}" if gap > margin + accuracy else ""
     clear = look.until if found.outcome is Outcome.CLEAR else travelled(dance, found.time_bracket[0])
     least, there = look.least(clear)
-    if least < margin - GAP:
+    if least < margin - accuracy:
         return f"proven clear up to {clear} m, but the gap is {least} at {there} m"
     if found.outcome is Outcome.CONTACT or found.overlapping is not None:
         touching = travelled(dance, found.time_bracket[1])
         gap = look.at(touching)
-        if gap > margin + GAP:
+        if gap > margin + accuracy:
             return f"certain contact at {touching} m, but the gap is {gap}"
     return ""
 
 
-def least_fault(dance, least, look, contact):
+def least_fault(dance, least, look, contact, accuracy=GAP):
     """What is wrong with a least clearance. contact: the first one without a margin, if it was asked for"""
     if least is None:
         return ""
     seen = look.until if least.distance > 0.0 else travelled(dance, least.time) - TIME
     low, there = look.least(seen)
-    if least.at_least is not None and low < least.at_least - GAP:
+    if least.at_least is not None and low < least.at_least - accuracy:
         return f"{least!r}, but the gap is {low} at {there} m"
     if least.distance > 0.0 and low < least.distance - 1.1e-3:
         return f"{least!r}, but the gap is {low} at {there} m"
     gap = look.at(travelled(dance, least.time))
-    if abs(max(gap, min(least.distance, 0.0)) - least.distance) > SURE and not (least.distance == 0.0 and gap < SURE):
+    sure = max(SURE, 10.0 * accuracy)
+    if abs(max(gap, min(least.distance, 0.0)) - least.distance) > sure and not (least.distance == 0.0 and gap < sure):
         return f"{least!r}, but the gap there is {gap}"
     if (
         contact is not None

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from core import Coil, Dance, Dragon, Line, Outcome, Route, Turn, first_contact, trajectory, venue_clearance
-from tests.core import hunt_contacts, hunt_venues, hunting
+from tests.core import hunt_contacts, hunt_turns, hunt_venues, hunting
 from tests.core.slow_route import SlowRoute
 from tests.depth import examples
 
@@ -19,7 +19,11 @@ CONTACTS, VENUES = examples(25, 200), examples(25, 200)
 SAME_PLACE = 1e-10
 
 
-@pytest.mark.parametrize(("fault", "count"), [(hunt_contacts.fault, CONTACTS), (hunt_venues.fault, VENUES)])
+@pytest.mark.parametrize(
+    ("fault", "count"),
+    [(hunt_contacts.fault, CONTACTS), (hunt_venues.fault, VENUES), (hunt_turns.fault, CONTACTS)],
+    ids=["contacts", "venues", "turns"],
+)
 def test_nothing_false_is_found_in_a_small_part(fault: Callable[[int, int], tuple[str, str]], count: int) -> None:
     found = hunting.hunt(fault, 44, 0.0, count)
     assert (found.cases, found.faults) == (count, 0)

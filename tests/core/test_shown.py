@@ -56,6 +56,7 @@ def results() -> Iterator[Any]:
     yield core.minimum_pitch(Dragon())
     yield core.shortest_turn(Dragon(3), 1.7)
     yield core.deepest_turn(Dragon(3), 1.7)
+    yield core.dubins_turn(Dragon(3), 1.7)
     yield core.turn_time(Dragon(3), Turn(1.7))
     yield core.pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 2), start_turns=8.0)
     report = core.check(DANCE, venue=SQUARE)

@@ -55,6 +55,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.shortest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
     core.deepest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "margin": 0.0},
+    core.dubins_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 1.0, "margin": 0.0},
     core.quickest_turn: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0, "speed_limit": 2.0},
     core.turn_length_bounds: {"dragon": DRAGON, "pitch": 1.7, "turning_radius": 4.5, "ratio": 2.0},
     core.turn_time: {"dragon": DRAGON, "path": core.Turn(1.7), "speed_limit": 2.0},
@@ -122,7 +123,7 @@ ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 # Places where nothing is refused although it is taken elsewhere.
 SPELLED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
 SPELLED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
-SPELLED |= {(core.deepest_turn, "ratio"), (core.turn_length_bounds, "ratio")}
+SPELLED |= {(core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
 
 
 def spoken(call: Callable[..., Any]) -> str:

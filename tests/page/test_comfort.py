@@ -153,6 +153,11 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     assert float(page.locator("#exit_radius").input_value()) == shortest["exit_radius"]
     shows(page, "#first-contact .value", "Nothing touches")
     settled(page)
+    page.get_by_role("button", name="Dance the quickest turn").click()
+    settled(page)
+    shown = page.locator("#turn-time .value").inner_text()
+    expect(page.locator("#quickest-turn .value")).to_have_text(shown)
+    assert float(page.locator("#entry_radius").input_value()) != shortest["entry_radius"]
     page.get_by_role("button", name="Dance the spiral of this pitch").click()
     page.locator("[data-path=spiral][aria-pressed=true]").wait_for()
     least = polite.get(f"{server}/minimum-pitch", params={"benches": 20}).json()

@@ -360,6 +360,13 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, server: str) 
     text_of(page, "#clock", f"{report['stop']:.6f} s")
     shortest = polite.get(f"{server}/shortest-turn", params={"pitch": 1.7, "benches": 20}).raise_for_status().json()
     text_of(page, "#shortest-turn .value", f"{shortest['length']:.6f} m")
+    timed = [
+        polite.get(f"{server}/{call}", params={"benches": 20}).raise_for_status().json()
+        for call in ("quickest-turn", "turn-time")
+    ]
+    for box, answer in zip(("#quickest-turn", "#turn-time"), timed, strict=True):
+        text_of(page, f"{box} .value", f"{answer['time']:.6f} s")
+    assert timed[0]["time"] < timed[1]["time"]
     reached(page.locator("#keep"))
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()
@@ -369,7 +376,8 @@ def test_the_turn_shows_the_verdict_of_the_service(open_page: Any, server: str) 
     text_of(page, "#clock", f"{report['start']:.6f} s")
     page.get_by_role("button", name="Spiral", exact=True).click()
     text_of(page, "#first-contact .value", f"{collision_time(server, head_speed=1.5, benches=20)['time']:.6f} s")
-    page.locator("#shortest-turn").wait_for(state="hidden")
+    for box in ("#shortest-turn", "#quickest-turn", "#turn-time"):
+        page.locator(box).wait_for(state="hidden")
 
 
 def test_a_link_to_the_turn_opens_at_the_pitch_of_the_contest(visit: Any) -> None:

@@ -52,6 +52,8 @@ QUERIES = (
     ("maximum-head-speed", {"ratio": 50}),
     ("maximum-head-speed", {"entry_radius": 1}),
     ("shortest-turn", {"pitch": 0.5}),
+    ("quickest-turn", {"turning_diameter": 7}),
+    ("turn-time", {"entry_radius": 2}),
     ("clearance", {"benches": 2}),
     ("minimum-pitch", {"benches": 20, "width": 1.6, "start_turns": 5}),
     ("minimum-pitch", {"unknown": 1}),

@@ -391,7 +391,7 @@ def test_a_table_of_a_chinese_spreadsheet_is_opened_and_so_is_a_workbook(visit: 
     assert page.locator("#csv").input_value() == "周,3.41,0.3,0.275\n李,2.2,0.3,0.275\n吴,2.2,0.3,0.275\n"
     (tmp_path / "old.xlsx").write_bytes(bytes.fromhex("d0cf11e0a1b11ae1") + bytes(99))
     page.locator("#csv-file").set_input_files(tmp_path / "old.xlsx")
-    page.locator("#csv-error", has_text="must be saved as .xlsx or CSV").wait_for()
+    page.locator("#status", has_text="The workbook is in an old or encrypted form").wait_for()
 
 
 def test_a_number_that_cannot_be_used_is_refused_beside_its_field_and_the_dance_stays(visit: Any) -> None:

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import core
 from app.files.tables import Language
-from app.grade.numbers import gives
+from app.grade.numbers import TURN_LENGTH_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
 from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
@@ -235,15 +236,31 @@ def test_a_number_right_to_its_last_digit_is_not_accused(name: str, text: str, v
     assert bool(found.notes) is bool(words)
 
 
-@pytest.mark.parametrize("text", ["8.2271", "9.4153", "11.7915", "11.8105", "11.8336", "12.949437944", "13.06", "13.5"])
+@pytest.mark.parametrize(
+    "text", ["8.215", "8.2271", "9.4153", "11.7915", "11.8105", "11.8336", "12.949437944", "13.06", "13.5"]
+)
 def test_every_turn_that_may_be_possible_is_a_right_answer_to_question_4(text: str) -> None:
     found = typed("turn_length", text, Language.ENGLISH)
     assert (found.verdict, found.diagnosis, found.possible) == ("right", [], [])
     assert "right if both places are stated" in found.notes[0]
 
 
+@pytest.mark.parametrize("ratio", [1.0, pytest.param(None, marks=pytest.mark.deep)], ids=["equal arcs", "any ratio"])
+def test_the_shortest_right_turn_is_the_proven_one(ratio: float | None) -> None:
+    """Equal arcs give the least of all ratios."""
+    low = core.turn_length_bounds(core.Dragon(), 1.7, ratio=ratio, budget=core.Budget(1e10))[0]
+    assert TURN_LENGTH_LEAST <= low < TURN_LENGTH_LEAST + 1e-7
+
+
 @pytest.mark.parametrize(
-    ("text", "verdict"), [("13.62", "right"), ("8.1", "wrong"), ("13.8", "wrong"), ("20.5", "wrong")]
+    ("text", "verdict"),
+    [
+        ("13.62", "right"),
+        ("8.2146", "wrong"),
+        ("8.1", "wrong"),
+        ("13.8", "wrong"),
+        ("20.5", "wrong"),
+    ],
 )
 def test_other_turns_are_graded_against_the_one_of_the_contest(text: str, verdict: str) -> None:
     found = typed("turn_length", text, Language.ENGLISH)

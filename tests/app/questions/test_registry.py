@@ -49,6 +49,16 @@ def shortest_turn() -> dict[str, Any]:
     return told(found, "entry_bracket", "benches", "time", "evaluations") | {"length": found.turn.length}
 
 
+def turn_time() -> dict[str, Any]:
+    found = core.turn_time(DRAGON, Turn(1.7, exit_radius=4.45), 1.5)
+    return told(found, "length", "head_speed", "time", "handles")
+
+
+def quickest_turn() -> dict[str, Any]:
+    found = core.quickest_turn(Dragon(8), 1.7, speed_limit=1.5, margin=0.01)
+    return told(found, "length", "head_speed", "time", "handles") | told(found.turn, "entry_radius", "exit_radius")
+
+
 ASKED: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
     "clearance": (
         {"dragon": {"benches": 40}, "path": {"pitch": 0.5, "start_turns": 8}, "times": [10, 20.5]},
@@ -56,6 +66,11 @@ ASKED: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
     ),
     "course": ({"dragon": {"benches": 20}, "path": {"kind": "waypoints", "points": POINTS}}, course),
     "maximum_head_speed": ({"dragon": {"benches": 20}, "speed_limit": 1.5}, maximum_head_speed),
+    "turn_time": (
+        {"dragon": {"benches": 20}, "path": {"kind": "turn", "exit_radius": 4.45}, "speed_limit": 1.5},
+        turn_time,
+    ),
+    "quickest_turn": ({"dragon": {"benches": 8}, "speed_limit": 1.5, "margin": 0.01}, quickest_turn),
     "shortest_turn": (
         {
             "dragon": {"benches": 14, "head_length": 1.6, "body_length": 1.6},

@@ -90,6 +90,8 @@ ASKED = {
     "turn": ({}, "pitch", 1.7),
     "turn_of": ({"path": {"kind": "turn"}}, "path.pitch", 1.7),
     "shortest_turn_of": ({"dragon": {"benches": 8}}, "pitch", 1.7),
+    "turn_time_of": ({"dragon": {"benches": 8}, "path": {"kind": "turn"}}, "path.pitch", 1.7),
+    "quickest_turn_of": ({"dragon": {"benches": 8}}, "pitch", 1.7),
     "maximum_head_speed_of": ({"dragon": {"benches": 8}, "stop": 100.0}, "path.pitch", 1.7),
     "collision_time_of": ({"dragon": {"benches": 8}}, "path.pitch", 0.55),
     "contact_probability": ({"dragon": {"benches": 8}, "samples": 20, "stop": 9.0}, "lateral", 0.01),

@@ -63,3 +63,22 @@ def test_a_lower_limit_takes_as_much_longer() -> None:
 def test_a_circle_in_which_nothing_can_be_danced_is_refused() -> None:
     with pytest.raises(InvalidValue, match=r"^turning_radius must be larger"):
         quickest_turn(Dragon(), 1.7, 3.0)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "turn", "known"),
+    [
+        (1.0, Turn(1.7, ratio=1.0), (13.6212, 1.6595, 8.21)),
+        (1.0, Turn(1.7, ratio=1.0, entry_radius=4.5, exit_radius=3.9337884833950665), (8.2240, 0.7159, 11.49)),
+        (1.2, None, (9.7442, 1.3892, 7.01)),
+    ],
+    ids=["equal arcs", "shortest", "quickest"],
+)
+def test_the_table_of_the_contest_has_these_times(
+    ratio: float, turn: Turn | None, known: tuple[float, float, float]
+) -> None:
+    """docs/contest.md."""
+    found = quickest_turn(Dragon(), 1.7, ratio=ratio) if turn is None else turn_time(Dragon(), turn)
+    length, speed, time = known
+    assert (found.length, found.head_speed) == (pytest.approx(length, abs=5e-5), pytest.approx(speed, abs=5e-5))
+    assert found.time == pytest.approx(time, abs=5e-3)

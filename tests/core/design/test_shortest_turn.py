@@ -198,3 +198,51 @@ def test_every_dance_above_is_proven(monkeypatch: pytest.MonkeyPatch) -> None:
     assert refused
     assert found.turn.exit_radius <= 4.499 or found.turn.entry_radius >= 4.45
     assert found.length_bracket[0] <= answer(2.0).length_bracket[1]
+
+
+@cache
+def over_all_ratios() -> ShortestTurn:
+    return shortest_turn(Dragon(), PITCH, RADIUS, None, budget=Budget(1e10 if DEEP else 6e7))
+
+
+def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios() -> None:
+    """Every shorter turn among random ones has a contact, and of each known ratio none is; also with work that is spent
+    long before the bracket is narrow."""
+    found = over_all_ratios()
+    low, high = found.length_bracket
+    assert 5.0 < low < high == found.turn.length
+    assert (high - low <= 1e-6) is DEEP
+    rng, shorter, longer = np.random.default_rng(3), 0, 0
+    for _ in range(4_000 if DEEP else 400):
+        ratio, (entry, leaving) = float(np.exp(rng.uniform(-0.6, 0.6))), rng.uniform(1.6, RADIUS, 2)
+        turn = slow_turn(ratio, float(entry), float(leaving))
+        if turn is None:
+            continue
+        if turn[0] >= low:
+            longer += 1
+            continue
+        shorter += 1
+        assert first_contact(Dance(Dragon(), turn[1]), start=-20.0, stop=60.0).time is not None
+    assert longer
+    assert shorter or not DEEP
+    assert all(answer(ratio).turn.length > low for ratio in some(list(FOUND), 2))
+    assert first_contact(Dance(Dragon(), found.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+
+
+@pytest.mark.deep
+def test_over_all_ratios_equal_arcs_are_the_shortest() -> None:
+    assert over_all_ratios().turn.length == pytest.approx(answer(1.0).turn.length, abs=1e-6)
+    assert over_all_ratios().turn.ratio == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_turn_danced_backwards_need_not_be_searched() -> None:
+    """With another bench in the middle both are searched, and give the same bracket."""
+    lengths = [3.41, *[2.2] * 9, 2.21, *[2.2] * 9]
+    uneven = Dragon.of(lengths, [0.3] * 20, [0.275] * 20)
+    both = shortest_turn(uneven, PITCH, RADIUS, 1.0, budget=Budget(1e9))
+    one = shortest_turn(Dragon(20), PITCH, RADIUS, 1.0, budget=Budget(1e9))
+    assert both.boxes > 1.5 * one.boxes
+    assert both.length_bracket == pytest.approx(one.length_bracket, abs=1e-6)
+    for found in (both, one):
+        assert found.entry_bracket[0] <= 3.94 <= found.entry_bracket[1] <= RADIUS
+        assert found.exit_bracket[0] <= 3.94 <= found.exit_bracket[1] <= RADIUS

@@ -9,11 +9,10 @@ import pytest
 
 from core import Turn
 from core.design.turn_bounds import Multipliers, lower_lengths
-from core.design.turn_boxes import sizes_of, turns_in
+from core.design.turn_boxes import sizes_of, too_tight, turns_in
+from tests.core.design.boxes_of_turns import GROWTH, LEAST
 
-GROWTH = 1.7 / (2.0 * math.pi)
 BOXES, PLACES = 1_500, 30
-LEAST = 1.43 / 0.999  # [m], the bend that the contest's head can follow
 ROUNDED = 1e-9  # [m], [rad]
 
 
@@ -38,7 +37,7 @@ def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: f
     rng = np.random.default_rng(3)
     centres, halves = boxes(rng, largest)
     turns, followed = turns_in(GROWTH, centres, halves), 0
-    lows = lower_lengths(turns)
+    lows, of_followed = lower_lengths(turns), lower_lengths(turns, LEAST)
     weighted = Multipliers(GROWTH, LEAST, 4.5, np.array([2.0, 5.0, 0.3, 0.1])).lower(turns, centres, halves)
     for _ in range(PLACES):
         at = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
@@ -50,6 +49,25 @@ def test_every_turn_of_a_box_is_within_its_spans_and_above_its_bounds(largest: f
             assert not (outside & turns.whole).any()
         followed += int(turns.whole.sum())
         assert (sizes[4] >= lows - ROUNDED).all()
-        counts = (sizes[:2].min(axis=0) >= LEAST) & (np.maximum(at[0], sizes[5]) <= 4.5)
+        follows = sizes[:2].min(axis=0) >= LEAST
+        assert (sizes[4] >= of_followed - ROUNDED)[follows].all()
+        counts = follows & (np.maximum(at[0], sizes[5]) <= 4.5)
         assert (sizes[4] >= weighted - ROUNDED)[counts].all()
     assert followed > 0.05 * PLACES * centres.shape[1]
+
+
+@pytest.mark.uncompiled
+@pytest.mark.parametrize(("largest", "missed"), [(1e-9, 0.0), (0.01, 0.03), (0.1, 0.3)])
+def test_boxes_that_are_too_tight_have_no_turn_that_benches_can_follow(largest: float, missed: float) -> None:
+    """A box is called so where all its turns are, apart from some that are nearly wide enough; also at ratios so far
+    from 1 that the radii alone say nothing."""
+    rng = np.random.default_rng(8)
+    centres, halves = boxes(rng, largest)
+    centres[2] *= 7.0
+    tight, followed = too_tight(GROWTH, centres, halves, LEAST), np.zeros(centres.shape[1], dtype=bool)
+    for _ in range(PLACES):
+        radii = sizes_of(GROWTH, *(centres + halves * rng.uniform(-1.0, 1.0, centres.shape)))[:2]
+        followed |= radii.min(axis=0) >= LEAST
+    assert followed.sum() > 20
+    assert not (tight & followed).any()
+    assert (~tight & ~followed).mean() <= missed

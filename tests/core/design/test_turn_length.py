@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from core import Dragon, InvalidValue, Turn, turn_length_bounds
+from core import Dance, Dragon, InvalidValue, Turn, first_contact, shortest_turn, turn_length_bounds
 from core.design.turn_boxes import sizes_of
 
 GROWTH = 1.7 / (2.0 * math.pi)
@@ -17,13 +17,20 @@ GRID = 0.004  # [m]
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("ratio", [2.0, 1.5, 1.1])
-def test_no_turn_on_a_grid_is_shorter_than_the_lower_bound(ratio: float) -> None:
+def test_every_turn_on_a_grid_that_is_shorter_than_the_lower_bound_has_a_contact(ratio: float) -> None:
     low, high = turn_length_bounds(Dragon(), 1.7, ratio=ratio)
     assert high == Turn(1.7, ratio=ratio).length
     entry, leaving = (axis.ravel() for axis in np.meshgrid(*[np.arange(1.3, 4.5 + 1e-12, GRID)] * 2))
     sizes = sizes_of(GROWTH, entry, (leaving - entry) / GROWTH, np.full(entry.size, math.log(ratio)))
-    shortest = sizes[4][sizes[:2].min(axis=0) >= TIGHTEST].min()
-    assert low <= shortest <= low + 15.0 * GRID
+    lengths = np.where(sizes[:2].min(axis=0) >= TIGHTEST, sizes[4], np.inf)
+    if ratio > 1.3:  # no contact is shorter
+        assert low <= lengths.min() <= low + 15.0 * GRID
+        return
+    shorter = np.random.default_rng(2).choice(np.flatnonzero(lengths < low), 40)
+    for k in shorter:
+        turn = Turn(1.7, 30.0, ratio, start_turns=30.0, entry_radius=float(entry[k]), exit_radius=float(leaving[k]))
+        assert first_contact(Dance(Dragon(60, 2.2), turn), start=0.0, stop=60.0).time is not None
+    assert low <= shortest_turn(Dragon(), 1.7, ratio=ratio).turn.length <= low + 0.05
 
 
 @pytest.mark.uncompiled

@@ -10,7 +10,7 @@ import pytest
 from core.design.turn_moves import bent, coil_bend, displaced
 from core.paths.spiral import Spiral
 from core.values import Floats
-from tests.core.design.test_turn_overlap import CROSSING, SMALL, box_at, turn_at
+from tests.core.design.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
 from tests.depth import examples
 
 BESIDE = [(4.2, 4.3, 1.4), (4.29, 4.4, 2.0)]

@@ -2,42 +2,16 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, InvalidValue, Turn, first_contact
-from core.design.turn_boxes import turns_in
-from core.design.turn_moves import Box, box_of
+from core import Dance, Dragon, first_contact
 from core.design.turn_overlap import Overlap
+from tests.core.design.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
 from tests.depth import examples
 
-GROWTH = 1.7 / (2.0 * math.pi)
-LEAST = 1.43 / 0.999  # [m]
 DRAGON = Dragon(60)
 MOST = 26  # benches of a pose
-SMALL = np.array([0.006, 0.006, 0.006])  # half widths of a box: [m], [rad], [1]
-# Middles of boxes where the turn crosses a coil: entry and exit radius [m], ratio.
-CROSSING = [(2.3, 4.45, 1.2), (4.46, 2.38, 1.2), (2.22, 4.45, 1.0), (4.4, 2.32, 1.0), (4.0, 2.4, 1.0)]
-
-
-def box_at(entry: float, leaving: float, ratio: float, half: np.ndarray) -> tuple[Box | None, np.ndarray]:
-    centre = np.array([entry, (leaving - entry) / GROWTH, math.log(ratio)])
-    turns = turns_in(GROWTH, centre[:, None], half[:, None])
-    return box_of(1.7, turns, 0, centre, half, LEAST), centre
-
-
-def turn_at(point: np.ndarray) -> Turn | None:
-    """The turn at a point of a box that the benches can follow; None if there is none."""
-    try:
-        turn = Turn(
-            1.7, 30.0, math.exp(point[2]), start_turns=30.0, entry_radius=float(point[0]),
-            exit_radius=float(point[0] + GROWTH * point[1]),
-        )  # fmt: skip
-    except InvalidValue:
-        return None
-    return turn if min(turn.radii) >= LEAST else None
 
 
 @pytest.mark.parametrize(("entry", "leaving", "ratio"), CROSSING)
@@ -47,7 +21,7 @@ def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(
     box, centre = box_at(entry, leaving, ratio, SMALL)
     if box is None:
         pytest.fail("benches can follow no corner of the box")
-    found = Overlap(DRAGON, 0.0, LEAST, MOST).exhibited(box)
+    found = Overlap(DRAGON, 0.0, MOST).exhibited(box)
     assert found.shared
     assert found.depth > 0.3
     rng, danced = np.random.default_rng(5), 0
@@ -68,7 +42,7 @@ def test_handles_stand_between_their_least_and_greatest_places(
     box, centre = box_at(entry, leaving, ratio, half)
     if box is None:
         pytest.fail("benches can follow no corner of the box")
-    overlap, last = Overlap(DRAGON, 0.0, LEAST, MOST), 14
+    overlap, last = Overlap(DRAGON, 0.0, MOST), 14
     place = box.nominal.length + 2.0
     within = overlap.chain_within(box, place, last)
     if within is None:
@@ -91,7 +65,7 @@ def test_nothing_is_exhibited_where_a_turn_can_be_danced(entry: float, leaving: 
     for size in (0.01, 1.0, 10.0):
         box, _ = box_at(entry, leaving, ratio, size * SMALL)
         if box is not None:
-            found = Overlap(DRAGON, 0.0, LEAST, MOST).exhibited(box)
+            found = Overlap(DRAGON, 0.0, MOST).exhibited(box)
             assert not found.shared
             assert found.depth < 0.0
 
@@ -99,4 +73,4 @@ def test_nothing_is_exhibited_where_a_turn_can_be_danced(entry: float, leaving: 
 def test_a_dragon_of_two_benches_has_no_pair() -> None:
     box, _ = box_at(2.3, 4.45, 1.2, SMALL)
     assert box is not None
-    assert not Overlap(Dragon(2), 0.0, LEAST, MOST).exhibited(box).shared
+    assert not Overlap(Dragon(2), 0.0, MOST).exhibited(box).shared

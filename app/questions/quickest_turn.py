@@ -1,0 +1,47 @@
+"""The question quickest_turn: the turn inside its circle that the head leaves soonest, if no handle exceeds a speed."""
+
+from __future__ import annotations
+
+import core
+from app.questions.maximum_head_speed import Limit
+from app.questions.turn_time import TurnTime
+from app.wire.dances import DragonFields
+from app.wire.paths import TurnCircle
+from app.wire.question import Margin, Question, Terms, UniformDragon, measure
+from core.design.quickest_turn import GRID
+
+
+class QuickestTurnFields(Limit, TurnCircle):
+    """The circle and the coils of the turn, and the limit of speed."""
+
+    margin: Margin = 0.0
+
+
+class QuickestTurnQuery(QuickestTurnFields, UniformDragon):
+    """Quickest turn inside its circle."""
+
+
+class QuickestTurnRequest(QuickestTurnFields, DragonFields, strict=True):
+    """Quickest turn inside its circle, for any dragon."""
+
+
+class QuickestTurn(TurnTime):
+    """The quickest turn of a scan over entries and exits. It is proven that nothing touches in it, with everybody in
+    their place, and that no handle exceeds the limit, not that no other turn is quicker."""
+
+    scan_step: float = measure(
+        "m", "Distance between the tried entries, and exits, from which the time was lowered; none between is excluded"
+    )
+
+
+def quickest_turn(asked: QuickestTurnQuery | QuickestTurnRequest, terms: Terms) -> QuickestTurn:
+    """The turn of those in a scan that takes the head the shortest time, if no handle exceeds the limit."""
+    dragon, radius = asked.to_dragon(terms.settings.checked_benches_max), asked.turning_diameter / 2
+    found = core.quickest_turn(
+        dragon, asked.pitch, radius, asked.ratio, speed_limit=asked.speed_limit, start_turns=asked.start_turns,
+        margin=asked.margin, budget=terms.budget,
+    )  # fmt: skip
+    return QuickestTurn.timed(found, scan_step=GRID * radius)
+
+
+QUESTION = Question(quickest_turn, QuickestTurn, flat=QuickestTurnQuery, body=QuickestTurnRequest)
