@@ -166,7 +166,7 @@ class Settings(BaseModel):
     cheap_max: int = Field(
         8, ge=1, description="Computations of up to 0.1 s at once in one process; further ones get 503"
     )
-    heavy_max: int = Field(4, ge=1, description="Longer computations at once in one process; further ones get 503")
+    heavy_max: int = Field(5, ge=1, description="Longer computations at once in one process; further ones get 503")
     heavy_client_max: int | None = Field(
         None,
         ge=1,

@@ -24,7 +24,9 @@ def benches_of(data: bytes, budget: Budget, say: Say) -> tuple[str, list[str]]:
     try:
         grids, notes = sheets_of(data, budget)
     except UnreadableTable as error:
-        raise InvalidValue.in_words("file", "{sentence}", sentence=error.said.said(say.language).rstrip(".。")) from error
+        raise InvalidValue.in_words(
+            "file", "{sentence}", sentence=error.said.said(say.language).rstrip(".。")
+        ) from error
     filled = [grid for grid in grids if any(cell is not None for row in grid.rows for cell in row)]
     if not filled:
         raise InvalidValue("file", "must have a sheet with benches, one in a line", got="empty sheets")

@@ -11,7 +11,8 @@ from app.wire.question import Answer
 TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 # Fields that speak of a touch alone, of both by `nearest`, or of no contact.
 APART_FROM_MARGINS = {
-    ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
+    ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("TurnTime", "tangent_point"),
+    ("QuickestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
     ("LeastClearance", "distance"), ("Shown", "depth"),
     *(("ContactProbability", name) for name in ("probability", "contacts", "benches", "tolerance", "strayed")),
     *(("Tolerance", name) for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")),

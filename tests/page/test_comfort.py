@@ -102,6 +102,7 @@ def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit:
         red > 150 > max(green, blue) for red, green, blue in zip(pixels[::4], pixels[1::4], pixels[2::4], strict=True)
     )
     legend = page.locator("#legend").inner_text()
+    settled(page)  # The end of the time is known.
     page.locator("#time").press("End")
     page.locator("#inset[data-corner=top-right]").wait_for()
     assert page.locator("#legend").inner_text() == legend
