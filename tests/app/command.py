@@ -143,6 +143,8 @@ def serve(
     """`bench-dragon serve`, which writes into a log. limit: called in its process before it starts"""
     words = ["serve", "--port", str(port), "--workers", str(workers)]
     with log.open("wb") as output:
+        if limit:
+            environment = {**environment, "PYTHONDONTWRITEBYTECODE": "1"}  # as for a run with little room
         if workers > 1 or limit:
             given: dict[str, Any] = {"cwd": ROOT, "env": environment, "preexec_fn": limit}
             return subprocess.Popen([COMMAND, *words], stdout=output, stderr=output, **given)
@@ -231,6 +233,8 @@ def _answer(peer: socket.socket, app: Any, entry: Any) -> None:
     if room is not None:
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+        # Python 3.11 takes a file of bytecode that was cut off for a whole one.
+        sys.dont_write_bytecode = True
     entry.streams.prepare()
     code = 1
     try:
