@@ -14,13 +14,14 @@ PACKAGES = ("app", "core")
 def leave_out_namesakes() -> None:
     """Drop the folders of PYTHONPATH that hold a package of another program with the name of one of ours."""
     own = Path(__file__).parent.resolve()
-    folders = os.environ.get("PYTHONPATH", "").split(os.pathsep)
-    others = {folder for folder in folders if folder and _holds_namesake(Path(folder).resolve(), own)}
+    stated = os.environ.get("PYTHONPATH", "")
+    # An empty entry is the current folder.
+    folders = [folder or os.curdir for folder in stated.split(os.pathsep)] if stated else []
+    others = {os.path.abspath(folder) for folder in folders if _holds_namesake(Path(folder).resolve(), own)}
     if others:
-        kept = [folder for folder in folders if folder not in others]
+        kept = [folder for folder in folders if os.path.abspath(folder) not in others]
         os.environ["PYTHONPATH"] = os.pathsep.join(kept)
-        resolved = {os.path.abspath(folder) for folder in others}
-        sys.path[:] = [place for place in sys.path if os.path.abspath(place) not in resolved]
+        sys.path[:] = [place for place in sys.path if os.path.abspath(place) not in others]
 
 
 def _holds_namesake(folder: Path, own: Path) -> bool:

@@ -7,13 +7,8 @@ import io
 
 from app.files.words import Say
 from app.grade.grid import Cell, Grid, UnreadableTable
-from app.grade.workbook import MAIN, sheets_of
+from app.grade.workbook import sheets_of
 from core import Budget, InvalidValue
-
-
-def is_workbook(data: bytes) -> bool:
-    """True for an archive whose directory names the main part of a workbook."""
-    return data.startswith(b"PK") and MAIN.encode() in data
 
 
 def benches_of(data: bytes, budget: Budget, say: Say) -> tuple[str, list[str]]:

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from app.files.disk import ending_of, read_json, shown_name, standard_input
+from app.files.memory import reading
 from app.files.tables import Language
 from app.files.words import Say
-from app.wire.texts import Unreadable, table_of, toml_of
+from app.wire.texts import Unreadable, is_workbook, table_of, toml_of
 from core import Budget, InvalidValue
 from core.errors import Parameter
 
@@ -21,7 +22,7 @@ DANCE_ENDINGS = (".toml", ".json")
 def read_dance(file: Path) -> dict[str, Any]:
     """Content of a file that describes a dance.
 
-    A venue or a path given as text names a map beside the file, and a dragon given as text names a CSV file.
+    A venue or a path given as text names a map beside the file, and a dragon given as text names a table: CSV or .xlsx.
 
     raises: InvalidValue, OSError
     """
@@ -57,23 +58,34 @@ def _table(file: Path, table: Path) -> str:
     """The benches of a CSV file or a workbook that a dance names, as CSV. raises: InvalidValue"""
     try:
         data = table.read_bytes()
-        if data.startswith(b"PK"):
-            from app.maps.benches import benches_of, is_workbook
-
-            if is_workbook(data):
-                text, notes = benches_of(data, Budget(), Say(Language.ENGLISH))
-                for note in notes:
-                    print(f"{table}: {note}", file=sys.stderr)
-                return text
-        text, is_chinese = table_of(data)
+        text, notes = _of_workbook(table, data) if is_workbook(data) else _of_text(data)
     except OSError as error:
         told = {"file": str(file), "table": str(table), "why": str(error.strerror)}
         raise InvalidValue("dragon", "of {file}: {table}: {why}", **told) from error
     except Unreadable as error:
         raise error.of("dragon", str(table)) from error
-    if is_chinese:
-        print(f"{table} is not in UTF-8; it was read as GB 18030.", file=sys.stderr)
+    for note in notes:
+        print(f"{table}{note}", file=sys.stderr)
     return text
+
+
+def _of_text(data: bytes) -> tuple[str, list[str]]:
+    text, is_chinese = table_of(data)
+    return text, [" is not in UTF-8; it was read as GB 18030."] if is_chinese else []
+
+
+def _of_workbook(table: Path, data: bytes) -> tuple[str, list[str]]:
+    """The benches of a workbook, and notes. raises: InvalidValue that names the workbook"""
+    from app.maps.benches import benches_of  # The import takes time, and most dances name no workbook.
+
+    try:
+        with reading():
+            text, notes = benches_of(data, Budget(), Say(Language.ENGLISH))
+    except InvalidValue as error:
+        words = f"{{table}}: {error.template}"
+        given = {"got": error.got, "reason": error.reason, **error.values, "table": str(table)}
+        raise InvalidValue.in_words("dragon", words, **given) from error
+    return text, [f": {note}" for note in notes]
 
 
 def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:

@@ -11,12 +11,13 @@ import { language, nameBenches, refusalWords, say } from "./text.js";
 const TYPING = 500;
 const ROWS = 6;
 
-/** The text of a table in a file, and notes on what was left out; the service reads workbooks. throws: Problem */
+/** The text of a table in a file, null if it holds none, and notes on it; the service reads workbooks. throws: Problem */
 export async function tableOfFile(file, service) {
-  const text = await tableText(file);
-  if (text !== null) return { text, notes: [] };
+  const typed = await tableText(file);
+  if (typed !== null) return { text: typed, notes: [] };
   const { dance, notes } = await service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
-  return { text: dance?.dragon?.csv ?? "", notes };
+  const text = dance?.dragon?.csv ?? null;
+  return { text, notes: text === null ? [say("csvNone", { name: file.name })] : notes };
 }
 
 export class BenchTable {
@@ -62,7 +63,7 @@ export class BenchTable {
   async #open(file) {
     try {
       const { text, notes } = await tableOfFile(file, this.service);
-      this.#take(text);
+      if (text !== null) this.#take(text);
       if (notes.length) announce(() => notes.join(" "), true);
     } catch (error) {
       announceRefusal(error);

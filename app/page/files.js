@@ -47,6 +47,7 @@ export class Files {
     try {
       if (/\.(csv|tsv|xlsx?|ods)$/i.test(file.name)) {
         const { text: csv, notes } = await tableOfFile(file, this.service);
+        if (csv === null) return announce(() => notes.join(" "), true);
         this.state.set({ csv });
         return announce(() => [say("opened", { name: file.name }), ...notes].join(" "), notes.length > 0);
       }

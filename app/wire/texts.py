@@ -76,6 +76,11 @@ def text_of(data: bytes) -> str:
         raise Unreadable.told("is not text in UTF-8", reason, byte=byte, place=place) from error
 
 
+def is_workbook(data: bytes) -> bool:
+    """True for an archive whose directory names the main part of a workbook (.xlsx)."""
+    return data.startswith(b"PK") and b"xl/workbook.xml" in data
+
+
 def table_of(data: bytes) -> tuple[str, bool]:
     """Text of a table as spreadsheets save it: as text_of(), otherwise in GB 18030, and whether it is that.
 

@@ -97,6 +97,7 @@ export const DANCE = {
   csv: ["Benches measured one by one", "逐节测量的板凳"],
   csvCount: ["Benches measured one by one: {count}", "逐节测量的板凳：{count} 节"],
   csvHelp: ["Paste a table or drop a file (CSV, .xlsx), head first, in metres: name (optional), length, width, overhang. Sweeps take equal benches.", "粘贴表格或拖入文件（CSV、.xlsx），自龙头起，单位为米：名称（可省略）、长度、宽度、孔心距板头。批量计算只用等长板凳。"],
+  csvNone: ["{name} holds no table of benches.", "{name} 中没有板凳表格。"],
   csvOpen: ["Open a table …", "打开表格……"],
   csvBegin: ["Begin with equal benches", "从等长板凳开始"],
   csvClear: ["Equal benches again", "恢复等长板凳"],
