@@ -82,9 +82,10 @@ def _of_workbook(table: Path, data: bytes) -> tuple[str, list[str]]:
         with reading():
             text, notes = benches_of(data, Budget(), Say(Language.ENGLISH))
     except InvalidValue as error:
-        words = f"{{table}}: {error.template}"
-        given = {"got": error.got, "reason": error.reason, **error.values, "table": str(table)}
-        raise InvalidValue.in_words("dragon", words, **given) from error
+        words, told = f"{{table}}: {error.template}", {"table": str(table)}
+        raise InvalidValue.in_words(
+            "dragon", words, got=error.got, reason=error.reason, **error.values, **told
+        ) from error
     return text, [f": {note}" for note in notes]
 
 
