@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import cache
 
 import numpy as np
@@ -88,23 +89,28 @@ def slow_turn(ratio: float, entry: float, leaving: float) -> tuple[float, Route]
     return None if within > RADIUS + ROUNDED else (float(length), Route(path.pieces, start=path.joints[0]))
 
 
+def compared(low: float, turns: Iterable[tuple[float, float, float]]) -> tuple[int, int]:
+    """How many turns of ratio, entry and exit are shorter than `low` and not; benches meet in each shorter one."""
+    shorter = longer = 0
+    for ratio, entry, leaving in turns:
+        turn = slow_turn(ratio, entry, leaving)
+        if turn is None:
+            continue
+        if turn[0] >= low:
+            longer += 1
+            continue
+        shorter += 1
+        assert first_contact(Dance(Dragon(), turn[1]), start=-20.0, stop=60.0).time is not None
+    return shorter, longer
+
+
 @pytest.mark.parametrize("ratio", some(list(FOUND), 2))
 def test_no_turn_on_a_slow_grid_is_shorter_than_the_bracket(ratio: float) -> None:
     """Every shorter turn on the grid has a contact; the grid is searched with lines, arcs and root finding alone."""
     low, high = answer(ratio).length_bracket
     assert 0.0 < high - low <= 1e-6
-    shorter = longer = 0
-    radii = np.arange(1.5, RADIUS, GRID)
-    for entry in radii:
-        for leaving in radii:
-            turn = slow_turn(ratio, float(entry), float(leaving))
-            if turn is None:
-                continue
-            if turn[0] >= low:
-                longer += 1
-                continue
-            shorter += 1
-            assert first_contact(Dance(Dragon(), turn[1]), start=-20.0, stop=60.0).time is not None
+    radii = np.arange(1.5, RADIUS, GRID).tolist()
+    shorter, longer = compared(low, ((ratio, entry, leaving) for entry in radii for leaving in radii))
     assert longer
     assert shorter or ratio > 1.3
 
@@ -212,17 +218,9 @@ def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios() -> N
     low, high = found.length_bracket
     assert 5.0 < low < high == found.turn.length
     assert (high - low <= 1e-6) is DEEP
-    rng, shorter, longer = np.random.default_rng(3), 0, 0
-    for _ in range(4_000 if DEEP else 400):
-        ratio, (entry, leaving) = float(np.exp(rng.uniform(-0.6, 0.6))), rng.uniform(1.6, RADIUS, 2)
-        turn = slow_turn(ratio, float(entry), float(leaving))
-        if turn is None:
-            continue
-        if turn[0] >= low:
-            longer += 1
-            continue
-        shorter += 1
-        assert first_contact(Dance(Dragon(), turn[1]), start=-20.0, stop=60.0).time is not None
+    rng = np.random.default_rng(3)
+    ratios = np.exp(rng.uniform(-0.6, 0.6, 4_000 if DEEP else 400))
+    shorter, longer = compared(low, ((ratio, *rng.uniform(1.6, RADIUS, 2).tolist()) for ratio in ratios.tolist()))
     assert longer
     assert shorter or not DEEP
     assert all(answer(ratio).turn.length > low for ratio in some(list(FOUND), 2))
