@@ -38,21 +38,21 @@ function show(box, title, value, lines, known = [], outcome = "") {
 const facts = (...rows) => make("dl", {}, ...rows.flatMap((row) => ["dt", "dd"].map((tag, k) => make(tag, { textContent: row[k] }))));
 
 /** The benches that the engines judged, in words. benches: of the dragon */
-function judgedWords({ judged }, benches, asked) {
+function judgedWords({ judged }, benches, request) {
   const count = judged.length;
-  if (count === benches) return sayOf("judgedAll", asked, { count });
-  return count === 2 ? sayOf("judgedPair", asked, pair(judged, benches)) : say("judgedNear", { count, benches });
+  if (count === benches) return sayOf("judgedAll", request, { count });
+  return count === 2 ? sayOf("judgedPair", request, pair(judged, benches)) : say("judgedNear", { count, benches });
 }
 
-function engines(check, benches, asked) {
+function engines(check, benches, request) {
   if (!check) return paragraph(say("noEngines"));
-  const word = (overlaps) => (overlaps === null ? say("noBefore") : sayOf(overlaps ? "overlapping" : "apart", asked));
+  const word = (overlaps) => (overlaps === null ? say("noBefore") : sayOf(overlaps ? "overlapping" : "apart", request));
   const cell = (overlaps) => make("td", { textContent: word(overlaps) });
   const head = (key, scope) => make("th", { scope, textContent: say(key) });
   const rows = Object.entries(check.engines).map(([name, { before, after }]) => make("tr", {}, head(name, "row"), cell(before), cell(after)));
   const heads = make("tr", {}, ...["engine", "before", "after"].map((key) => head(key, "col")));
   const grounds = rows.length === 1 && say("judgedGrounds", { count: check.judged.length });
-  const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, asked)}`, say(check.agree ? "agree" : "disagree")];
+  const words = [grounds || `${say("engines", { count: rows.length })}${judgedWords(check, benches, request)}`, say(check.agree ? "agree" : "disagree")];
   const list = check.together.map((both) => Object.values(pair(both, benches)).join(say("listed"))).join(say("semicolon"));
   if (list) words.push(say("together", { list }));
   const caption = make("caption", { textContent: words.join(" ") });
@@ -63,13 +63,13 @@ function engines(check, benches, asked) {
 const stateOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? "folds" : outcome);
 
 /** The outcome in a few words. answer: of /collision-time */
-export function outcomeWords(answer, asked) {
+export function outcomeWords(answer, request) {
   const time = answer.time ?? answer.end?.time;
-  return sayOf(stateOf(answer), asked, { time: time?.toFixed(6) });
+  return sayOf(stateOf(answer), request, { time: time?.toFixed(6) });
 }
 
 /** The same with its mark, for small screens. */
-export const verdictWords = (answer, asked) => `${MARKS[stateOf(answer)]} ${outcomeWords(answer, asked)}`;
+export const verdictWords = (answer, request) => `${MARKS[stateOf(answer)]} ${outcomeWords(answer, request)}`;
 
 /** Time of the fold [s] if a dance ends in one; else null. */
 export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? end.time : null);
@@ -77,65 +77,65 @@ export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason 
 /** An instant of a dance with its usual digits; just before the end it is written as the end. */
 export const instantWords = (time, { answer, end }) => (time === end && answer.time === null ? (answer.end?.time ?? time) : time).toFixed(6);
 
-function contactLine(answer, asked) {
+function contactLine(answer, request) {
   const { time_bracket, overlapping: met, point, benches: both, head, end, gap } = answer;
-  const { benches } = asked;
+  const { benches } = request;
   const state = stateOf(answer);
   if (state === "undecided") {
     const [time, late] = [bound(time_bracket[0], 9, -1), bound(time_bracket[1], 9, 1)];
-    return met ? sayOf("undecidedMet", asked, { ...pair(met, benches), time, late }) : say("undecidedFrom", { time });
+    return met ? sayOf("undecidedMet", request, { ...pair(met, benches), time, late }) : say("undecidedFrom", { time });
   }
-  if (state === "folds") return sayOf("foldsUntil", asked, { name: benchName(end.bench, benches) });
-  if (state === "clear") return end ? sayOf("clearUntil", asked, { time: end.time.toFixed(6) }) : sayOf("clearAll", asked);
+  if (state === "folds") return sayOf("foldsUntil", request, { name: benchName(end.bench, benches) });
+  if (state === "clear") return end ? sayOf("clearUntil", request, { time: end.time.toFixed(6) }) : sayOf("clearAll", request);
   const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
   const values = { ...pair(both, benches), x, y, radius };
-  if (asked.drawn) return sayOf("pairDrawn", asked, values);
-  const shown = millimetres(gap);
-  if (shown.startsWith("-")) return say("pairOverlaps", { ...values, depth: shown.slice(1) });
-  return sayOf("pairMeets", asked, { ...values, gap: shown });
+  if (request.drawn) return sayOf("pairDrawn", request, values);
+  const millis = millimetres(gap);
+  if (millis.startsWith("-")) return say("pairOverlaps", { ...values, depth: millis.slice(1) });
+  return sayOf("pairMeets", request, { ...values, gap: millis });
 }
 
 /** The time up to which it is proven that nothing touches; none for a contact at the start, or an undecided search. */
-function certificateWords({ outcome, certificate: { steps, clear_until: until } }, asked) {
-  if (until !== null) return sayOf("certificateSteps", asked, { steps, until: bound(until, 10, -1) });
-  return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", asked);
+function certificateWords({ outcome, certificate: { steps, clear_until: until } }, request) {
+  if (until !== null) return sayOf("certificateSteps", request, { steps, until: bound(until, 10, -1) });
+  return outcome === "undecided" ? say("certificateNone") : sayOf("certificateStart", request);
 }
 
 const methodOf = (certificate) => paragraph(proofWords(certificate), { className: "method" });
 
 /** answer: of /collision-time */
-export function showFirstContact(box, answer, asked) {
+export function showFirstContact(box, answer, request) {
   const { time_bracket, certificate } = answer;
-  const lines = [contactLine(answer, asked)];
+  const lines = [contactLine(answer, request)];
   const open = answer.outcome === "undecided" && !answer.overlapping;
-  const known = (values) => (open ? say("bracketOpen", values) : sayOf("bracketTime", asked, values));
+  const known = (values) => (open ? say("bracketOpen", values) : sayOf("bracketTime", request, values));
   const rows = time_bracket ? [[say("bracket"), known(ends(time_bracket, 10))]] : [];
-  rows.push([say("certificate"), certificateWords(answer, asked)]);
+  rows.push([say("certificate"), certificateWords(answer, request)]);
   const least = certificate.least_clearance;
   if (least) {
-    const values = { ...pair(least.benches, asked.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
-    rows.push([say("leastBefore"), sayOf("leastBeforeIs", asked, values)]);
+    const values = { ...pair(least.benches, request.benches), gap: millimetres(least.clearance), time: least.time.toFixed(6) };
+    rows.push([say("leastBefore"), sayOf("leastBeforeIs", request, values)]);
   }
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
-  const evidence = [facts(...rows), methodOf(certificate), engines(answer.cross_check, asked.benches, asked)];
-  show(box, titleOf("firstContact", asked), [mark, outcomeWords(answer, asked)], lines, evidence, state);
+  const evidence = [facts(...rows), methodOf(certificate), engines(answer.cross_check, request.benches, request)];
+  show(box, titleOf("firstContact", request), [mark, outcomeWords(answer, request)], lines, evidence, state);
 }
 
 /** A button of an answer, with its text and its action. */
 const offer = (box, key, act) => box.querySelector("details").before(button({ textContent: say(key) }, act));
 
 /** answer: of /minimum-pitch; use(pitch) sets it; key: of the button's text */
-export function showMinimumPitch(box, answer, asked, key, use) {
-  const [benches, diameter] = [Number(asked.benches), asked.turning_diameter];
+export function showMinimumPitch(box, answer, request, key, use) {
+  const [benches, diameter] = [Number(request.benches), request.turning_diameter];
   const names = answer.benches ? pair(answer.benches, benches) : {};
   const name = answer.bench === null ? "" : benchName(answer.bench, benches);
-  const limit = sayOf(`limited_${answer.limited_by}`, asked, { ...names, name, radius: answer.head_radius?.toFixed(6) });
+  const limit = sayOf(`limited_${answer.limited_by}`, request, { ...names, name, radius: answer.head_radius?.toFixed(6) });
   const { scan_step: step, proven_up_to: upTo } = answer;
   const all = step === null && upTo === null;
   const from = bound(answer.proven_from, 9, 1);
   const pitches = say(all ? "larger" : "largerTried");
-  const lines = [sayOf("toCircle", asked, { diameter, pitches }), limit];
+  const lines = [sayOf("toCircle", request, { diameter, pitches }), limit];
   const islands = answer.other_feasible_intervals.map(([low, high]) => `${low.toFixed(6)}–${high.toFixed(6)} m`);
   if (islands.length) lines.push(say("islands", { list: islands.join(say("listed")) }));
   const [low, high] = answer.pitch_bracket;
@@ -145,40 +145,40 @@ export function showMinimumPitch(box, answer, asked, key, use) {
     [say("proven"), say(upTo === null ? "provenToAll" : "provenTo", { from, upTo })],
     [say("evaluations"), answer.evaluations],
   ];
-  const known = [facts(...rows), engines(answer.cross_check, benches, asked)];
-  show(box, titleOf("minimumPitch", asked), `${answer.pitch.toFixed(9)} m`, lines, known);
+  const known = [facts(...rows), engines(answer.cross_check, benches, request)];
+  show(box, titleOf("minimumPitch", request), `${answer.pitch.toFixed(9)} m`, lines, known);
   offer(box, key, () => use(high));
 }
 
 /** answer: of /shortest-turn; use(entry, exit) sets both radii of the turn */
-export function showShortestTurn(box, answer, asked, use) {
+export function showShortestTurn(box, answer, request, use) {
   const { entry_radius, exit_radius, length, limited_by } = answer;
-  const lines = [say("turnIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, asked)];
+  const lines = [say("turnIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, request)];
   const known = facts(bracket("bracketLength", answer.length_bracket, 9), bracket("bracketEntry", answer.entry_bracket, 9), bracket("bracketExit", answer.exit_bracket, 9));
-  show(box, titleOf("shortestTurn", asked), `${length.toFixed(6)} m`, lines, [known]);
+  show(box, titleOf("shortestTurn", request), `${length.toFixed(6)} m`, lines, [known]);
   offer(box, "useEntry", () => use(entry_radius, exit_radius));
 }
 
 const timeWords = ({ length, head_speed }, { speed_limit: limit }) => say("turnTimeIs", { length: length.toFixed(6), speed: head_speed.toFixed(6), limit });
 
 /** answer: of /quickest-turn; use(entry, exit) sets both radii of the turn */
-export function showQuickestTurn(box, answer, asked, use) {
+export function showQuickestTurn(box, answer, request, use) {
   const { entry_radius, exit_radius, time, scan_step } = answer;
-  const lines = [timeWords(answer, asked), say("quickestIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
+  const lines = [timeWords(answer, request), say("quickestIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
   show(box, say("quickestTurn"), `${time.toFixed(6)} s`, lines, [paragraph(say("quickestKnown", { step: centimetres(scan_step) }))]);
   offer(box, "useQuickest", () => use(entry_radius, exit_radius));
 }
 
 /** answer: of /turn-time */
-export function showTurnTime(box, answer, asked) {
-  show(box, say("turnTime"), `${answer.time.toFixed(6)} s`, [timeWords(answer, asked)], [paragraph(say("turnTimeKnown"))]);
+export function showTurnTime(box, answer, request) {
+  show(box, say("turnTime"), `${answer.time.toFixed(6)} s`, [timeWords(answer, request)], [paragraph(say("turnTimeKnown"))]);
 }
 
 /** answer: of /maximum-head-speed; use(speed) sets it */
-export function showHeadSpeed(box, answer, asked, use) {
+export function showHeadSpeed(box, answer, request, use) {
   const { head_speed, head_speed_bracket: [low, high], handles, time } = answer;
-  const name = handles.map((handle) => handleName(handle, Number(asked.benches))).join(say("listed"));
-  const lines = [say("headSpeedIs", { limit: asked.speed_limit, name, time: time.toFixed(6) })];
+  const name = handles.map((handle) => handleName(handle, Number(request.benches))).join(say("listed"));
+  const lines = [say("headSpeedIs", { limit: request.speed_limit, name, time: time.toFixed(6) })];
   const known = low === null ? paragraph(say("headSpeedOpen", { high: bound(high, 9, 1) })) : facts(bracket("bracketHeadSpeed", [low, high], 9));
   show(box, say("headSpeed"), `${head_speed.toFixed(9)} m/s`, lines, [known]);
   offer(box, "useSpeed", () => use(low ?? head_speed));
@@ -206,27 +206,27 @@ export function showHighestSpeed(box, fastest, { benches }) {
   show(box, say("highest"), `${speed.toFixed(6)} m/s`, [whose], known);
 }
 
-export function showEnd(box, answer, time, asked) {
+export function showEnd(box, answer, time, request) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
-  const name = reason === "fold" ? benchName(answer.end.bench, asked.benches) : "";
-  const words = reason === "contact" ? sayOf("end_contact", asked) : say(`end_${reason}`, { name });
+  const name = reason === "fold" ? benchName(answer.end.bench, request.benches) : "";
+  const words = reason === "contact" ? sayOf("end_contact", request) : say(`end_${reason}`, { name });
   show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
 }
 
-/** told: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */
-export function showRefusal(box, title, told, names) {
+/** problem: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */
+export function showRefusal(box, title, problem, names) {
   show(box, say(title), say("unanswered"), []);
-  if (told) box.append(make("p", refusalWords(told)));
-  else box.append(paragraph(names.length ? mendWords(names) : say("told")));
+  if (problem) box.append(make("p", refusalWords(problem)));
+  else box.append(paragraph(names.length ? mendWords(names) : say("seeAbove")));
 }
 
 /** What is to be mended before there is an answer. names: of fields */
 export const mendWords = (names) => say("mend", { names: [...new Set(names)].map((name) => say("quoted", { name: say(name) })).join(say("and")) });
 
 /** The caption of the enlarged view. gap: [m] between the two benches, null while unknown */
-export function insetWords({ benches: [a, b], corner, edge }, gap, asked) {
-  const name = (bench) => benchName(bench, asked.benches);
-  const meet = () => sayOf("insetMeet", asked, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) });
+export function insetWords({ benches: [a, b], corner, edge }, gap, request) {
+  const name = (bench) => benchName(bench, request.benches);
+  const meet = () => sayOf("insetMeet", request, { corner: say(corner.name), a: name(corner.bench), edge: say(edge.name), b: name(edge.bench) });
   const words = corner && edge ? meet() : [a, b].map(name).join(say("listed"));
   return gap === null ? words : `${words}${say("semicolon")}${gapWords(gap)}`;
 }

@@ -19,15 +19,15 @@ const EMPTY = 204;
 const BUSY = [429, 503];
 const MOMENT = 10;
 
-/** A refused request. told: the service's problem; errors: of it */
+/** A refused request. problem: the service's problem; errors: of it */
 export class Problem extends Error {
   constructor(status, body) {
     // A proxy before the service may answer in its own words, or without any.
     const { detail, template = detail } = body ?? {};
-    const told = detail ? { ...body, template } : { detail: `HTTP ${status}`, template: "HTTP {status}", values: { status: { text: status } } };
-    super(told.detail);
-    this.told = told;
-    this.errors = told.errors ?? [];
+    const problem = detail ? { ...body, template } : { detail: `HTTP ${status}`, template: "HTTP {status}", values: { status: { text: status } } };
+    super(problem.detail);
+    this.problem = problem;
+    this.errors = problem.errors ?? [];
   }
 }
 
@@ -96,8 +96,8 @@ export class Service {
     const type = file ? "application/octet-stream" : body && "application/json";
     const headers = { Accept: accept, ...(type && { "Content-Type": type }), ...more };
     const options = { method: type ? "POST" : "GET", headers, body: file ?? (body && JSON.stringify(body)), ...how };
-    const asked = Symbol(channel);
-    pending(asked, true);
+    const request = Symbol(channel);
+    pending(request, true);
     this.tell.busy(channel, true);
     try {
       const answer = await this.#channels.get(channel).ask((signal) => this.#patiently(url, options, signal));
@@ -107,7 +107,7 @@ export class Service {
       if (!(error instanceof Superseded)) this.tell.busy(channel, false);
       throw error;
     } finally {
-      pending(asked, false);
+      pending(request, false);
     }
   }
 
@@ -139,13 +139,13 @@ export class Service {
     }
   }
 
-  /** The response; null if the service cannot be reached. asked: signal of the caller, which may cancel the question */
-  async #fetch(url, options, asked = null) {
+  /** The response; null if the service cannot be reached. cancel: signal of the caller, which may end the question */
+  async #fetch(url, options, cancel = null) {
     try {
       const response = await fetch(url, options);
       return GATEWAY_ERRORS.includes(response.status) ? null : response;
     } catch {
-      asked?.throwIfAborted();
+      cancel?.throwIfAborted();
       return null;
     }
   }

@@ -1,7 +1,7 @@
 /** The editor of a table of benches: it is typed, pasted, dropped or opened. */
 
 import { tableOf, tableText } from "./benches.js";
-import { $, make, worded } from "./elements.js";
+import { $, make, textButton } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
@@ -31,7 +31,7 @@ export class BenchTable {
     this.error = make("p", { id: "csv-error", className: "error", hidden: true });
     this.note = make("p", { className: "hint" });
     const acts = { csvOpen: () => this.file.click(), csvBegin: () => this.#begin(), csvClear: () => state.set({ csv: "" }) };
-    const buttons = Object.entries(acts).map(([id, act]) => worded(id, act, { id }));
+    const buttons = Object.entries(acts).map(([id, act]) => textButton(id, act, { id }));
     const help = make("p", { id: "csv-help", className: "hint", "data-text": "csvHelp" });
     this.box = make("details", { id: "one-by-one" }, this.title, help, this.text, this.error, this.note, make("p", { className: "buttons" }, ...buttons, this.file));
     group.append(this.box);
@@ -83,7 +83,7 @@ export class BenchTable {
   }
 
   show() {
-    const { csv, listed } = this.state.said();
+    const { csv, listed } = this.state.extras();
     nameBenches(listed?.names ?? []);
     if (this.text.value !== csv) this.text.value = csv;
     if (csv) this.box.open = true;

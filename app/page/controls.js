@@ -121,8 +121,8 @@ export class Controls {
   refuse(errors) {
     for (const [name, row] of this.#rows) {
       const error = errors.get(name);
-      const said = error ? refusalWords(error) : { textContent: "" };
-      if (row.error.textContent !== said.textContent) Object.assign(row.error, said);
+      const words = error ? refusalWords(error) : { textContent: "" };
+      if (row.error.textContent !== words.textContent) Object.assign(row.error, words);
       row.error.hidden = !error;
       row.text.setAttribute("aria-invalid", Boolean(error));
     }

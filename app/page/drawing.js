@@ -64,8 +64,8 @@ export function placeOf(drawing) {
 export function freeName(things, name, own = null) {
   const taken = new Set(things.filter((thing) => thing !== own).map((thing) => thing.name));
   for (let k = 1; ; k++) {
-    const found = k === 1 ? name : `${name} ${k}`;
-    if (!taken.has(found)) return found;
+    const free = k === 1 ? name : `${name} ${k}`;
+    if (!taken.has(free)) return free;
   }
 }
 
@@ -131,7 +131,7 @@ export function toAddress(drawing) {
   const texts = things.map(({ kind, name, points: own, radius: wide = "", holes = [] }) =>
     [kind[0], escaped(name), ...[String(wide), ...[own, ...holes].map(plainText)].map((part) => part.replaceAll(".", "!"))].join("."),
   );
-  const told = {
+  const parts = {
     route: legs,
     corner: radius === EMPTY.radius ? "" : radius,
     begin: begin || "",
@@ -141,30 +141,30 @@ export function toAddress(drawing) {
     origin: origin ? `${origin.longitude},${origin.latitude}` : "",
     grid: grid ? `${grid.x},${grid.y}` : "",
   };
-  return Object.entries(told).filter(([, text]) => text !== "");
+  return Object.entries(parts).filter(([, text]) => text !== "");
 }
 
-/** The drawing in an address; unreadable parts are left out. given: URLSearchParams */
-export function fromAddress(given) {
-  const number = (name, otherwise) => (NUMBER.test(given.get(name) ?? "") ? Number(given.get(name)) : otherwise);
+/** The drawing in an address; unreadable parts are left out. address: URLSearchParams */
+export function fromAddress(address) {
+  const number = (name, otherwise) => (NUMBER.test(address.get(name) ?? "") ? Number(address.get(name)) : otherwise);
   const finite = (points) => points.every((point) => point.length === 2 && point.every(Number.isFinite));
   const drawing = { ...EMPTY, radius: number("corner", EMPTY.radius), begin: number("begin", 0), limit: number("limit", null) };
   try {
-    const legs = given.get("route") ?? "";
+    const legs = address.get("route") ?? "";
     const points = legs ? pointsIn(legs) : [];
     if (finite(points)) Object.assign(drawing, { points, straight: legs.split("_").flatMap((text, k) => (text.startsWith("*") ? [k] : [])) });
-    for (const text of given.get("things")?.split("~") ?? []) {
+    for (const text of address.get("things")?.split("~") ?? []) {
       const [kind, name, wide, own, ...holes] = text.split(".").map((one) => one.replaceAll("!", "."));
       const thing = { kind: KINDS[kind], name: unescaped(name), points: own ? pointsIn(own) : [] };
       if (wide) thing.radius = Number(wide);
       if (holes.length) thing.holes = holes.map(pointsIn);
       if (thing.kind && finite(thing.points)) drawing.things = [...drawing.things, thing];
     }
-    if (given.has("raw")) drawing.path = JSON.parse(given.get("raw"));
-    const [longitude, latitude] = (given.get("origin") ?? "").split(",").map(Number);
-    if (given.has("origin")) drawing.origin = { longitude, latitude };
-    const [x, y] = (given.get("grid") ?? "").split(",").map(Number);
-    if (given.has("grid") && finite([[x, y]])) drawing.grid = { x, y };
+    if (address.has("raw")) drawing.path = JSON.parse(address.get("raw"));
+    const [longitude, latitude] = (address.get("origin") ?? "").split(",").map(Number);
+    if (address.has("origin")) drawing.origin = { longitude, latitude };
+    const [x, y] = (address.get("grid") ?? "").split(",").map(Number);
+    if (address.has("grid") && finite([[x, y]])) drawing.grid = { x, y };
   } catch {
     // An address that was cut off still opens with its readable part.
   }

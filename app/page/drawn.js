@@ -2,7 +2,7 @@
 
 import { EMPTY } from "./drawing.js";
 import { Editor } from "./edit.js";
-import { $, $$, hide, make, worded } from "./elements.js";
+import { $, $$, hide, make, textButton } from "./elements.js";
 import { Files } from "./files.js";
 import { Steps } from "./history.js";
 import { Judgement } from "./judgement.js";
@@ -28,7 +28,7 @@ export class Drawn {
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));
     this.#invite();
-    const { below, above } = layers(dance, () => this.#shown());
+    const { below, above } = layers(dance, () => this.#visible());
     dance.below.push(below);
     dance.above.push(above, () => this.editor.place());
   }
@@ -43,7 +43,7 @@ export class Drawn {
     return points.length < 2 && !path;
   }
 
-  #shown() {
+  #visible() {
     if (!this.#isRoute) return null;
     const { course } = this.questions;
     const selected = this.editor.active ? this.editor.item : null;
@@ -52,9 +52,9 @@ export class Drawn {
 
   /** The offers without a drawing: draw a path, or begin with a preset. */
   #invite() {
-    const presets = Object.keys(PRESETS).map((name) => worded(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
+    const presets = Object.keys(PRESETS).map((name) => textButton(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
     const words = (tag, key) => make(tag, { "data-text": key });
-    $("#invite").append(words("h3", "inviteTitle"), worded("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
+    $("#invite").append(words("h3", "inviteTitle"), textButton("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
   }
 
   /** Begin to draw; an empty drawing starts with an S-shaped path. */
@@ -111,7 +111,7 @@ export class Drawn {
     this.form.offer(null);
     const fields = this.questions.refusals.has("contact") ? this.questions.fieldsOf("contact") : [];
     if (fields.length) this.judgement.wait(fields);
-    else this.judgement.refuse(refusal.told, this.questions.course, Number(this.state.get("benches")));
+    else this.judgement.refuse(refusal.problem, this.questions.course, Number(this.state.get("benches")));
   }
 
   /** Move the benches at fault into view once, after a pose is shown. */

@@ -198,8 +198,8 @@ export class Editor {
     this.#last = null;
     this.dance.view.fitted = false;
     if (this.tool === "path") {
-      const found = drawing.points.length > 1 ? this.#onPath(px, py) : null;
-      this.steps.take(inserted(drawing, null, found?.k ?? drawing.points.length, found?.point ?? point));
+      const spot = drawing.points.length > 1 ? this.#onPath(px, py) : null;
+      this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
     } else if (this.item === null || this.tool === "circle") this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, pointsOf(drawing, this.item).length, point));
     this.chosen();

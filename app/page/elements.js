@@ -8,8 +8,8 @@ const NUMBER = /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i;
 
 /** The number that a person typed, also with a decimal comma; any other text stays. */
 export function numberIn(text) {
-  const given = text.trim();
-  return NUMBER.test(given) ? Number(given.replace(",", ".")) : given;
+  const typed = text.trim();
+  return NUMBER.test(typed) ? Number(typed.replace(",", ".")) : typed;
 }
 
 /** Save a file. blob: its content */
@@ -44,4 +44,4 @@ export function make(tag, properties = {}, ...children) {
 /** A button with an action. */
 export const button = (properties, onclick, ...children) => make("button", { type: "button", onclick, ...properties }, ...children);
 /** A button with the text of a key, in the language of the page at every time. */
-export const worded = (key, onclick, properties = {}) => button({ "data-text": key, ...properties }, onclick);
+export const textButton = (key, onclick, properties = {}) => button({ "data-text": key, ...properties }, onclick);

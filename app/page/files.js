@@ -3,7 +3,7 @@
 import { tableOfFile } from "./bench_table.js";
 import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
-import { $, download, make, worded } from "./elements.js";
+import { $, download, make, textButton } from "./elements.js";
 import { bearer } from "./jobs.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { passagesText } from "./passages.js";
@@ -39,7 +39,7 @@ export class Files {
 
   /** Buttons that open and save. */
   buttons() {
-    return [worded("open", () => this.input.click(), { id: "open" }), this.input, worded("save", () => this.save(), { id: "save" })];
+    return [textButton("open", () => this.input.click(), { id: "open" }), this.input, textButton("save", () => this.save(), { id: "save" })];
   }
 
   /** Open a dance, or a map with a venue and a path. */
@@ -52,36 +52,36 @@ export class Files {
         return announce(() => [say("opened", { name: file.name }), ...notes].join(" "), notes.length > 0);
       }
       announce(() => say("opening", { name: file.name }));
-      const found = (await ownDance(file)) ?? (await this.#places(file));
-      if (found) this.#take(found, file.name);
+      const content = (await ownDance(file)) ?? (await this.#places(file));
+      if (content) this.#take(content, file.name);
     } catch (error) {
       announceRefusal(error);
     }
   }
 
   async #places(file) {
-    const { dance, notes = [], ...found } = await this.service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
-    return { ...dance, ...found, notes };
+    const { dance, notes = [], ...content } = await this.service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
+    return { ...dance, ...content, notes };
   }
 
-  #take(found, name) {
-    const { dragon = {}, path, venue } = found;
+  #take(content, name) {
+    const { dragon = {}, path, venue } = content;
     const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
-    const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof found[one] === "number").map((one) => [one, String(found[one])]));
+    const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof content[one] === "number").map((one) => [one, String(content[one])]));
     if (this.state.get("path") !== "route") this.state.choosePath("route");
-    const opened = drawingOf({ ...found, venue: typeof venue === "object" ? venue : null });
+    const opened = drawingOf({ ...content, venue: typeof venue === "object" ? venue : null });
     // A map without a path keeps the drawn path, and one without a venue keeps the venue; a dance has its own or none.
-    const { points, straight, radius, begin, path: given, things, origin, grid } = this.state.get("drawing");
-    if (!path) Object.assign(opened, { points, straight, radius, begin, path: given });
-    if (!venue && !("dragon" in found)) Object.assign(opened, { things, origin, grid });
-    const told = {
-      ...("dragon" in found && { csv: tableOf(dragon) }),
-      ...("passages" in found && { passages: passagesText(found.passages) }),
-      ...("start_clock" in found && { start_clock: found.start_clock ?? "" }),
+    const { points, straight, radius, begin, path: kept, things, origin, grid } = this.state.get("drawing");
+    if (!path) Object.assign(opened, { points, straight, radius, begin, path: kept });
+    if (!venue && !("dragon" in content)) Object.assign(opened, { things, origin, grid });
+    const others = {
+      ...("dragon" in content && { csv: tableOf(dragon) }),
+      ...("passages" in content && { passages: passagesText(content.passages) }),
+      ...("start_clock" in content && { start_clock: content.start_clock ?? "" }),
     };
-    this.state.set({ ...own, ...numbers, ...told, time: null, view: null });
+    this.state.set({ ...own, ...numbers, ...others, time: null, view: null });
     this.steps.take(opened);
-    const notes = found.notes ?? [];
+    const notes = content.notes ?? [];
     announce(() => [say("opened", { name }), ...notes].join(" "), notes.length > 0);
   }
 
@@ -97,8 +97,8 @@ export class Files {
 async function ownDance(file) {
   if (!/\.json$/i.test(file.name)) return null;
   try {
-    const told = JSON.parse(await file.text());
-    return "type" in told || typeof told.venue === "string" ? null : told;
+    const content = JSON.parse(await file.text());
+    return "type" in content || typeof content.venue === "string" ? null : content;
   } catch {
     return null;
   }

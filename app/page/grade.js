@@ -68,32 +68,32 @@ export class Grader {
   }
 
   async #grade() {
-    const given = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim().replace(",", ".")]).filter(([, text]) => text);
-    const numbers = given.filter(([, text]) => NUMBER.test(text));
-    const asked = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
-    if (numbers.length) asked.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
-    const wrong = given.filter(([, text]) => !NUMBER.test(text));
-    const found = wrong.map(([name, text]) => {
+    const typed = ANSWERS.map((name) => [name, $(`#typed-${name}`).value.trim().replace(",", ".")]).filter(([, text]) => text);
+    const numbers = typed.filter(([, text]) => NUMBER.test(text));
+    const requests = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
+    if (numbers.length) requests.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
+    const wrong = typed.filter(([, text]) => !NUMBER.test(text));
+    const results = wrong.map(([name, text]) => {
       const what = say(`typed_${name}`);
       return refusedBox(what, { textContent: say("noNumber", { what, text, example: EXAMPLES[name] }) });
     });
-    this.#answers = found;
-    for (const [k, [query, file]] of asked.entries()) {
+    this.#answers = results;
+    for (const [k, [query, file]] of requests.entries()) {
       if (file?.size === 0) {
-        found.push(refusedBox(file.name, { textContent: say("fileEmpty") }));
+        results.push(refusedBox(file.name, { textContent: say("fileEmpty") }));
         continue;
       }
-      this.#tell(say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: asked.length }));
+      this.#tell(say("grading", { name: file?.name ?? say("typed"), k: k + 1, count: requests.length }));
       try {
-        found.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
+        results.push({ answer: await this.service.ask("grade", "grade", { query, file: file ?? new Blob(), headers: bearer() }) });
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;
-        const { told } = error;
-        const words = told.template === TOO_LONG ? { textContent: say("fileTooLong", { most: told.values.most.value / 1e6 }) } : refusalWords(told);
-        found.push(refusedBox(file?.name ?? say("typed"), words));
+        const { problem } = error;
+        const words = problem.template === TOO_LONG ? { textContent: say("fileTooLong", { most: problem.values.most.value / 1e6 }) } : refusalWords(problem);
+        results.push(refusedBox(file?.name ?? say("typed"), words));
       }
-      if (this.#answers !== found) return;
+      if (this.#answers !== results) return;
       this.show();
     }
     this.#tell("");
@@ -125,9 +125,9 @@ function box(title, verdict, content) {
 }
 
 function diagnosis({ verdict, diagnosis: certain, possible }) {
-  const found = [...certain, ...possible];
-  if (!found.length) return verdict === "wrong" ? [paragraph(say("nothingFits"))] : [];
-  return found.flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
+  const all = [...certain, ...possible];
+  if (!all.length) return verdict === "wrong" ? [paragraph(say("nothingFits"))] : [];
+  return all.flatMap(({ words, evidence }) => [paragraph(words, "finding"), paragraph(evidence, "evidence")]);
 }
 
 function fileBox(file) {

@@ -45,16 +45,16 @@ export class Graphs {
 
   /** The help texts, which depend on the definition of a contact. */
   help() {
-    const asked = this.state.texts(CONTACT);
-    $("#clearance .hint").textContent = sayOf("clearanceHelp", asked);
-    $("#scan .hint").textContent = sayOf("scanHelp", asked) + (strayOf(asked) > 0 ? say("scanStray") : "");
+    const request = this.state.texts(CONTACT);
+    $("#clearance .hint").textContent = sayOf("clearanceHelp", request);
+    $("#scan .hint").textContent = sayOf("scanHelp", request) + (strayOf(request) > 0 ? say("scanStray") : "");
   }
 
-  /** Show a refusal in place of the chart of this kind, if there is one. told: null if it is shown elsewhere */
-  refuse(kind, told) {
+  /** Show a refusal in place of the chart of this kind, if there is one. problem: null if it is shown elsewhere */
+  refuse(kind, problem) {
     if (!(kind in this.#charts)) return;
     this.#charts[kind].show(null);
-    $(`#${kind} .reading`).replaceChildren(make("span", told ? refusalWords(told) : { textContent: say("told") }));
+    $(`#${kind} .reading`).replaceChildren(make("span", problem ? refusalWords(problem) : { textContent: say("seeAbove") }));
   }
 
   clearance() {
@@ -81,9 +81,9 @@ export class Graphs {
   curve() {
     const { curve, minimum, tolerance } = this.questions.answers;
     if (!curve) return;
-    const [own, least] = minimum ? [strayOf(minimum.asked), minimum.answer.pitch] : [0, null];
+    const [own, least] = minimum ? [strayOf(minimum.request), minimum.answer.pitch] : [0, null];
     this.#charts.curve.show({ ...curve.answer, own, least });
-    const pitch = tolerance?.asked.pitch ?? null;
+    const pitch = tolerance?.request.pitch ?? null;
     this.#charts.curve.now(pitch && Number(pitch));
     const words = () => say("curveAt", { pitch, stray: centimetres(tolerance.answer.stray) });
     $("#curve .reading").textContent = pitch ? words() : "";
@@ -91,10 +91,10 @@ export class Graphs {
 
   /** Draw the first view of the staircase, or all of it. kind: look or scan */
   scan(kind) {
-    const { answer, asked } = this.questions.answers[kind];
+    const { answer, request } = this.questions.answers[kind];
     const coarse = kind === "look";
     $("#scan").classList.toggle("coarse", coarse);
-    this.#charts.scan.show({ ...answer, circle: Number(asked.turning_diameter) / 2, coarse });
+    this.#charts.scan.show({ ...answer, circle: Number(request.turning_diameter) / 2, coarse });
     this.pitch();
   }
 

@@ -20,8 +20,8 @@ const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone"
 /** The remembered jobs; empty if the browser allows no storage. */
 function remembered() {
   try {
-    const found = JSON.parse(localStorage.getItem(STORED));
-    return Array.isArray(found) ? found.filter(({ id }) => /^[0-9a-f]{48}$/.test(id)) : [];
+    const stored = JSON.parse(localStorage.getItem(STORED));
+    return Array.isArray(stored) ? stored.filter(({ id }) => /^[0-9a-f]{48}$/.test(id)) : [];
   } catch {
     return [];
   }
@@ -53,7 +53,7 @@ export class Jobs {
 
   /** Follow a job that has begun. spec: {question, over} */
   add(status, spec) {
-    this.#jobs = new Map([[status.jobID, { spec, status, shown: false }], ...this.#jobs]);
+    this.#jobs = new Map([[status.jobID, { spec, status, opened: false }], ...this.#jobs]);
     this.#remember();
     announce(() => say("jobStarted"));
     this.#look();
@@ -93,7 +93,7 @@ export class Jobs {
         if (!(error instanceof Problem)) throw error;
         this.#forget(id);
       }
-      if (job.shown === false && job.status?.status === "successful" && isTable(job.status)) this.#open(id, job);
+      if (job.opened === false && job.status?.status === "successful" && isTable(job.status)) this.#open(id, job);
     }
     this.render();
     if ([...this.#jobs.values()].some(({ status }) => UNFINISHED.includes(status?.status))) {
@@ -108,7 +108,7 @@ export class Jobs {
   }
 
   async #open(id, job) {
-    job.shown = true;
+    job.opened = true;
     try {
       this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
       announce(() => say("jobReady"));

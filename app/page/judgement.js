@@ -53,13 +53,13 @@ export class Judgement {
   }
 
   /** Show why there is no verdict: no drawing yet, bends that are too tight, or the service's refusal. */
-  refuse(told, course, benches) {
+  refuse(problem, course, benches) {
     const bends = course?.bends ?? [];
-    const said = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
-    const rows = bends.map(({ points }, k) => this.#row(say("show"), said[k], () => this.look(points[Math.floor(points.length / 2)])));
-    const drawn = told === null;
-    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [refusalWords(told)];
-    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, said[0] ?? lines[0]?.textContent);
+    const sentences = bends.map((bend) => say("tightBend", { ...radiiOf(bend), bench: benchName(bend.bench, benches) }));
+    const rows = bends.map(({ points }, k) => this.#row(say("show"), sentences[k], () => this.look(points[Math.floor(points.length / 2)])));
+    const drawn = problem === null;
+    const lines = drawn ? [say("drawFirst")] : rows.length ? [] : [refusalWords(problem)];
+    this.#fill(drawn ? "" : "contact", drawn ? "" : "✕", say(drawn ? "verdict_none" : "verdict_fails"), lines, rows, sentences[0] ?? lines[0]?.textContent);
   }
 
   #row(name, text, act) {
@@ -72,9 +72,9 @@ export class Judgement {
     this.box.dataset.outcome = outcome;
     // On a phone the verdict also appears below the picture.
     Object.assign($("#verdict"), { hidden: false, textContent: [mark, value, first && `· ${first}`].join(" ") });
-    const said = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
+    const sentences = lines.filter(Boolean).map((line) => make("p", typeof line === "string" ? { textContent: line } : line));
     const list = make("ol", { className: "failures" }, ...rows);
     const old = make("p", { className: "old", textContent: say("old") });
-    this.box.replaceChildren(old, make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...said, ...(rows.length ? [list] : []));
+    this.box.replaceChildren(old, make("h3", { textContent: say("verdictTitle") }), make("p", { className: "value" }, sign, value), ...sentences, ...(rows.length ? [list] : []));
   }
 }

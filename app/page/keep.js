@@ -50,7 +50,7 @@ const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` 
 const SHOWN = "keepShown";
 const PROOF = "keepProof";
 
-const figure = (name, form, asked) => ({ path: `figures/${name}.${form.toLowerCase()}`, ...asked });
+const figure = (name, form, request) => ({ path: `figures/${name}.${form.toLowerCase()}`, ...request });
 /** Whole seconds of a dance. */
 const seconds = ({ begin, end }) => ({ start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP });
 /** The request of each item in a format: {path, query or body}. */
@@ -169,18 +169,18 @@ export class Keep {
     try {
       if (item.job) return await this.#begin(item, form);
       announce(() => say("making", { name: say(item.key) }), true);
-      const blob = item.ask ? await this.#asked(REQUESTS[item.ask](this.questions, form), form) : await this.#picture();
+      const blob = item.ask ? await this.#fetch(REQUESTS[item.ask](this.questions, form), form) : await this.#picture();
       const name = named(item.file, form);
       download(blob, name);
       announce(() => say("saved", { name }));
     } catch (error) {
       // What takes too long for one answer is made as a job.
-      if (error instanceof Problem && error.told.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
+      if (error instanceof Problem && error.problem.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
       else announceRefusal(error);
     }
   }
 
-  async #asked({ path, asked, ...question }, form) {
+  async #fetch({ path, request, ...question }, form) {
     const answer = await this.service.ask(`keep ${path} ${form}`, path, { ...question, accept: TYPES[form] });
     return form === "JSON" ? new Blob([JSON.stringify(answer, null, 2)], { type: TYPES.JSON }) : form === "GeoJSON" ? new Blob([JSON.stringify(answer)]) : answer;
   }

@@ -17,12 +17,12 @@ import { Pace } from "./pace.js";
 import { passagesText, quickened, timeOfDay } from "./passages.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
-import { SAID, State } from "./state.js";
+import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
 import { handleName, say, setLanguage } from "./text.js";
-import { tellRefusals } from "./told.js";
+import { showRefusals } from "./refusal_boxes.js";
 
-const NUMBERS = [...FIELDS.map((field) => field.name), ...SAID, "path", "drawing"];
+const NUMBERS = [...FIELDS.map((field) => field.name), ...EXTRAS, "path", "drawing"];
 /** The boxes that wait for each kind of answer. */
 const BUSY = {
   contact: ["#first-contact", "#run-end"],
@@ -169,19 +169,19 @@ const SHOW = {
     opened = true;
   },
   minimum() {
-    const { answer, asked } = questions.answers.minimum;
+    const { answer, request } = questions.answers.minimum;
     // In a turn the pitch of the spiral inwards would lead to a collision.
     const turns = state.get("path") === "turn";
     const use = (pitch) => {
       if (turns) state.choosePath("spiral");
       state.set({ pitch: String(pitch) });
     };
-    answers.showMinimumPitch($("#minimum-pitch"), answer, asked, turns ? "danceSpiral" : "usePitch", use);
+    answers.showMinimumPitch($("#minimum-pitch"), answer, request, turns ? "danceSpiral" : "usePitch", use);
     graphs.curve();
   },
   tolerance() {
-    const { answer, asked } = questions.answers.tolerance;
-    answers.showTolerance($("#tolerance"), answer, Number(asked.benches), asked.turning_diameter);
+    const { answer, request } = questions.answers.tolerance;
+    answers.showTolerance($("#tolerance"), answer, Number(request.benches), request.turning_diameter);
     graphs.curve();
   },
   curve: () => graphs.curve(),
@@ -195,22 +195,22 @@ const SHOW = {
     graphs.scan("scan");
   },
   shortest() {
-    const { answer, asked } = questions.answers.shortest;
-    answers.showShortestTurn($("#shortest-turn"), answer, asked, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
+    const { answer, request } = questions.answers.shortest;
+    answers.showShortestTurn($("#shortest-turn"), answer, request, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
   },
   quickest() {
-    const { answer, asked } = questions.answers.quickest;
-    answers.showQuickestTurn($("#quickest-turn"), answer, asked, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
+    const { answer, request } = questions.answers.quickest;
+    answers.showQuickestTurn($("#quickest-turn"), answer, request, (entry, exit) => state.set({ entry_radius: String(entry), exit_radius: String(exit) }));
   },
   time() {
-    const { answer, asked } = questions.answers.time;
-    answers.showTurnTime($("#turn-time"), answer, asked);
+    const { answer, request } = questions.answers.time;
+    answers.showTurnTime($("#turn-time"), answer, request);
   },
   head() {
-    const { answer, asked } = questions.answers.head;
-    answers.showHeadSpeed($("#head-speed"), answer, asked, (speed) => {
+    const { answer, request } = questions.answers.head;
+    answers.showHeadSpeed($("#head-speed"), answer, request, (speed) => {
       // The whole dance becomes faster or slower.
-      const passages = quickened(state.said().passages, speed / Number(state.get("head_speed")));
+      const passages = quickened(state.extras().passages, speed / Number(state.get("head_speed")));
       state.set({ head_speed: String(speed), passages: passagesText(passages) });
     });
   },
@@ -255,7 +255,7 @@ const TELL = {
     $("main").classList.toggle("stale", refusals.has("contact") && Boolean(questions.dance));
     // Without a dance there are no further questions.
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
-    tellRefusals(questions, graphs, (kind) => BUSY[kind][0]);
+    showRefusals(questions, graphs, (kind) => BUSY[kind][0]);
     route.refused();
   },
 };

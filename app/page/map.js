@@ -15,7 +15,7 @@ const DIGITS = 6;
 const DESIGN = "design";
 const ERROR = "error.code";
 
-const shown = (number) => (number === null || number === undefined ? "–" : String(Number(Number(number).toPrecision(DIGITS))));
+const formatNumber = (number) => (number === null || number === undefined ? "–" : String(Number(Number(number).toPrecision(DIGITS))));
 
 export class SweepMap {
   #units = {};
@@ -116,7 +116,7 @@ export class SweepMap {
   #legend([low, high], two) {
     $("#map-legend").hidden = !two;
     const [least, largest] = $("#map-legend").querySelectorAll("span");
-    [least.textContent, largest.textContent] = [shown(low), shown(high)];
+    [least.textContent, largest.textContent] = [formatNumber(low), formatNumber(high)];
   }
 
   #mark(context, at, colour) {
@@ -152,10 +152,10 @@ export class SweepMap {
     this.#cell = cell;
     const { columns, over } = this.#table;
     const k = this.#design(...cell);
-    const places = over.map((name) => `${this.#label(name)} ${shown(columns[name][k])}`);
+    const places = over.map((name) => `${this.#label(name)} ${formatNumber(columns[name][k])}`);
     const value = columns[this.select.value][k];
-    const said = value === null ? (columns["error.message"][k] ?? say("mapEmpty")) : `${this.#valueName} ${shown(value)}`;
-    this.reading.textContent = `${places.join(say("comma"))}${say("colon")}${said}`;
+    const reading = value === null ? (columns["error.message"][k] ?? say("mapEmpty")) : `${this.#valueName} ${formatNumber(value)}`;
+    this.reading.textContent = `${places.join(say("comma"))}${say("colon")}${reading}`;
     this.draw();
   }
 
@@ -255,10 +255,10 @@ function drawAxes(context, { left, top, width, height }, { x, y }, at, [nameX, n
   context.strokeRect(left, top, width, height);
   context.textBaseline = "top";
   context.textAlign = "center";
-  for (const tick of ticks([x.low, x.high], Math.min(TICKS, Math.max(Math.floor(width / 60), 2))).values) context.fillText(shown(tick), at(tick, y.low)[0], top + height + 6);
+  for (const tick of ticks([x.low, x.high], Math.min(TICKS, Math.max(Math.floor(width / 60), 2))).values) context.fillText(formatNumber(tick), at(tick, y.low)[0], top + height + 6);
   context.fillText(nameX, left + width / 2, top + height + 24);
   Object.assign(context, { textAlign: "right", textBaseline: "middle" });
-  for (const tick of ticks([y.low, y.high], TICKS).values) context.fillText(shown(tick), left - 6, at(x.low, tick)[1]);
+  for (const tick of ticks([y.low, y.high], TICKS).values) context.fillText(formatNumber(tick), left - 6, at(x.low, tick)[1]);
   context.save();
   context.translate(12, top + height / 2);
   context.rotate(-Math.PI / 2);

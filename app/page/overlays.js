@@ -5,11 +5,11 @@ import { $ } from "./elements.js";
 import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
-const [SAID, LETTER] = [6_000, 80];
+const [SHOWN_FOR, LETTER] = [6_000, 80];
 /** Possible corners of the inset, the preferred one first; the lower left has the legend. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
-let said = 0;
+let timer = 0;
 
 /** Function that gives the shown message in the language of the page. */
 let message = () => "";
@@ -26,13 +26,13 @@ export function announce(words, stays = false) {
   message = words;
   const end = () => announce(() => "", true);
   Object.assign(box, { textContent: words(), onclick: end });
-  clearTimeout(said);
-  if (!stays) said = setTimeout(end, Math.max(SAID, LETTER * box.textContent.length));
+  clearTimeout(timer);
+  if (!stays) timer = setTimeout(end, Math.max(SHOWN_FOR, LETTER * box.textContent.length));
 }
 
 /** Show the refusal of a question that a person has asked, if it was refused. throws: any other error */
 export function announceRefusal(error) {
-  if (error instanceof Problem) announce(() => refusalWords(error.told).textContent);
+  if (error instanceof Problem) announce(() => refusalWords(error.problem).textContent);
   else if (!(error instanceof Superseded)) throw error;
 }
 

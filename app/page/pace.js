@@ -1,6 +1,6 @@
 /** The editor of the head's speeds and times: passages, and the time of day at time 0. */
 
-import { button, make, numberIn, worded } from "./elements.js";
+import { button, make, numberIn, textButton } from "./elements.js";
 import { ENDS, beginsOf, clockIn, passagesIn } from "./passages.js";
 import { refusalWords, say } from "./text.js";
 
@@ -16,7 +16,7 @@ export class Pace {
     this.title = make("summary");
     this.list = make("ol");
     this.error = make("p", { className: "error", hidden: true });
-    const adds = ["passageAdd", "pauseAdd"].map((id) => worded(id, () => this.#add(id === "pauseAdd"), { id }));
+    const adds = ["passageAdd", "pauseAdd"].map((id) => textButton(id, () => this.#add(id === "pauseAdd"), { id }));
     const help = make("p", { className: "hint", "data-text": "passagesHelp" });
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
     this.clock = make("input", { id: "start_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error", onchange: () => this.#start() });

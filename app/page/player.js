@@ -17,7 +17,7 @@ const MOTION = Symbol("motion");
 export class Player {
   #playing = false;
   #frame = 0;
-  #asked = 0;
+  #requested = 0;
   /** Time since the dance last moved [ms]. */
   #passed = 0;
   #exact = null;
@@ -89,8 +89,8 @@ export class Player {
     const pose = dance.track?.at(time);
     const isExact = this.#exact?.time === time && this.#exact.dance === dance;
     if (pose && time < dance.end && !isExact) this.show(pose);
-    if (!ask || (this.#playing && now - this.#asked < EXACT_EVERY)) return;
-    this.#asked = now;
+    if (!ask || (this.#playing && now - this.#requested < EXACT_EVERY)) return;
+    this.#requested = now;
     this.questions.pose(time);
   }
 

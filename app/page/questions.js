@@ -5,7 +5,7 @@ import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf } from "./fields.js";
 import { timeAfter } from "./passages.js";
 import { Pause } from "./pending.js";
-import { SAID } from "./state.js";
+import { EXTRAS } from "./state.js";
 import { Track, speedTimes } from "./track.js";
 
 /** Time without a change after which input counts as paused [ms]. */
@@ -43,19 +43,19 @@ const lastInstant = ({ time, time_bracket, end }) => time ?? (end ? end.time - B
 const picked = (from, names) => Object.fromEntries(names.map((name) => [name, from[name]]));
 
 /** True if its numbers describe a dance completely, so that a query can ask about it on a spiral. */
-export const isPlain = ({ said: { csv, passages } }) => !csv && !passages.length;
+export const isPlain = ({ extras: { csv, passages } }) => !csv && !passages.length;
 
 export class Questions {
-  /** {kind, query, numbers, said, answer, begin, end, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
+  /** {kind, query, numbers, extras, answer, begin, end, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
   dance = null;
   /** The drawn path from the service: {s, x, y, knots, bends, drawing} */
   course = null;
-  /** kind -> {answer, asked: the numbers as texts, query or body, dance}: the newest, to be shown again in another language */
+  /** kind -> {answer, request: the numbers as texts, query or body, dance}: the newest, to be shown again in another language */
   answers = {};
   /** channel -> Problem */
   refusals = new Map();
   #rest = new Pause("questions");
-  #asked = new Map();
+  #latest = new Map();
   /** Charts near the view; the slow questions of other charts are not asked. */
   #near = new Set();
   /** The slow questions, and the first view of the staircase: in progress or answered. */
@@ -77,10 +77,10 @@ export class Questions {
     this.service.drop([kind === "route" ? "path" : "course"]);
     this.#forget(ABOUT_NUMBERS.filter((channel) => !ASKED_ON[kind].includes(channel)));
     if (kind === "route") return this.#refreshDrawn();
-    this.#asked.delete("course");
+    this.#latest.delete("course");
     const query = this.state.texts([...MOTION, ...CONTACT, ...(kind === "turn" ? TURN : [])]);
-    const asked = this.#asking(kind, query);
-    if (this.#isNew("contact", { kind, ...query, ...asked.said })) this.#askContact(asked);
+    const request = this.#danceOf(kind, query);
+    if (this.#isNew("contact", { kind, ...query, ...request.extras })) this.#askContact(request);
     const circle = this.#over([...CIRCLE, ...CONTACT]);
     if (!this.#isNew("minimum", circle)) return;
     this.#whole = !this.answers.minimum;
@@ -90,58 +90,58 @@ export class Questions {
   /** Drop these questions with their refusals, which would be about another path. */
   #forget(channels) {
     this.service.drop(channels);
-    for (const channel of channels) this.#asked.delete(channel);
+    for (const channel of channels) this.#latest.delete(channel);
     if (channels.filter((channel) => this.refusals.delete(channel)).length) this.tell("refused");
   }
 
   /** Numbers in questions about a dance of this kind; with a table of benches those of the table. */
-  #asking(kind, query) {
-    const said = this.state.said();
+  #danceOf(kind, query) {
+    const extras = this.state.extras();
     const numbers = numbersOf(query);
-    numbers.top_speed = Math.max(numbers.head_speed, ...said.passages.map(({ speed }) => Number(speed) || 0));
-    const { listed } = said;
-    if (!listed) return { kind, query, numbers, said };
+    numbers.top_speed = Math.max(numbers.head_speed, ...extras.passages.map(({ speed }) => Number(speed) || 0));
+    const { listed } = extras;
+    if (!listed) return { kind, query, numbers, extras };
     const { lengths, widths, overhangs: [overhang] } = listed;
     const own = { listed, benches: lengths.length, head_length: lengths[0], body_length: Math.max(...lengths), width: Math.max(...widths), overhang };
-    return { kind, query, numbers: { ...numbers, ...own }, said };
+    return { kind, query, numbers: { ...numbers, ...own }, extras };
   }
 
   /** A question over these numbers: a query, or a body with the table of benches. */
   #over(names, more = {}) {
     const texts = this.state.texts(names);
-    const { csv, listed } = this.state.said();
-    if (!csv) return { asked: texts, query: { ...texts, ...more } };
+    const { csv, listed } = this.state.extras();
+    if (!csv) return { request: texts, query: { ...texts, ...more } };
     const others = Object.entries(numbersOf(texts)).filter(([name]) => !DRAGON.includes(name));
-    return { asked: { ...texts, benches: listed.lengths.length }, body: { dragon: { csv }, ...Object.fromEntries(others), ...more } };
+    return { request: { ...texts, benches: listed.lengths.length }, body: { dragon: { csv }, ...Object.fromEntries(others), ...more } };
   }
 
   /** Ask everything for a drawn path. */
   #refreshDrawn() {
-    const asked = this.drawn();
-    const { drawing } = asked;
+    const request = this.drawn();
+    const { drawing } = request;
     // Without a drawing nothing stays visible, so the next one is asked about again, even if it is an earlier one.
     if (!drawing.path && drawing.points.length < 2) {
       this.service.drop(["contact", "course", ...AT_REST]);
       this.#take(null);
-      return this.#asked.clear();
+      return this.#latest.clear();
     }
-    const { dragon, path } = this.body({}, asked);
+    const { dragon, path } = this.body({}, request);
     if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);
-    if (!this.#isNew("contact", this.checkBody(asked))) return;
+    if (!this.#isNew("contact", this.checkBody(request))) return;
     // Questions about the former dance would delay the verdict on the new one.
     this.service.drop(AT_REST);
-    for (const channel of AT_REST) this.#asked.delete(channel);
-    this.#askContact(asked);
+    for (const channel of AT_REST) this.#latest.delete(channel);
+    this.#askContact(request);
   }
 
-  /** The request about the present drawing. */
+  /** The dance that the present drawing describes. */
   drawn() {
-    const asking = this.#asking("route", this.state.texts([...DRAGON, "head_speed", ...CONTACT]));
-    return { ...asking, numbers: { ...asking.numbers, drawn: true }, drawing: this.state.get("drawing") };
+    const request = this.#danceOf("route", this.state.texts([...DRAGON, "head_speed", ...CONTACT]));
+    return { ...request, numbers: { ...request.numbers, drawn: true }, drawing: this.state.get("drawing") };
   }
 
   /** Body of a request about a dance; default: the shown dance. */
-  body(more, { numbers, kind, drawing, said: { csv, passages, clock } } = this.dance) {
+  body(more, { numbers, kind, drawing, extras: { csv, passages, clock } } = this.dance) {
     const dragon = csv ? { csv } : picked(numbers, DRAGON);
     const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }) };
     if (kind === "route") return { dragon, path: pathOf(drawing), ...pace, ...more };
@@ -156,14 +156,14 @@ export class Questions {
   }
 
   /** Body of /check: a spiral is danced to its end. */
-  checkBody(asked) {
-    return this.body({ ...picked(asked.numbers, CONTACT), ...this.#stretch(asked) }, asked);
+  checkBody(request) {
+    return this.body({ ...picked(request.numbers, CONTACT), ...this.#stretch(request) }, request);
   }
 
   /** The shown part of a turn, whose coils have no end; a spiral is shown to its end, a drawn path in its place. */
-  #stretch({ kind, numbers: { head_speed: speed }, said, drawing }) {
+  #stretch({ kind, numbers: { head_speed: speed }, extras, drawing }) {
     if (kind === "route") return placeOf(drawing);
-    return kind === "turn" ? { start: -TURN_TRAVEL / speed, stop: timeAfter(TURN_TRAVEL, speed, said.passages) } : {};
+    return kind === "turn" ? { start: -TURN_TRAVEL / speed, stop: timeAfter(TURN_TRAVEL, speed, extras.passages) } : {};
   }
 
   /** The service's own numbers at one instant. */
@@ -177,7 +177,7 @@ export class Questions {
   /** Names of the numbers that a refusal concerns, which show it beside their fields; else none. */
   fieldsOf(channel) {
     if (!ABOUT_NUMBERS.includes(channel)) return [];
-    return this.refusals.get(channel).errors.map(nameOf).filter((name) => SAID.includes(name) || FIELDS.some((field) => field.name === name));
+    return this.refusals.get(channel).errors.map(nameOf).filter((name) => EXTRAS.includes(name) || FIELDS.some((field) => field.name === name));
   }
 
   /** Errors in the numbers: name -> error. */
@@ -185,20 +185,20 @@ export class Questions {
     return new Map(ABOUT_NUMBERS.flatMap((channel) => this.refusals.get(channel)?.errors ?? []).map((error) => [nameOf(error), error]));
   }
 
-  async #askContact(asked) {
-    if (asked.kind === "spiral") {
-      const question = isPlain(asked) ? { query: { ...asked.query, ...QUICK } } : { body: { ...this.checkBody(asked), ...QUICK } };
+  async #askContact(request) {
+    if (request.kind === "spiral") {
+      const question = isPlain(request) ? { query: { ...request.query, ...QUICK } } : { body: { ...this.checkBody(request), ...QUICK } };
       const answer = await this.#answer("contact", "collision-time", question);
-      if (answer) this.#accept({ ...asked, answer, begin: 0, end: lastInstant(answer) });
+      if (answer) this.#accept({ ...request, answer, begin: 0, end: lastInstant(answer) });
       return;
     }
-    const isRoute = asked.kind === "route";
-    const report = await this.#answer("contact", "check", { body: { ...this.checkBody(asked), ...(isRoute ? VERDICT : QUICK) } });
+    const isRoute = request.kind === "route";
+    const report = await this.#answer("contact", "check", { body: { ...this.checkBody(request), ...(isRoute ? VERDICT : QUICK) } });
     if (!report) return;
-    const { failures, verdict, start: begin, stop, first_contact: found } = report;
-    const answer = { ...found, end: isRoute && found.time === null ? { reason: "path", time: stop } : null };
+    const { failures, verdict, start: begin, stop, first_contact: first } = report;
+    const answer = { ...first, end: isRoute && first.time === null ? { reason: "path", time: stop } : null };
     const last = isRoute ? stop - BEFORE_END : stop;
-    this.#accept({ ...asked, answer, begin, end: answer.time ?? last, ...(isRoute ? { failures, verdict } : { report }) });
+    this.#accept({ ...request, answer, begin, end: answer.time ?? last, ...(isRoute ? { failures, verdict } : { report }) });
   }
 
   #accept(dance) {
@@ -261,31 +261,31 @@ export class Questions {
   /** The request for the tolerance on the way to the circle, or in the shown part of a turn. */
   toleranceOf() {
     const kind = this.state.get("path");
-    if (kind === "route") return { asked: { benches: this.dance.numbers.benches }, body: this.placed({}) };
+    if (kind === "route") return { request: { benches: this.dance.numbers.benches }, body: this.placed({}) };
     const query = this.state.texts([...MOTION, "turning_diameter", ...(kind === "turn" ? TURN : [])]);
-    const asking = this.#asking(kind, query);
-    const { benches, turning_diameter } = asking.numbers;
-    if (kind === "turn") return { asked: { benches }, body: this.body(this.#stretch(asking), asking) };
-    const asked = { ...query, benches };
-    return isPlain(asking) ? { asked, query } : { asked, body: this.body({ turning_diameter }, asking) };
+    const dance = this.#danceOf(kind, query);
+    const { benches, turning_diameter } = dance.numbers;
+    if (kind === "turn") return { request: { benches }, body: this.body(this.#stretch(dance), dance) };
+    const request = { ...query, benches };
+    return isPlain(dance) ? { request, query } : { request, body: this.body({ turning_diameter }, dance) };
   }
 
   /** The request for the highest speed of the head in a turn. */
   #fastestHead() {
     const query = this.state.texts([...HEAD, "head_speed"]);
-    const asking = this.#asking("turn", query);
+    const dance = this.#danceOf("turn", query);
     const { head_speed, ...flat } = query;
-    const asked = { ...query, benches: asking.numbers.benches };
-    return isPlain(asking) ? { asked, query: flat } : { asked, body: this.body({ speed_limit: asking.numbers.speed_limit }, asking) };
+    const request = { ...query, benches: dance.numbers.benches };
+    return isPlain(dance) ? { request, query: flat } : { request, body: this.body({ speed_limit: dance.numbers.speed_limit }, dance) };
   }
 
   /** The request for the time of the head through the shown turn. */
   #turnTime() {
     const query = this.state.texts(HEAD);
-    const asking = this.#asking("turn", query);
-    if (!asking.said.csv) return { asked: query, query };
-    const { dragon, path } = this.body({}, asking);
-    return { asked: query, body: { dragon, path, speed_limit: asking.numbers.speed_limit } };
+    const dance = this.#danceOf("turn", query);
+    if (!dance.extras.csv) return { request: query, query };
+    const { dragon, path } = this.body({}, dance);
+    return { request: query, body: { dragon, path, speed_limit: dance.numbers.speed_limit } };
   }
 
   /** The requests for the smallest pitch, and for the radius at first contact against the pitch. */
@@ -350,13 +350,13 @@ export class Questions {
   /** True if a question differs from the last one of its kind. mark: it becomes the last one */
   #isNew(kind, question, mark = true) {
     const key = JSON.stringify(question);
-    if (this.#asked.get(kind) === key) return false;
-    if (mark) this.#asked.set(kind, key);
+    if (this.#latest.get(kind) === key) return false;
+    if (mark) this.#latest.set(kind, key);
     return true;
   }
 
   /** The answer; undefined if it was refused or superseded. */
-  async #answer(channel, path, { asked, ...question }) {
+  async #answer(channel, path, { request, ...question }) {
     try {
       const answer = await this.service.ask(channel, path, question);
       if (this.refusals.delete(channel)) this.tell("refused");

@@ -25,14 +25,14 @@ const numberIn = (name) => Number(/\d+/.exec(name)?.[0]) + 1;
 const lastOf = (name) => name.split(".").findLast((part) => Number.isNaN(Number(part)));
 
 /**
- * A refusal as text and its language. told: the service's problem or one of its errors: {detail, template, got, reason,
+ * A refusal as text and its language. problem: the service's problem or one of its errors: {detail, template, got, reason,
  * values, pointer}; chinese: true for Chinese; say(name): the label of a field
  */
-export function refusalIn(told, chinese, say) {
-  const { template, values } = told;
+export function refusalIn(problem, chinese, say) {
+  const { template, values } = problem;
   const rest = [IN_LINE, TABLE].find((begin) => template.startsWith(begin));
-  if (!rest) return new Refusal(told, chinese, say).inWords();
-  const refusal = refusalIn({ ...told, template: template.slice(rest.length) }, chinese, say);
+  if (!rest) return new Refusal(problem, chinese, say).inWords();
+  const refusal = refusalIn({ ...problem, template: template.slice(rest.length) }, chinese, say);
   if (rest === TABLE) return refusal;
   const words = say("csvLine", { line: values.line.text, words: refusal.textContent });
   return { textContent: words, lang: chinese ? LANGS[1] : LANGS[0] };
@@ -51,7 +51,7 @@ class Refusal {
   inWords() {
     const whole = WHOLE[`${this.template} (${lastOf(this.parameter)})`] ?? WHOLE[this.kind()];
     const textContent = whole?.[this.column]
-      ? this.filled(whole[this.column]) + (this.chinese ? "。" : ".")
+      ? this.fill(whole[this.column]) + (this.chinese ? "。" : ".")
       : this.chinese ? this.inChinese() : this.inEnglish();
     return { textContent, lang: LANGS[this.column] };
   }
@@ -76,22 +76,22 @@ class Refusal {
   inChinese() {
     const [, rule] = RULES[this.rule()] ?? [];
     if (!rule) return `服务的答复：${this.detail}`;
-    const why = this.why() ? `（${this.filled(REASONS[this.why()] ?? this.why())}）` : "";
-    return `${this.place()}${this.filled(rule)}${this.got ? `，${this.given()}` : ""}${why}。`;
+    const why = this.why() ? `（${this.fill(REASONS[this.why()] ?? this.why())}）` : "";
+    return `${this.place()}${this.fill(rule)}${this.got ? `，${this.value()}` : ""}${why}。`;
   }
 
   /** In English also what is not known here: in the words of the service. */
   inEnglish() {
     const rule = this.rule();
-    const ended = (words) => this.filled(words).replace(/([?.])?$/, (_, mark) => mark ?? ".");
+    const ended = (words) => this.fill(words).replace(/([?.])?$/, (_, mark) => mark ?? ".");
     if (!rule)
       return ended(this.template + (this.got ? `, got ${this.got.text}` : "") + (this.reason ? `: ${this.reason}` : ""));
-    const must = `${this.place()} must ${this.filled(RULES[rule]?.[0] ?? rule)}${this.got ? `; ${this.given()}` : ""}.`;
+    const must = `${this.place()} must ${this.fill(RULES[rule]?.[0] ?? rule)}${this.got ? `; ${this.value()}` : ""}.`;
     return this.why() ? `${must} ${capital(ended(this.why()))}` : must;
   }
 
   /** A number as the page shows it. */
-  shown({ text, value, unit }) {
+  quantity({ text, value, unit }) {
     if (unit === "m" && this.field?.centimetres) return `${Number((100 * value).toPrecision(12))} cm`;
     return this.chinese && CHINESE[unit] ? `${value}${CHINESE[unit]}` : text;
   }
@@ -114,15 +114,15 @@ class Refusal {
   }
 
   /** A text with its words replaced; {word+1}: one more than the value, {word~}: rounded to millimetres. */
-  filled(text) {
+  fill(text) {
     // Names of benches, such as body 3, need no noun before them.
     return text
       .replace(/\bbench(?:es)? (?=\{(?:bench|a|between)\})/g, "")
-      .replace(/\{([\w.]+)(\+1|~)?\}/g, (all, word, how) => this.worded(word, how) ?? all);
+      .replace(/\{([\w.]+)(\+1|~)?\}/g, (all, word, how) => this.substitute(word, how) ?? all);
   }
 
   /** What stands in the place of a word; undefined if nothing is known of it. */
-  worded(word, how) {
+  substitute(word, how) {
     const { field, unit } = this;
     if (word === "field") return this.place();
     if (word === "units") return UNITS[unit] ?? unit;
@@ -136,17 +136,17 @@ class Refusal {
     if (how) return how === "~" ? Number(value.value.toFixed(3)) : value.value + 1;
     if (BENCHES.includes(word)) return value.value ? this.say("body", { k: value.value }) : this.say("theHead");
     if (value.parameter) return this.label(value.parameter);
-    return value.unit ? this.shown(value) : (value.value ?? value.text);
+    return value.unit ? this.quantity(value) : (value.value ?? value.text);
   }
 
   /** What was given. */
-  given() {
+  value() {
     const { got, column } = this;
     if (got.text === "more") return ["it has more", "现已超出"][column];
     if (got.value === "" || (got.value === undefined && ["null", "None"].includes(got.text)))
       return ["it is empty", "现在为空"][column];
     if (typeof got.value === "string") return [`you typed “${got.value}”`, `现为“${got.value}”`][column];
     const verb = this.rule().startsWith("have") ? "has" : "is";
-    return [`it ${verb} ${this.shown(got)}`, `现为 ${this.shown(got)}`][column];
+    return [`it ${verb} ${this.quantity(got)}`, `现为 ${this.quantity(got)}`][column];
   }
 }

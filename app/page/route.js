@@ -7,11 +7,11 @@ import { say } from "./text.js";
 
 /** The number in a field; null if there is none. */
 function read(field) {
-  const found = numberIn(field.value);
-  return typeof found === "number" ? found : null;
+  const number = numberIn(field.value);
+  return typeof number === "number" ? number : null;
 }
 /** An element with a text, or a label, that follows the language. */
-const said = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
+const textElement = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
 const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
 /** Least and largest numbers of the fields, as the service takes them. */
 export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4] };
@@ -34,7 +34,7 @@ export class RouteForm {
   constructor(box, state, steps, editor, files) {
     Object.assign(this, { box, state, steps, editor });
     this.preset = labelled("select", "preset", { id: "preset", onchange: () => this.beginWith(this.preset.value) });
-    this.preset.append(said("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => said("option", `preset_${name}`, { value: name })));
+    this.preset.append(textElement("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => textElement("option", `preset_${name}`, { value: name })));
     this.corner = this.#number("cornerRadius", (radius) => this.#take({ radius }));
     this.limit = this.#number("speedLimit", (limit) => this.#take({ limit }));
     this.begin = this.#number("pathBegin", (begin) => this.#take({ begin }));
@@ -45,9 +45,9 @@ export class RouteForm {
     this.pointsTitle = make("summary");
     this.thingsTitle = make("summary");
     this.note = make("p", { className: "hint", id: "route-note", role: "status" });
-    const heads = ["knotNumber", "x", "y", "straightOn", "remove"].map((key) => (key.length === 1 ? make("th", { scope: "col", textContent: `${key} [m]` }) : said("th", key, { scope: "col" })));
+    const heads = ["knotNumber", "x", "y", "straightOn", "remove"].map((key) => (key.length === 1 ? make("th", { scope: "col", textContent: `${key} [m]` }) : textElement("th", key, { scope: "col" })));
     const table = make("table", {}, make("thead", {}, make("tr", {}, ...heads)), this.rows);
-    const field = (key, input, unit) => make("label", { className: "line" }, said("span", key), input, unitOf(unit));
+    const field = (key, input, unit) => make("label", { className: "line" }, textElement("span", key), input, unitOf(unit));
     box.append(
       make("p", { className: "buttons" }, this.preset, ...files.buttons()),
       this.note,
@@ -55,9 +55,9 @@ export class RouteForm {
       (this.cornerLine = field("cornerRadius", this.corner, "m")),
       field("pathBegin", this.begin, "m"),
       (this.later = make("p", { className: "hint", hidden: true }, make("span"), " ", make("button", { type: "button" }))),
-      make("p", { className: "line" }, said("span", "origin"), ...this.origin, unitOf("°")),
+      make("p", { className: "line" }, textElement("span", "origin"), ...this.origin, unitOf("°")),
       make("details", { id: "points" }, this.pointsTitle, table),
-      make("details", { id: "things", open: true }, this.thingsTitle, this.list, said("p", "thingsHelp", { className: "hint" })),
+      make("details", { id: "things", open: true }, this.thingsTitle, this.list, textElement("p", "thingsHelp", { className: "hint" })),
     );
   }
 
@@ -69,12 +69,12 @@ export class RouteForm {
   #number(key, act) {
     const [low, high] = LIMITS[key];
     const onchange = ({ target }) => {
-      const found = read(target);
-      const isRight = !target.value.trim() || (found !== null && low <= found && found <= high);
+      const number = read(target);
+      const isRight = !target.value.trim() || (number !== null && low <= number && number <= high);
       this.#mark(target, isRight ? null : () => say("noNumberIn", { what: say(key), low, high, text: target.value }));
       if (!isRight) return;
-      if (found === null && !OPTIONAL.includes(key)) target.value = target.kept;
-      else act(found);
+      if (number === null && !OPTIONAL.includes(key)) target.value = target.kept;
+      else act(number);
     };
     return labelled("input", key, { inputMode: "decimal", autocomplete: "off", spellcheck: false, onchange });
   }
@@ -97,7 +97,7 @@ export class RouteForm {
 
   /** Offer to begin at time 0 if the dance begins later, because the dragon does not yet fit on the path. dance: as judged, or null */
   offer(dance) {
-    this.later.hidden = !(dance?.begin > 0) || dance.said.passages.length > 0;
+    this.later.hidden = !(dance?.begin > 0) || dance.extras.passages.length > 0;
     if (this.later.hidden) return;
     const { begin, numbers } = dance;
     const [words, button] = this.later.children;

@@ -15,10 +15,10 @@ const DRAWN_BENCHES = "24";
 const ADDRESS_MOST = 8_000;
 
 /** Parts of a dance in addition to its numbers, as text: a table of benches, passages, the time of day at time 0. */
-export const SAID = ["csv", "passages", "start_clock"];
-const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...SAID.map((name) => [name, ""])]);
+export const EXTRAS = ["csv", "passages", "start_clock"];
+const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
-const isBare = (given) => [...given.keys()].every((name) => name === "lang");
+const isBare = (address) => [...address.keys()].every((name) => name === "lang");
 /** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
 const DEFAULTS = { ...NUMBERS, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
 
@@ -57,15 +57,15 @@ export class State {
 
   /** Take over all values of the address; a drawing too long for it is kept beside the address. */
   #read() {
-    const given = new URLSearchParams(location.search);
-    const found = { ...DEFAULTS };
-    for (const [name, text] of given) if (name in DEFAULTS) found[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
-    if (history.state?.csv) found.csv = history.state.csv;
-    found.drawing = history.state?.drawing ?? (PARTS.some((name) => given.has(name)) ? fromAddress(given) : EMPTY);
-    this.#values = found;
-    for (const name of ["pitch", "benches"]) if (!given.has(name)) found[name] = this.initial(name);
-    this.opensInMotion = isBare(given);
-    if (this.opensInMotion) found.time = 0;
+    const address = new URLSearchParams(location.search);
+    const values = { ...DEFAULTS };
+    for (const [name, text] of address) if (name in DEFAULTS) values[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
+    if (history.state?.csv) values.csv = history.state.csv;
+    values.drawing = history.state?.drawing ?? (PARTS.some((name) => address.has(name)) ? fromAddress(address) : EMPTY);
+    this.#values = values;
+    for (const name of ["pitch", "benches"]) if (!address.has(name)) values[name] = this.initial(name);
+    this.opensInMotion = isBare(address);
+    if (this.opensInMotion) values.time = 0;
   }
 
   get(name) {
@@ -84,7 +84,7 @@ export class State {
   }
 
   /** Parts in addition to the numbers: the table of benches and its benches, passages, the time of day at time 0. */
-  said() {
+  extras() {
     const { csv, passages, start_clock } = this.#values;
     return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), clock: start_clock };
   }

@@ -96,8 +96,8 @@ export class SweepForm {
     this.error.textContent = first === second ? say("sweepTwice") : "";
     if (this.error.textContent) return;
     await this.start(this.spec()).catch((error) => {
-      if (!error.told) throw error;
-      Object.assign(this.error, refusalWords(error.told));
+      if (!error.problem) throw error;
+      Object.assign(this.error, refusalWords(error.problem));
     });
   }
 }

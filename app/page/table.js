@@ -71,13 +71,13 @@ export class Table {
       this.body.replaceChildren(spacer(first), ...this.#rows, spacer(x.length - last));
       this.table.setAttribute("aria-rowcount", x.length + 1);
     }
-    for (const [row, shown] of this.#rows.entries()) {
+    for (const [row, line] of this.#rows.entries()) {
       const k = first + row;
       const numbers = [x[k], y[k], speed[k]].map((one) => one.toFixed(DECIMALS).replace(/^-(0\.0+)$/, "$1"));
       const texts = [`${k} · ${handleName(k, x.length - 1)}`, ...numbers];
-      texts.forEach((text, cell) => (shown.cells[cell].textContent = text));
-      shown.cells[0].title = texts[0];
-      shown.className = k === this.#handle ? "chosen" : "";
+      texts.forEach((text, cell) => (line.cells[cell].textContent = text));
+      line.cells[0].title = texts[0];
+      line.className = k === this.#handle ? "chosen" : "";
     }
   }
 }

@@ -33,24 +33,24 @@ export function say(key, values = {}) {
 
 /**
  * The text of this key for a question: with a margin benches in contact may be apart, and with a stray they only may
- * touch. {touch} and {meet} in a text are the words for a contact. asked: {margin, stray, hole, pin}, [m]
+ * touch. {touch} and {meet} in a text are the words for a contact. request: {margin, stray, hole, pin}, [m]
  */
-export function sayOf(key, asked, values = {}) {
-  const [near, strays] = [Number(asked.margin) > 0, strayOf(asked) > 0];
+export function sayOf(key, request, values = {}) {
+  const [near, strays] = [Number(request.margin) > 0, strayOf(request) > 0];
   const form = (name) => [strays && `${name}Stray`, near && `${name}Near`].find((one) => one in WORDS) ?? name;
-  const { margin } = asked;
+  const { margin } = request;
   const touch = say(near ? "touchNear" : "touch", { margin });
   return say(form(key), { margin, touch, meet: say(form("meet"), { margin, touch }), ...values });
 }
 
 /** A title with the stray of the answer. */
-export function titleOf(key, asked) {
-  const [title, stray] = [sayOf(key, asked), strayOf(asked)];
-  return stray > 0 ? say(asked.hole > 0 ? "withinPlay" : "within", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
+export function titleOf(key, request) {
+  const [title, stray] = [sayOf(key, request), strayOf(request)];
+  return stray > 0 ? say(request.hole > 0 ? "withinPlay" : "within", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
 }
 
-/** A refusal of the service in the language of the page: the properties of an element. told: a problem or one of its errors */
-export const refusalWords = (told) => refusalIn(told.errors?.[0] ?? told, column === 1, say);
+/** A refusal of the service in the language of the page: the properties of an element. problem: a problem or one of its errors */
+export const refusalWords = (problem) => refusalIn(problem.errors?.[0] ?? problem, column === 1, say);
 
 /** The proof of an answer in the language of the page: the service's own sentences, or its claim in Chinese. */
 export const proofWords = ({ method, claim }) => (column ? claimInChinese(claim) : method);

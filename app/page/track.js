@@ -76,7 +76,7 @@ export class Track {
       if (!this.stopped) this.ready();
     } catch (error) {
       // The service refuses, or the dance has changed; at rest the dance is drawn without samples.
-      if (error instanceof Problem) this.refusal = error.told;
+      if (error instanceof Problem) this.refusal = error.problem;
       else this.stopped = true;
     } finally {
       this.#loading.delete(k);

@@ -64,17 +64,17 @@ function labelled({ kind, points }) {
 /** The layers of a drawn dance. get(): {drawing, selected, failure, course, benches}, or null in another kind of dance */
 export function layers(dance, get) {
   const below = (pen, colours) => {
-    const shown = get();
-    if (!shown) return;
-    const { things } = shown.drawing;
+    const drawn = get();
+    if (!drawn) return;
+    const { things } = drawn.drawing;
     const order = [...things.keys()].sort((a, b) => (things[b].kind === "area") - (things[a].kind === "area"));
     for (const k of order) if (isWhole(things[k])) drawThing(pen, colours, things[k]);
-    for (const bend of shown.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
+    for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
   const above = (pen, colours) => {
-    const shown = get();
-    if (!shown) return;
-    const { drawing, selected, failure } = shown;
+    const drawn = get();
+    if (!drawn) return;
+    const { drawing, selected, failure } = drawn;
     const names = [];
     for (const [k, thing] of drawing.things.entries()) {
       if (!thing.points.length) continue;
@@ -82,7 +82,7 @@ export function layers(dance, get) {
       label(pen, dance.view, thing.name, labelled(thing), colour, colours, names);
       if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
     }
-    for (const { points, ...bend } of shown.course?.bends ?? []) {
+    for (const { points, ...bend } of drawn.course?.bends ?? []) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);
       label(pen, dance.view, say("tightHere", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);

@@ -40,8 +40,8 @@ export class Dial {
   show(label = this.element.getAttribute("aria-label")) {
     const { min, max } = this.plan;
     const words = this.words();
-    const said = { label, valuemin: min, valuemax: max, valuenow: this.value, valuetext: words };
-    for (const [name, value] of Object.entries(said)) this.element.setAttribute(`aria-${name}`, value);
+    const attributes = { label, valuemin: min, valuemax: max, valuenow: this.value, valuetext: words };
+    for (const [name, value] of Object.entries(attributes)) this.element.setAttribute(`aria-${name}`, value);
     this.element.textContent = words;
   }
 

@@ -85,7 +85,7 @@ export class Figure {
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
-      this.#refused = error.told;
+      this.#refused = error.problem;
     }
     this.figure.setAttribute("aria-busy", "false");
     this.draw();

@@ -47,8 +47,8 @@ for (const button of $$("[data-lang]")) {
 }
 onClick("#lost button", () => service.retry());
 
-const given = address.searchParams.get("lang");
-translate(["en", "zh"].includes(given) ? given : undefined);
+const language = address.searchParams.get("lang");
+translate(["en", "zh"].includes(language) ? language : undefined);
 // The sections get their texts only now, so the browser could not scroll to the section in the address.
 const named = figures.find(({ section }) => `#${section.id}` === location.hash);
 named?.section.scrollIntoView();

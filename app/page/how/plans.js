@@ -150,7 +150,7 @@ const step = {
     const key = outcome === "clear" ? `step_${Math.min(steps, 2)}` : "step_contact";
     return {
       bound: `${bound.toFixed(2)} m/s²`,
-      said: word(key, { steps, time: time?.toFixed(6) }),
+      verdict: word(key, { steps, time: time?.toFixed(6) }),
       all: String(whole.certificate.steps),
       contact: `${whole.time.toFixed(6)} ${word("second")}`,
     };
@@ -240,7 +240,7 @@ const stray = {
     const inside = stray / CM <= low;
     const key = inside ? "stray_safe" : first ? "stray_may" : "stray_between";
     const [least, most] = [(Math.floor(CM * CM * low) / CM).toFixed(2), (Math.ceil(CM * CM * high) / CM).toFixed(2)];
-    return { low: `${least} ${word("centimetre")}`, high: `${most} ${word("centimetre")}`, said: word(key, { time: first?.time.toFixed(6) }) };
+    return { low: `${least} ${word("centimetre")}`, high: `${most} ${word("centimetre")}`, verdict: word(key, { time: first?.time.toFixed(6) }) };
   },
 };
 

@@ -154,7 +154,7 @@ export const ANSWERS = {
   unanswered: ["No answer", "没有结果"],
   quoted: ["“{name}”", "“{name}”"],
   mend: ["An answer appears as soon as {names} is right.", "改正{names}后即有结果。"],
-  told: ["See the reason above.", "原因见上。"],
+  seeAbove: ["See the reason above.", "原因见上。"],
   useEntry: ["Dance this turn", "按此调头"],
   danceSpiral: ["Dance the spiral of this pitch", "按此螺距盘入"],
   quickestTurn: ["Quickest turn", "最快调头"],

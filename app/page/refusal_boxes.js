@@ -8,15 +8,15 @@ import { refusalWords } from "./text.js";
 const TITLES = { contact: "firstContact", minimum: "minimumPitch", tolerance: "tolerance", shortest: "shortestTurn", quickest: "quickestTurn", time: "turnTime", head: "headSpeed", fastest: "highest" };
 
 /** boxOf(kind): selector of the box of this kind of answer */
-export function tellRefusals(questions, graphs, boxOf) {
+export function showRefusals(questions, graphs, boxOf) {
   // Each message appears once: beside its field, or in the first box that it concerns.
-  const wordsOf = (told) => refusalWords(told).textContent;
+  const wordsOf = (problem) => refusalWords(problem).textContent;
   const shown = new Set([...questions.errors().values()].map(wordsOf));
   const inOrder = [...Object.keys(TITLES), ...questions.refusals.keys()].filter((kind, k, all) => questions.refusals.has(kind) && all.indexOf(kind) === k);
   for (const kind of inOrder) {
-    const { told, errors } = questions.refusals.get(kind);
-    const words = [told, ...errors].map(wordsOf);
-    const first = words.some((one) => shown.has(one)) ? null : told;
+    const { problem, errors } = questions.refusals.get(kind);
+    const words = [problem, ...errors].map(wordsOf);
+    const first = words.some((one) => shown.has(one)) ? null : problem;
     for (const one of words) shown.add(one);
     if (kind in TITLES) showRefusal($(boxOf(kind)), TITLES[kind], first, questions.fieldsOf(kind));
     graphs.refuse(kind, first);
