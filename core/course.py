@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.display import WithArrays, display, format_count
 from core.dragon import Dragon
 from core.errors import checked_type
 from core.paths.following import tightest_bend
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.shown import WithArrays, counted, worded
 from core.values import Floats
 
 # Distance between drawn points [m], and their largest number: a path longer than 750 m is drawn more coarsely.
@@ -38,7 +38,7 @@ class TightBend(WithArrays):
     _units = {"end": "m", "least_radius": "m", "start": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def _line(self) -> str:
-        return f"radius {worded(self.radius, 'm')} from s = {worded(self.start)} to {worded(self.end, 'm')}"
+        return f"radius {display(self.radius, 'm')} from s = {display(self.start)} to {display(self.end, 'm')}"
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -57,7 +57,7 @@ class Course(WithArrays):
     _units = {"knots": "m", "length": "m", "s": "m"}  # noqa: RUF012 - as above
 
     def _line(self) -> str:
-        return f"{worded(self.length, 'm')}, {counted(len(self.bends), 'bend')} too tight"
+        return f"{display(self.length, 'm')}, {format_count(len(self.bends), 'bend')} too tight"
 
 
 def course(path: Spiral | Route, dragon: Dragon) -> Course:

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core import kernels
+from core.display import Readable
 from core.dragon import Dragon
 from core.errors import (
     Given,
@@ -28,14 +29,13 @@ from core.errors import (
     bound,
     checked_number,
     checked_type,
-    filled,
+    fill_template,
     quantities,
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Passage, Period, checked_passages, nodes
 from core.paths.following import earliest_travel, refuse_tight_bends
 from core.paths.route import Route
 from core.paths.spiral import Spiral, end_theta
-from core.shown import Readable
 from core.values import Floats
 
 # Length of the default table of whole seconds, as in the contest [s].
@@ -70,7 +70,7 @@ class RunEnd(Readable):
     @property
     def why(self) -> str:
         """The reason as a clause."""
-        return filled(self.template, self.told)
+        return fill_template(self.template, self.told)
 
     @property
     def template(self) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from core.display import REPR_MOST, TABLE_DIGITS, Readable, display, format_range
 from core.errors import (
     SIZE_MAX,
     SIZE_MIN,
@@ -24,7 +25,6 @@ from core.errors import (
     quantities,
 )
 from core.names import checked_name
-from core.shown import REPR_MOST, TABLE_DIGITS, Readable, extent, worded
 from core.values import Floats
 
 BENCHES_MAX = 10_000_000
@@ -59,7 +59,7 @@ def _no_chord(field: str, of: str, length: float, overhang: float) -> InvalidVal
     return InvalidValue(field, rule, got=Quantity(float(overhang), "m"), length=Parameter(of), **told)
 
 
-def told_chords(dragon: Dragon) -> dict[str, Value]:
+def chord_values(dragon: Dragon) -> dict[str, Value]:
     """The number of chords and the range of their lengths, for messages."""
     ends = quantities("m", 6, shortest=dragon.chords.min(), longest=dragon.chords.max())
     return {"benches": dragon.benches, **ends}
@@ -190,10 +190,10 @@ class Dragon(Readable):
         return listed if len(listed) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
-        return f"{self.benches} benches, {extent(self.lengths, 'm')} long, {extent(self.widths, 'm')} wide"
+        return f"{self.benches} benches, {format_range(self.lengths, 'm')} long, {format_range(self.widths, 'm')} wide"
 
     def _rows(self) -> list[tuple[str, str]]:
-        rows = [(name, extent(getattr(self, name), "m", TABLE_DIGITS)) for name in (*COLUMNS, "chords")]
+        rows = [(name, format_range(getattr(self, name), "m", TABLE_DIGITS)) for name in (*COLUMNS, "chords")]
         return [("benches", str(self.benches)), *rows]
 
     def __eq__(self, other: object) -> bool:
@@ -232,7 +232,7 @@ class Stray(Readable):
         return round(self.people + 0.5 * (self.hole - self.pin), DECIMALS) if self.hole > self.pin else self.people
 
     def _line(self) -> str:
-        return f"{worded(self.total, 'm')} in all"
+        return f"{display(self.total, 'm')} in all"
 
 
 def wider_pin(field: str, hole: str, of: Any) -> InvalidValue:

@@ -44,7 +44,7 @@ WORD = re.compile(r"\{(\w+)\}")
 class Quantity(NamedTuple):
     """A number with its unit in a message.
 
-    digits: significant ones in the message; by default all of them; shown: the whole text there, in place of both
+    digits: significant ones in the message; by default all of them; text: the whole text there, in place of both
 
     >>> str(Quantity(12.5, "s")), str(Quantity(1 / 3, "m", 4)), str(Quantity(3.0, ""))
     ('12.5 s', '0.3333 m', '3')
@@ -53,11 +53,11 @@ class Quantity(NamedTuple):
     value: float
     unit: str
     digits: int = 17
-    shown: str = ""
+    text: str = ""
 
     def __str__(self) -> str:
-        number = said(self.value) if self.digits == 17 else f"{self.value:.{self.digits}g}"
-        return self.shown or f"{number} {self.unit}".rstrip()
+        number = format_number(self.value) if self.digits == 17 else f"{self.value:.{self.digits}g}"
+        return self.text or f"{number} {self.unit}".rstrip()
 
 
 class Parameter(NamedTuple):
@@ -66,22 +66,22 @@ class Parameter(NamedTuple):
     name: str
 
     def __str__(self) -> str:
-        return spoken(self.name)
+        return format_field(self.name)
 
 
 class Given(NamedTuple):
-    """What a caller gave, in a message. shown: its form there; by default the first 60 characters of its repr()"""
+    """What a caller gave, in a message. text: its form there; by default the first 60 characters of its repr()"""
 
     value: object
-    shown: str = ""
+    text: str = ""
 
     def __str__(self) -> str:
-        return self.shown or f"{self.value!r:.60}"
+        return self.text or f"{self.value!r:.60}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         # What a caller gave may be anything, also what no other process can have.
-        plain = self.value is None or isinstance(self.value, (str, int, float))
-        return Given, (self.value, self.shown) if plain else (None, str(self))
+        can_be_sent = self.value is None or isinstance(self.value, (str, int, float))
+        return Given, (self.value, self.text) if can_be_sent else (None, str(self))
 
 
 # What may stand in a template. A number or a text stands there as it is.
@@ -93,29 +93,29 @@ def quantities(unit: str, digits: int = 17, /, **numbers: float) -> dict[str, Va
     return {word: Quantity(float(number), unit, digits) for word, number in numbers.items()}
 
 
-def filled(template: str, values: Mapping[str, Value]) -> str:
+def fill_template(template: str, values: Mapping[str, Value]) -> str:
     """A template with the values in the places of their words; other words stay."""
-    return WORD.sub(lambda word: told_as(values[word[1]]) if word[1] in values else word[0], template)
+    return WORD.sub(lambda word: format_value(values[word[1]]) if word[1] in values else word[0], template)
 
 
-def told_as(value: Value) -> str:
+def format_value(value: Value) -> str:
     """A value as it stands in a sentence."""
-    return said(value) if isinstance(value, float) else str(value)
+    return format_number(value) if isinstance(value, float) else str(value)
 
 
-def said(number: float) -> str:
+def format_number(number: float) -> str:
     """A number for sentences: all its digits, no trailing point, and no sign before zero.
 
-    >>> said(0.1 + 0.2), said(9.0), said(-0.0)
+    >>> format_number(0.1 + 0.2), format_number(9.0), format_number(-0.0)
     ('0.30000000000000004', '9', '0')
     """
     return repr(float(number) + 0.0).removesuffix(".0")
 
 
-def said_bound(number: float, decimals: int, *, up: bool = False) -> str:
+def format_bound(number: float, decimals: int, *, up: bool = False) -> str:
     """A bound with some decimals, rounded to the side on which it stays true: a lower bound down, an upper one up.
 
-    >>> said_bound(432.9179242286, 9), said_bound(16.0000001, 6, up=True)
+    >>> format_bound(432.9179242286, 9), format_bound(16.0000001, 6, up=True)
     ('432.917924228', '16.000001')
     """
     text, side = f"{number:.{decimals}f}", 1 if up else -1
@@ -123,19 +123,19 @@ def said_bound(number: float, decimals: int, *, up: bool = False) -> str:
 
 
 def bound(number: float, decimals: int, unit: str, *, up: bool = False) -> Quantity:
-    """A bound in a message, rounded as said_bound() does."""
-    text = said_bound(number, decimals, up=up)
-    return Quantity(float(text), unit, shown=f"{text} {unit}")
+    """A bound in a message, rounded as format_bound() does."""
+    text = format_bound(number, decimals, up=up)
+    return Quantity(float(text), unit, text=f"{text} {unit}")
 
 
-def spoken(field: str) -> str:
+def format_field(field: str) -> str:
     """A dotted field as messages write it: path.pieces[0] for path.pieces.0."""
     return re.sub(r"\.(\d+)", r"[\1]", field)
 
 
 def from_to(unit: str, low: float, high: float) -> dict[str, Value]:
     """Values of "from {least} to {most}", with the unit in the message only once."""
-    return {"least": Quantity(low, unit, shown=f"{low:g}"), "most": Quantity(high, unit, 6)}
+    return {"least": Quantity(low, unit, text=f"{low:g}"), "most": Quantity(high, unit, 6)}
 
 
 class BenchDragonError(Exception):
@@ -160,13 +160,14 @@ class BenchDragonError(Exception):
     def __init__(self, field: str, rule: str, /, *, got: Value | None = None, **values: Value) -> None:
         """rule: the rest of the template after the field; what follows a colon is the reason"""
         rule, _, reason = rule.partition(": ")
-        self._tell(field, f"{{field}} {rule}", reason, got, {"field": Parameter(field), **values})
+        self._compose(field, f"{{field}} {rule}", reason, got, {"field": Parameter(field), **values})
 
-    def _tell(self, field: str, template: str, reason: str, got: Value | None, values: Mapping[str, Value]) -> None:
+    def _compose(self, field: str, template: str, reason: str, got: Value | None, values: Mapping[str, Value]) -> None:
         self.field, self.template, self.reason, self.got = field, template, reason, got
         self.values = {word: values[word] for word in WORD.findall(f"{template} {reason}") if word in values}
-        given = "" if got is None else f", got {told_as(got)}"
-        self.message = filled(template, values) + given + (f": {filled(reason, values)}" if reason else "")
+        got_text = "" if got is None else f", got {format_value(got)}"
+        reason_text = f": {fill_template(reason, values)}" if reason else ""
+        self.message = fill_template(template, values) + got_text + reason_text
         self.args = (self.message,)
 
     @classmethod
@@ -175,7 +176,7 @@ class BenchDragonError(Exception):
     ) -> Self:
         """The error with this template, which need not begin with the field."""
         error = cls.__new__(cls)
-        error._tell(field, template, str(reason), got, values)
+        error._compose(field, template, str(reason), got, values)
         return error
 
     def named(self, field: str, got: Value | None = None) -> Self:
@@ -186,20 +187,20 @@ class BenchDragonError(Exception):
         """
         error = copy(self)
         values = {**self.values, "field": Parameter(field)} if "field" in self.values else self.values
-        error._tell(field, self.template, self.reason, self.got if got is None else got, values)
+        error._compose(field, self.template, self.reason, self.got if got is None else got, values)
         return error
 
     def renamed(self, name_of: Callable[[str], str], **values: Value) -> Self:
         """The same error with other names for all its parameters, and other values in the place of these."""
         error = copy(self)
         names = {word: Parameter(name_of(one.name)) for word, one in self.values.items() if isinstance(one, Parameter)}
-        error._tell(name_of(self.field), self.template, self.reason, self.got, {**self.values, **names, **values})
+        error._compose(name_of(self.field), self.template, self.reason, self.got, {**self.values, **names, **values})
         return error
 
     def because(self, reason: str) -> Self:
         """The same error with another reason."""
         error = copy(self)
-        error._tell(self.field, self.template, reason, self.got, self.values)
+        error._compose(self.field, self.template, reason, self.got, self.values)
         return error
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -279,40 +280,41 @@ def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> No
     if not isinstance(value, kinds):
         some = (*(kinds if isinstance(kinds, tuple) else (kinds,)), type(value))
         *words, own = (f"{'an' if one.__name__[0] in 'AEIOU' else 'a'} {one.__name__}" for one in some)
-        plain = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
-        given = f"the class {value.__name__}" if isinstance(value, type) else Given(value) if plain else own
-        raise InvalidValue(name, "must be {kinds}", got=given, kinds=" or ".join(words))
+        as_is = value is None or isinstance(value, (str, bytes, Real, list, tuple, dict))
+        got = f"the class {value.__name__}" if isinstance(value, type) else Given(value) if as_is else own
+        raise InvalidValue(name, "must be {kinds}", got=got, kinds=" or ".join(words))
 
 
-def asked_of(name: str, kind: type, found: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
+def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Decorator of a question: the first argument must be of this kind, and the end of the budget raises TooMuchWork.
 
-    found: clause on the missing answer, which {then} completes; without it the question itself raises TooMuchWork
+    missing: which answer is missing then, as a clause of the message: "the first contact was not decided"; if empty,
+        the question itself raises TooMuchWork
     The type is checked before Python checks the number of arguments. Otherwise a call as in 0.1.0, with a dragon and a
     spiral, would get Python's message on that number, which does not say that the first one must be a dance.
     """
 
     def checking(question: Callable[P, R]) -> Callable[P, R]:
         @wraps(question)
-        def asked(*args: P.args, **kwargs: P.kwargs) -> R:
+        def answer(*args: P.args, **kwargs: P.kwargs) -> R:
             if args or name in kwargs:
                 checked_type(name, args[0] if args else kwargs[name], kind)
             if (budget := cast("Budget | None", kwargs.get("budget"))) is not None:
                 checked_type("budget", budget, Budget)
             try:
                 return question(*args, **kwargs)
-            except (Halted, TooMuchWork) as ended:  # the latter of a part of the question, which others stopped
+            except (Halted, TooMuchWork) as ended:  # TooMuchWork comes from a part of the question
                 spent = ended.budget if isinstance(ended, Halted) else budget if ended.stopped else None
-                if not found or spent is None:
+                if not missing or spent is None:
                     raise
-            given = signature(question).bind(*args, **kwargs).arguments
-            dance = given.get("dance") or getattr(given.get("contact"), "dance", None)
-            if dragon := given.get("dragon") or (dance and dance.dragon):
+            arguments = signature(question).bind(*args, **kwargs).arguments
+            dance = arguments.get("dance") or getattr(arguments.get("contact"), "dance", None)
+            if dragon := arguments.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
-                raise too_much(spent, "dragon.benches", f"{rule}: {found} {{then}}", dragon.benches)
-            raise too_much(spent, "benches", f"must be fewer: {found} {{then}}", len(given["poses"]))
+                raise too_much(spent, "dragon.benches", f"{rule}: {missing} {{then}}", dragon.benches)
+            raise too_much(spent, "benches", f"must be fewer: {missing} {{then}}", len(arguments["poses"]))
 
-        return asked
+        return answer
 
     return checking
 
@@ -337,7 +339,7 @@ def checked_angle(name: str, value: Any) -> float:
     return checked_number(name, value, "rad", -ANGLE_MAX, ANGLE_MAX)
 
 
-def listed(name: str, value: Any, what: str) -> list[Any]:
+def checked_list(name: str, value: Any, what: str) -> list[Any]:
     """The entries of a value that is a sequence and not a text.
 
     raises: InvalidValue naming the field and what it must be

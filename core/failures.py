@@ -9,11 +9,11 @@ from core.contact.answer import FirstContact, Outcome
 from core.contact.clearance import LeastClearance
 from core.contact.walls import AreaClearance, VenueClearance
 from core.dance import RunEnd
+from core.display import Readable
 from core.dragon import Dragon
-from core.errors import said, said_bound
+from core.errors import format_bound, format_number
 from core.extremes.speed import SPEED_PROVEN, SPEED_ROUNDING, FirstExcess, HighestSpeed
 from core.paths.path import HeadState
-from core.shown import Readable
 
 # Widest bracket of a first excess over a speed limit [s]; of a wider one the message says "at the latest".
 EXCESS_KNOWN = 1e-6
@@ -93,15 +93,15 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
 
 def _at_the_latest(meet: str, bracket: tuple[float, float]) -> str:
     """The sentence of a contact that is certain at the end of a bracket [s], but may be earlier."""
-    return f"{meet} at {bracket[1]:.6f} s at the latest; up to {said_bound(bracket[0], 6)} s none do."
+    return f"{meet} at {bracket[1]:.6f} s at the latest; up to {format_bound(bracket[0], 6)} s none do."
 
 
 def _meeting(margin: float, come: str, near: str, stray: float = 0.0) -> str:
     """Words for an approach within the margin. come: the verb; near: the other object, if not another bench"""
     if stray:
-        return f"may {_meeting(margin, 'come', near)} with strays up to {said(stray)} m"
+        return f"may {_meeting(margin, 'come', near)} with strays up to {format_number(stray)} m"
     if margin > 0.0:
-        return f"{come} within {said(margin)} m{near and ' of '}{near}"
+        return f"{come} within {format_number(margin)} m{near and ' of '}{near}"
     return f"{'touches' if come == 'comes' else 'touch'}{near and ' '}{near}"
 
 
@@ -157,9 +157,10 @@ def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float,
     time, handle = excess.time, excess.handle
     if time is None and speed is not None and speed.speed > limit * (1.0 + SPEED_ROUNDING):
         time, handle = speed.time, speed.handles[0]
-    kept = f"{said(limit)} m/s is proven to be kept up to {said_bound(proven, 6)} s"
+    kept = f"{format_number(limit)} m/s is proven to be kept up to {format_bound(proven, 6)} s"
     if time is None and speed is not None:
-        message = f"Whether a handle exceeds {said(limit)} m/s is not decided; {kept}, and no higher speed was found."
+        undecided = f"Whether a handle exceeds {format_number(limit)} m/s is not decided"
+        message = f"{undecided}; {kept}, and no higher speed was found."
         return Failure(FailureKind.UNDECIDED, proven, (), None, message, (proven, latest))
     peak = f"towards {end.time:.6f} s, when bench {end.bench} folds, speeds grow without bound"
     if speed is not None:
@@ -167,11 +168,11 @@ def speed_failure(excess: FirstExcess, speed: HighestSpeed | None, limit: float,
     highest = (speed.speed, speed.time) if speed is not None else (None, end.time)
     handles = () if time is None or handle is None else (handle,)
     if time is None or handle is None:
-        time, message = end.time, f"A handle exceeds {said(limit)} m/s: {peak}; {kept}."
+        time, message = end.time, f"A handle exceeds {format_number(limit)} m/s: {peak}; {kept}."
     elif time - proven > EXCESS_KNOWN:
-        message = f"Handle {handle} exceeds {said(limit)} m/s at {time:.6f} s at the latest ({kept}); {peak}."
+        message = f"Handle {handle} exceeds {format_number(limit)} m/s at {time:.6f} s at the latest ({kept}); {peak}."
     else:
-        message = f"Handle {handle} first exceeds {said(limit)} m/s at {time:.6f} s; {peak}."
+        message = f"Handle {handle} first exceeds {format_number(limit)} m/s at {time:.6f} s; {peak}."
     return Failure(FailureKind.SPEED, time, handles, None, message, (proven, time), None, *highest)
 
 

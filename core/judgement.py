@@ -10,8 +10,9 @@ from core.contact.clearance import LeastClearance, least_clearance
 from core.contact.first_contact import first_contact
 from core.contact.walls import VenueClearance, venue_clearance
 from core.dance import Dance, EndReason
+from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import asked_of, checked_number, checked_type
+from core.errors import checked_number, checked_type, question_about
 from core.extremes.joints import SharpestBend, sharpest_bend
 from core.extremes.speed import HighestSpeed, checked_limit, first_excess, highest_speed
 from core.failures import (
@@ -26,7 +27,6 @@ from core.failures import (
 )
 from core.kernels import Budget
 from core.passages import TIME_MAX
-from core.shown import Readable, worded
 from core.venue import Venue
 
 # Length of the judged interval if benches already touch at the start [s].
@@ -67,12 +67,12 @@ class Report(Readable):
     sharpest_bend: SharpestBend | None
 
     def _line(self) -> str:
-        span = f"{self.verdict.value}, judged from {worded(self.start)} to {worded(self.stop, 's')}"
+        span = f"{self.verdict.value}, judged from {display(self.start)} to {display(self.stop, 's')}"
         more = f" And {len(self.failures) - 1} more." if len(self.failures) > 1 else ""
         return f"{span}: {self.failures[0].message}{more}" if self.failures else span
 
 
-@asked_of("dance", Dance)
+@question_about("dance", Dance)
 def check(
     dance: Dance,
     *,
@@ -96,7 +96,7 @@ def check(
     return _judged(dance, venue, margin, stray, speed_limit, (start, stop), budget, details=True)
 
 
-@asked_of("dance", Dance)
+@question_about("dance", Dance)
 def quick_check(
     dance: Dance,
     *,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from typing import NamedTuple
 
+from core.display import Readable
 from core.errors import Given, InvalidValue, Parameter, Quantity, checked_number
-from core.shown import Readable
 
 HEAD_SPEED_MIN = 1e-6  # [m/s]
 HEAD_SPEED_MAX = 1e4  # [m/s]

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from core.display import UNITS
 from core.extras import wanted
-from core.shown import UNITS
 
 if TYPE_CHECKING:
     import pandas

@@ -9,10 +9,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from core.errors import Given, InvalidValue, Value, checked_point, checked_type, listed
+from core.display import Readable, format_range
+from core.errors import Given, InvalidValue, Value, checked_list, checked_point, checked_type
 from core.names import checked_name
 from core.shapes.engines import polygon_fault
-from core.shown import Readable, extent
 from core.values import Floats, Point
 
 Ring = tuple[Point, ...]
@@ -53,7 +53,9 @@ class Area(Readable):
 
     def __post_init__(self) -> None:
         checked_name("venue", self.name, "venue: the name of a polygon")
-        rings = [listed(f"venue.{k}", ring, WORDS) for k, ring in enumerate(listed("venue", self.rings, WORDS))]
+        rings = [
+            checked_list(f"venue.{k}", ring, WORDS) for k, ring in enumerate(checked_list("venue", self.rings, WORDS))
+        ]
         if not rings:
             raise self._refused("venue: {polygon} must have at least one ring")
         refuse_many_edges(rings)
@@ -75,7 +77,7 @@ class Area(Readable):
     def _line(self) -> str:
         x, y = np.array(self.rings[0]).T
         points = sum(map(len, self.rings)) - len(self.rings)
-        where = f"x {extent(x, 'm')}, y {extent(y, 'm')}"
+        where = f"x {format_range(x, 'm')}, y {format_range(y, 'm')}"
         return f"{self.name!r}, {points} points, {where}"
 
     @cached_property
@@ -98,7 +100,7 @@ class Venue(Readable):
 
     def __post_init__(self) -> None:
         checked_type("venue", self.square, Area)
-        for area in listed("venue", self.obstacles, "a list of areas"):
+        for area in checked_list("venue", self.obstacles, "a list of areas"):
             checked_type("venue", area, Area)
         refuse_many_edges(ring for area in self.areas for ring in area.rings)
         names = [area.name for area in self.areas]

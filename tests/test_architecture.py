@@ -22,7 +22,7 @@ ROOT = Path(__file__).parent.parent
 # A word is a room with all its modules, or a module that stands alone.
 ROOMS = """
 core.kernels
-core.values core.error_free core.errors core.names core.extras core.shown core.tables core.sampling
+core.values core.error_free core.errors core.names core.extras core.display core.tables core.sampling
 core.passages core.dragon
 core.paths
 core.dance core.course core.plots

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import pytest
 from matplotlib.axes import Axes
 
-from core.shown import Readable
+from core.display import Readable
 
 TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
 NOTEBOOK = jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")

@@ -27,7 +27,7 @@ from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import FailureKind, InvalidValue, Judgement
-from core.errors import said, said_bound
+from core.errors import format_bound, format_number
 
 
 def check(
@@ -120,9 +120,9 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
     """Rows of quantity, value, time and benches."""
     contact = report.first_contact
     pair = f"benches {show.shown(contact.benches)}" if contact.benches else ""
-    what = f"first within {said(margin)} m" if margin else "first contact"
+    what = f"first within {format_number(margin)} m" if margin else "first contact"
     if contact.stray:
-        what += f" with strays up to {said(contact.stray)} m"
+        what += f" with strays up to {format_number(contact.stray)} m"
     yield what, show.near(contact.outcome.value, margin), contact.time, pair
     if check := contact.cross_check:
         engines = f"engines {'agree' if check.agree else 'DISAGREE'}"
@@ -144,5 +144,5 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
 
 def _distance(found: LeastClearance | Nearest) -> str:
     least = found.at_least
-    proven = "not proven" if least is None else f"proven: at least {said_bound(least, show.SHOWN_DECIMALS)} m"
+    proven = "not proven" if least is None else f"proven: at least {format_bound(least, show.SHOWN_DECIMALS)} m"
     return f"{found.distance:.6f} m, {proven}"

@@ -12,7 +12,7 @@ from app.questions import collision_time as collisions
 from app.questions.clearance import ClearanceQuery, ClearanceRequest
 from app.questions.collision_time import CollisionQuery, CollisionRequest
 from app.wire.question import Terms
-from core.errors import said
+from core.errors import format_number
 
 
 @asks(CollisionQuery, CollisionRequest)
@@ -20,10 +20,10 @@ def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False)
     """Time of first contact: when two benches first touch, or come within a margin."""
     with show.waiting("first contact"):
         answer = collisions.collision_time(asked, Terms())
-    near = f"First time that two benches are within {said(asked.margin)} m of each other"
+    near = f"First time that two benches are within {format_number(asked.margin)} m of each other"
     title = near if asked.margin else "First contact"
     if stray := asked.to_stray():
-        title += f" that may come about with strays up to {said(stray)} m"
+        title += f" that may come about with strays up to {format_number(stray)} m"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
 
 
@@ -39,7 +39,7 @@ def _clearance_parts(columns: dict[str, Any]) -> Iterator[show.Part]:
     """Clearance at every instant, and the local minima between them."""
     table = show.new_table("Clearance", "time [s]", "clearance [m]", "benches")
     for time, clearance, benches in zip(columns["time"], columns["clearance"], columns["benches"], strict=True):
-        table.add_row(said(time), show.separation(clearance), show.shown(tuple(benches)))
+        table.add_row(format_number(time), show.separation(clearance), show.shown(tuple(benches)))
     yield table
     grazes = show.new_table("Local minima", "time [s]", "clearance [m]", "benches")
     for graze in columns["grazes"]:

@@ -18,7 +18,7 @@ from app.questions.shortest_turn import ShortestTurnQuery, ShortestTurnRequest
 from app.questions.turn import TurnQuery
 from app.questions.turn_time import TurnTimeQuery, TurnTimeRequest
 from app.wire.question import Terms
-from core.errors import said
+from core.errors import format_number
 
 
 @asks(MinimumPitchQuery, MinimumPitchRequest)
@@ -26,8 +26,8 @@ def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, json: Json = F
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
     with show.waiting("minimum pitch"):
         answer = pitches.minimum_pitch(asked, Terms())
-    gap = f" and no bench within {said(asked.margin)} m of another" if asked.margin else ""
-    title = f"Minimum pitch for a turning circle of {said(asked.turning_diameter)} m{gap}"
+    gap = f" and no bench within {format_number(asked.margin)} m of another" if asked.margin else ""
+    title = f"Minimum pitch for a turning circle of {format_number(asked.turning_diameter)} m{gap}"
     show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
 
 
@@ -42,7 +42,7 @@ def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, json: Json = F
     """The shortest turn inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
         answer = shortest.shortest_turn(asked, Terms())
-    gap = f" with no bench within {said(asked.margin)} m of another" if asked.margin else ""
+    gap = f" with no bench within {format_number(asked.margin)} m of another" if asked.margin else ""
     show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
 
 
@@ -50,7 +50,9 @@ def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, json: Json = F
 def turn_time(asked: TurnTimeQuery | TurnTimeRequest, json: Json = False) -> None:
     """How long the head takes through a turn at the highest speed at which no handle exceeds the limit."""
     answer = times.turn_time(asked, Terms())
-    show.print_answer(f"Time through the turn with no handle above {said(asked.speed_limit)} m/s", answer, json)
+    show.print_answer(
+        f"Time through the turn with no handle above {format_number(asked.speed_limit)} m/s", answer, json
+    )
 
 
 @asks(QuickestTurnQuery, QuickestTurnRequest)
@@ -59,7 +61,7 @@ def quickest_turn(asked: QuickestTurnQuery | QuickestTurnRequest, json: Json = F
     with show.waiting("quickest turn"):
         answer = quickest.quickest_turn(asked, Terms())
     show.print_answer(
-        f"Quickest turn with no handle above {said(asked.speed_limit)} m/s", answer, json, margin=asked.margin
+        f"Quickest turn with no handle above {format_number(asked.speed_limit)} m/s", answer, json, margin=asked.margin
     )
 
 
@@ -68,4 +70,4 @@ def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, j
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
     with show.waiting("maximum head speed"):
         answer = speeds.maximum_head_speed(asked, Terms())
-    show.print_answer(f"Maximum head speed for {said(asked.speed_limit)} m/s", answer, json)
+    show.print_answer(f"Maximum head speed for {format_number(asked.speed_limit)} m/s", answer, json)

@@ -16,8 +16,8 @@ from rich.table import Table
 from app.command import show
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
+from core.display import format_count
 from core.errors import Given
-from core.shown import counted
 
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
@@ -92,7 +92,7 @@ def cancel(
         print(f"{job}: {place.cancel(job)}")
         return
     counts = place.cancel_all(before)
-    print(", ".join(f"{counted(count, 'job')} {what}" for what, count in counts.items()))
+    print(", ".join(f"{format_count(count, 'job')} {what}" for what, count in counts.items()))
 
 
 def _seconds(text: str) -> float:

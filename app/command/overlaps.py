@@ -18,7 +18,7 @@ from app.questions.overlaps import OverlapsAnswer, OverlapsRequest
 from app.wire.messages import checked
 from app.wire.question import Terms
 from core import InvalidValue
-from core.errors import said
+from core.errors import format_number
 
 
 @asks(InstantQuery)
@@ -47,7 +47,7 @@ def overlaps(
 
 
 def _overlap_parts(answer: OverlapsAnswer, margin: float) -> Iterator[show.Part]:
-    title = f"Pairs within {said(margin)} m of each other" if margin else "Overlapping pairs"
+    title = f"Pairs within {format_number(margin)} m of each other" if margin else "Overlapping pairs"
     table = show.new_table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
     for one in answer.overlaps:
         witnesses = map(show.shown, (one.witness_a, one.witness_b))

@@ -26,8 +26,8 @@ from app.wire.messages import checked
 from app.wire.question import Coordinates, Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
+from core.display import format_count
 from core.errors import Given
-from core.shown import counted
 
 
 def places(
@@ -73,7 +73,7 @@ def _print(found: DanceParts) -> None:
     if found.path is not None:
         kind = str(found.path.get("kind", "spiral"))
         points = found.path.get("points")
-        table.add_row("path", f"{kind}, {counted(len(points), 'point')}" if points else kind, "", "")
+        table.add_row("path", f"{kind}, {format_count(len(points), 'point')}" if points else kind, "", "")
     show.print_parts(table)
 
 

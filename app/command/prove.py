@@ -34,7 +34,7 @@ from app.wire.paths import Circle, TurnFields
 from app.wire.question import DanceQuery, HeadSpeed, Instant, Margin, UniformDragon, Wire, measure
 from app.wire.texts import Unreadable, json_of
 from core import Outcome
-from core.errors import ProofRefused, Quantity, said
+from core.errors import ProofRefused, Quantity, format_number
 from core.tolerance.curve import time_on_circle
 
 if TYPE_CHECKING:
@@ -251,7 +251,7 @@ def dance(
         if getattr(asked, name) is not None:
             print(f"The {name.replace('_', ' ')} is not part of the proof.", file=sys.stderr)
     if told.passages:
-        speed = f"a head at a constant {said(told.head_speed)} m/s"
+        speed = f"a head at a constant {format_number(told.head_speed)} m/s"
         print(f"Passages are not part of the proof, which is about places: its times are for {speed}.", file=sys.stderr)
     begin, until = told.span(told.begin if asked.start is None else asked.start, asked.stop)
     dance, clock = told.steady, told.clock

@@ -20,8 +20,8 @@ from rich.text import Text
 from app.files.disk import write_whole
 from app.wire import answers
 from app.wire.question import Answer, unit_of
-from core.errors import said
-from core.shown import counted
+from core.display import format_count
+from core.errors import format_number
 
 # Decimals of lengths and speeds on a terminal.
 SHOWN_DECIMALS = 6
@@ -155,12 +155,12 @@ def _polygon_words(value: answers.Polygon | answers.MultiPolygon) -> str:
     several = [value.coordinates] if isinstance(value, answers.Polygon) else value.coordinates
     rings = [ring for polygon in several for ring in polygon]
     holes, points = len(rings) - len(several), sum(map(len, rings))
-    return f"{counted(len(several), 'polygon')}, {counted(holes, 'hole')}, {points} points"
+    return f"{format_count(len(several), 'polygon')}, {format_count(holes, 'hole')}, {points} points"
 
 
 def near(word: str, margin: float) -> str:
     """An outcome in words: with a margin a contact is not always a touch."""
-    near = f"within {said(margin)} m"
+    near = f"within {format_number(margin)} m"
     words = {"contact": near, "contact_at_start": f"{near} from the start on", "clear": f"never {near}"}
     return words.get(word, word) if margin else word
 
@@ -172,9 +172,9 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             continue
         label = prefix + name.replace("_", " ")
         if isinstance(value, answers.Feature):
-            yield label, ", ".join(f"{word} {shown(said)}" for word, said in value)
+            yield label, ", ".join(f"{word} {shown(number)}" for word, number in value)
         elif isinstance(value, answers.PairCheck):
-            yield from ((f"{label}: {word}", said) for word, said in _check_words(value, benches))
+            yield from ((f"{label}: {word}", text) for word, text in _check_words(value, benches))
         elif isinstance(value, answers.Polygon | answers.MultiPolygon):
             yield label, _polygon_words(value)
         elif isinstance(value, list) and len(value) > LISTED_MOST:
@@ -196,7 +196,7 @@ def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
     """A proven value with all its digits, because a rounded value could claim more than the proof."""
     ends = value if isinstance(value, tuple) else (value,)
     each = f" {unit}" if None in ends else ""
-    words = ", ".join("unknown" if end is None else said(end) + each for end in ends)
+    words = ", ".join("unknown" if end is None else format_number(end) + each for end in ends)
     return words if each else f"{words} {unit}".rstrip()
 
 

@@ -14,7 +14,7 @@ from app.questions.contact_probability import ContactProbabilityQuery, ContactPr
 from app.questions.tolerance import ToleranceQuery, ToleranceRequest
 from app.questions.tolerance_curve import ToleranceCurveQuery, ToleranceCurveRequest
 from app.wire.question import Terms
-from core.errors import said
+from core.errors import format_number
 
 # The reason why strays in a FILE do not count.
 LARGEST = "the answer is the largest stray, by people and by the play of pins together"
@@ -53,5 +53,10 @@ def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityReque
 def _curve_parts(columns: dict[str, Any]) -> Iterator[show.Part]:
     table = show.new_table("Tolerance to strays", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
     for pitch, stray, touching, limit in zip(*columns.values(), strict=True):
-        table.add_row(said(pitch), said(stray), "unknown" if touching is None else said(touching), limit.value)
+        table.add_row(
+            format_number(pitch),
+            format_number(stray),
+            "unknown" if touching is None else format_number(touching),
+            limit.value,
+        )
     yield table

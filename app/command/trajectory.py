@@ -24,7 +24,7 @@ from app.wire.dances import TimeRange
 from app.wire.messages import checked
 from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
-from core.shown import counted
+from core.display import format_count
 
 # Largest number of instants that a terminal shows, if that many fit.
 SHOWN_INSTANTS = 7
@@ -136,7 +136,7 @@ def _parts(
                 table.add_row(label, *(_entry(value, places) for value in values[block, k]))
             yield table
     count = sum(map(len, blocks))
-    words = f"{len(rows)} of {counted(number, 'handle')}, {count} of {counted(instants, 'instant')}"
+    words = f"{len(rows)} of {format_count(number, 'handle')}, {count} of {format_count(instants, 'instant')}"
     choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
     verb = "choose" if len(choose) > 1 else "chooses"
     advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]

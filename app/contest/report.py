@@ -9,7 +9,7 @@ from app.contest.answers import Result
 from app.contest.solved import Solved
 from app.contest.tables import Table, in_markdown
 from app.files.words import Say
-from core.errors import said
+from core.errors import format_number
 
 if TYPE_CHECKING:
     from app.contest.figures import Drawn
@@ -29,7 +29,7 @@ def answer_table(given: Sequence[Result], say: Say) -> str:
 def _bracket(one: Result) -> str:
     if one.bracket is None:
         return ""
-    return ", ".join("?" if end is None else said(end) for end in one.bracket) + f" {one.unit}"
+    return ", ".join("?" if end is None else format_number(end) for end in one.bracket) + f" {one.unit}"
 
 
 def report(

@@ -12,7 +12,7 @@ from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, look_arou
 from core import Budget, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
-from core.errors import said
+from core.errors import format_number
 from core.plots import GREY, VERMILION, draw_scan
 
 
@@ -29,7 +29,7 @@ def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float =
         if venue:
             draw_venue(axes, venue)
             look_around(figure, axes, result.position[0])
-        words = "" if (spiral := dance.path.spiral) is None else f" (pitch {said(spiral.pitch)} m)"
+        words = "" if (spiral := dance.path.spiral) is None else f" (pitch {format_number(spiral.pitch)} m)"
         axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
         return file_bytes(figure, format)
 
@@ -82,14 +82,14 @@ def pitch_scan_figure(
     def drawn() -> bytes:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
-        near_words = f"first within {said(margin)} m of each other" if margin else "first contact"
+        near_words = f"first within {format_number(margin)} m of each other" if margin else "first contact"
         when = f"when two benches are {near_words}" if margin else f"at {near_words}"
         _draw_scan(axes, scan, least, turning_radius, near_words)
         axes.plot(pitches, start_turns * pitches, color=GREY, linewidth=0.9, zorder=1, label="start of the dance")
         axes.set(xlim=(pitches[0], pitches[-1]), xlabel="pitch [m]", ylabel=f"radius of the head {when} [m]")
         axes.set_ylim(0.0, 1.2 * scan.radius.max(initial=turning_radius))
         axes.legend(loc="lower left", fontsize=9)
-        none = f"Never within {said(margin)} m at any" if margin else "No contact at any"
+        none = f"Never within {format_number(margin)} m at any" if margin else "No contact at any"
         title = f"Radius of the head {when}, against the pitch" if scan.pitch.size else f"{none} of these pitches"
         axes.set_title(title, fontsize=11)
         near = axes.inset_axes((0.56, 0.64, 0.41, 0.33))
@@ -105,7 +105,7 @@ def pitch_scan_figure(
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:
     draw_scan(axes, np.stack([scan.pitch, scan.radius], axis=-1), scan.pieces, JUMP_WIDTH, near)
-    circle = f"turning circle, {said(turning_radius)} m"
+    circle = f"turning circle, {format_number(turning_radius)} m"
     axes.axhline(turning_radius, color="black", linewidth=0.9, linestyle="dashed", label=circle)
     axes.axvline(
         least.pitch, color=VERMILION, linewidth=1.2, linestyle="dashdot", label=f"minimum pitch, {least.pitch:.9f} m"

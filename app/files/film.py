@@ -33,7 +33,7 @@ from app.files.scratch import temporary
 from app.files.tables import Language
 from app.wire.clocks import time_of_day
 from core import Budget, Dance, Venue, bench_outlines, trajectory
-from core.errors import asked_of
+from core.errors import question_about
 from core.plots import BLUE, PALE, VERMILION, draw_dance
 from core.values import Floats
 
@@ -66,7 +66,7 @@ TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "ç¬
 EDGE, TOUCHING_SHARE = 0.8, 0.0025
 
 
-@asked_of("dance", Dance, "the film was not drawn")
+@question_about("dance", Dance, "the film was not drawn")
 def film(
     dance: Dance,
     spec: FilmSpec,

@@ -18,9 +18,9 @@ from app.wire.degrees import ACROSS_MAX, GRID_MAX, Origin, Plane, middle_of, ref
 from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
+from core.display import format_count
 from core.errors import COORDINATE_MAX, Quantity, quantities
 from core.names import NAME_MAX, NOT_PLAIN
-from core.shown import counted
 from core.values import Floats, Point
 from core.venue import refuse_many_edges
 
@@ -102,9 +102,11 @@ class Reading:
         self._lay_out(units)
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
-            self._note(f"Left out: {counted(count, kind)}.", f"未读取：{kind}，{count} 个。")
+            self._note(f"Left out: {format_count(count, kind)}.", f"未读取：{kind}，{count} 个。")
         for kind, count in drawing.hidden.items():
-            self._note(f"Left out, because hidden: {counted(count, kind)}.", f"未读取（已隐藏）：{kind}，{count} 个。")
+            self._note(
+                f"Left out, because hidden: {format_count(count, kind)}.", f"未读取（已隐藏）：{kind}，{count} 个。"
+            )
 
     def found(self) -> DanceParts:
         # Before anything is compared with every edge.
@@ -255,7 +257,7 @@ class Reading:
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
             listed = ", ".join(without[:NAMED]) + (", …" if len(without) > NAMED else "")
-            english = f"{counted(len(without), 'thing')} without a radius; {radius:g} m is assumed: {listed}."
+            english = f"{format_count(len(without), 'thing')} without a radius; {radius:g} m is assumed: {listed}."
             self._note(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。")
         if square is None:
             if not obstacles:

@@ -17,9 +17,9 @@ from app.questions.maps import Marked
 from app.wire.degrees import Place
 from app.wire.question import Question, Terms, measure
 from core import Dance, FailureKind, Judgement
-from core.errors import asked_of, said
+from core.display import format_count
+from core.errors import format_number, question_about
 from core.shapes.engines import widened
-from core.shown import counted
 
 if TYPE_CHECKING:
     from app.plan.plan import Plan
@@ -90,7 +90,7 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     return _drawn(dance, Plan(ground, family, names, clock, title, asked.paper, budget), say, terms)
 
 
-@asked_of("dance", Dance, "the plan was not drawn")
+@question_about("dance", Dance, "the plan was not drawn")
 def _drawn(dance: Dance, plan: Plan, say: Say, terms: Terms) -> bytes:
     """The bytes of the plan of a dance. raises: TooMuchWork"""
     from app.plan.plan import plan_pdf
@@ -105,14 +105,16 @@ def _facts(
     dragon = dance.dragon
     length = float(dragon.chords.sum())
     moving = sorted({one.speed for one in dance.passages if one.speed > 0.0} | {dance.head_speed})
-    english, chinese = (to.join(said(one) for one in sorted({moving[0], moving[-1]})) for to in (" to ", " 至 "))
+    english, chinese = (
+        to.join(format_number(one) for one in sorted({moving[0], moving[-1]})) for to in (" to ", " 至 ")
+    )
     pauses, n = sum(one.speed == 0.0 for one in dance.passages), dragon.benches
-    paused, stopped = (f" with {counted(pauses, 'pause')}", f"，停顿 {pauses} 次") if pauses else ("", "")
+    paused, stopped = (f" with {format_count(pauses, 'pause')}", f"，停顿 {pauses} 次") if pauses else ("", "")
     return [
         say(f"{n} benches, {length:.1f} m from head to tail", f"{n} 节板凳，全长 {length:.1f} m"),
         say(
-            f"head at {english} m/s{paused}, margin {said(margin)} m",
-            f"龙头速度 {chinese} m/s{stopped}，间距 {said(margin)} m",
+            f"head at {english} m/s{paused}, margin {format_number(margin)} m",
+            f"龙头速度 {chinese} m/s{stopped}，间距 {format_number(margin)} m",
         ),
         say(f"from {words(start)} to {words(stop)}", f"时间 {words(start)} 至 {words(stop)}"),
     ]

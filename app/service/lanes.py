@@ -24,8 +24,8 @@ from app.files.tables import XLSX_TYPE
 from app.service.problems import Refused
 from app.settings import Settings, part
 from core import Budget
+from core.display import format_count
 from core.errors import Quantity
-from core.shown import counted
 
 # Number of first bits of an IPv6 address that a network of one client has.
 IPV6_BITS = 64
@@ -63,7 +63,7 @@ class Deadline(Quantity):
 
 def limit(most: int, thing: str) -> Quantity:
     """A limit of the service in a sentence, such as 2 unfinished jobs."""
-    return Quantity(most, "", shown=counted(most, thing))
+    return Quantity(most, "", text=format_count(most, thing))
 
 
 class Lane:

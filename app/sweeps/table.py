@@ -22,8 +22,8 @@ from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
 from app.wire.texts import FORMULA
 from core import InvalidValue
+from core.display import format_count
 from core.errors import Given
-from core.shown import counted
 from core.tables import data_frame
 from core.values import Floats
 
@@ -132,7 +132,7 @@ class Sweep:
     def _check_complete(self) -> None:
         if self.missing:
             words = "{folder} lacks {missing} of {shards}: run the sweep again"
-            whole = counted(self.spec.shards, "shard")
+            whole = format_count(self.spec.shards, "shard")
             raise InvalidValue.in_words("folder", words, folder=str(self.folder), missing=self.missing, shards=whole)
 
     def _write(self, file: Path, tables: Iterable[pa.Table], begun: Callable[..., Any]) -> None:

@@ -16,7 +16,7 @@ from app.wire.dances import AXIS, SHAPES
 from app.wire.paths import KINDS
 from app.wire.question import SHOWN_MAX, Wire, shown, unit_of
 from core import InvalidValue
-from core.errors import Given, Parameter, Quantity, Value, spoken
+from core.errors import Given, Parameter, Quantity, Value, format_field
 
 Model = TypeVar("Model", bound=BaseModel)
 # An object, in the words of JSON.
@@ -42,7 +42,7 @@ def checked(model: type[Model], values: object, thing: str = OBJECT) -> Model:
         if len(steps) > 1:
             named = next((step for step in reversed(steps) if isinstance(step, str)), fault.field) == fault.field
             word = "table" if "table" in fault.values else "field"
-            subject = {word: Parameter(field) if named else f"{spoken(field)}: {fault.values[word]}"}
+            subject = {word: Parameter(field) if named else f"{format_field(field)}: {fault.values[word]}"}
         raise fault.renamed(lambda name: field if name == fault.field else name, **subject) from error
 
 
@@ -85,7 +85,7 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
     words = str(value) if isinstance(value, str) and number is not None else shown(value)
     got: Value = Given(value, words)
     if number is not None:
-        got = Quantity(number, unit, shown=f"{words} {unit}".rstrip() if len(words) < SHOWN_MAX else "")
+        got = Quantity(number, unit, text=f"{words} {unit}".rstrip() if len(words) < SHOWN_MAX else "")
     told: dict[str, Value] = {"got": got, "unit": unit}
     bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
     told |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}

@@ -22,7 +22,7 @@ from pydantic_core import CoreSchema, PydanticCustomError
 from app.settings import Settings
 from core import Budget, Dance, Dragon, Spiral, Stray, TooLarge
 from core.dragon import BENCHES_MAX, wider_pin
-from core.errors import said
+from core.errors import format_number
 from core.values import Progress, unheard
 
 JSON = "application/json"
@@ -39,7 +39,7 @@ def shown(value: Any) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
     if isinstance(value, float):
-        return said(value)
+        return format_number(value)
     text = json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= SHOWN_MAX else f"{text[:SHOWN_MAX]}... ({len(text)} characters)"
 

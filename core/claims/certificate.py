@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from core.claims import chinese, english
 from core.claims.claim import Claim
+from core.display import Readable
 from core.errors import Given, InvalidValue
-from core.shown import Readable
 
 SENTENCES = {"en": english.SENTENCES, "zh": chinese.SENTENCES}
 
@@ -31,9 +31,9 @@ class Certificate(Readable):
         """The claim and its proof in sentences, in English (en) or Chinese (zh). raises: InvalidValue"""
         return claim_words(self.claim, language)
 
-    def _told(self) -> list[tuple[str, object, str]]:
+    def _values(self) -> list[tuple[str, object, str]]:
         """The fields to show, the sentences in place of the claim."""
-        return [("method", self.method, "") if one[0] == "claim" else one for one in Readable._told(self)]
+        return [("method", self.method, "") if one[0] == "claim" else one for one in Readable._values(self)]
 
 
 def claim_words(claim: Claim, language: str = "en") -> str:

@@ -18,10 +18,10 @@ from core.claims.claim import (
     format_safe,
 )
 from core.dance import EndReason
-from core.errors import said as format_number
+from core.display import format_range
+from core.errors import format_number
 from core.passages import Passage
 from core.paths.path import PathSummary
-from core.shown import extent
 
 PAIRS = "不共用把手的任何两节板凳"
 PROOF = (
@@ -68,7 +68,7 @@ def contact(claim: ContactClaim) -> str:
 
 def stray(claim: StrayClaim) -> str:
     dragon = claim.dance.dragon
-    long, wide = (extent(sizes, "m").replace(" to ", " 至 ") for sizes in (dragon.lengths, dragon.widths))
+    long, wide = (format_range(sizes, "m").replace(" to ", " 至 ") for sizes in (dragon.lengths, dragon.widths))
     span = f"{format_number(claim.start)} s 至 {format_number(claim.stop)} s"
     danced = f"{dragon.benches} 节板凳（长 {long}，宽 {wide}）{_path(claim.dance.path)}：{span}，"
     if claim.kind is ClaimKind.NO_SAFE_STRAY:

@@ -7,12 +7,11 @@ from enum import StrEnum
 from typing import Self
 
 from core.dance import Dance, EndReason
+from core.display import Readable
 from core.dragon import Dragon
-from core.errors import said as format_number
-from core.errors import said_bound as format_bound
+from core.errors import format_bound, format_number
 from core.passages import Passage
 from core.paths.path import PathSummary
-from core.shown import Readable
 
 # Most passages that a summary lists one by one [1].
 PASSAGES_LISTED = 6

@@ -22,10 +22,10 @@ from core.claims.claim import (
     format_safe,
 )
 from core.dance import EndReason
-from core.errors import said as format_number
+from core.display import format_count, format_range
+from core.errors import format_number
 from core.passages import Passage
 from core.paths.path import PathSummary
-from core.shown import counted, extent
 
 PROOF = (
     "Proven in steps, each by a bound on the second derivative of the gap along an axis fixed in a bench, and further "
@@ -69,7 +69,7 @@ def contact(claim: ContactClaim) -> str:
 
 def stray(claim: StrayClaim) -> str:
     dragon, stray = claim.dance.dragon, format_safe(claim.stray)
-    sizes = f"{extent(dragon.lengths, 'm')} long, {extent(dragon.widths, 'm')} wide"
+    sizes = f"{format_range(dragon.lengths, 'm')} long, {format_range(dragon.widths, 'm')} wide"
     span = f"from {format_number(claim.start)} s to {format_number(claim.stop)} s"
     danced = f"{dragon.benches} benches, {sizes} on {_path(claim.dance.path)}: {span}"
     edge = " or an edge of the venue" if claim.venue else ""
@@ -102,7 +102,7 @@ def probability(claim: ProbabilityClaim) -> str:
 
 
 def ground(claim: GroundClaim) -> str:
-    over = f"{counted(claim.sizes, 'size')}, {claim.length:.6g} m of the path, {counted(claim.cells, 'cell')}"
+    over = f"{format_count(claim.sizes, 'size')}, {claim.length:.6g} m of the path, {format_count(claim.cells, 'cell')}"
     return (
         f"From {format_number(claim.start)} to {format_number(claim.stop)} s no bench leaves the polygons, and no "
         f"point of theirs is more than {claim.excess:.3g} m from ground that a bench covers. Benches of one size sweep "

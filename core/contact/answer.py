@@ -11,11 +11,11 @@ from core.claims.certificate import Certificate
 from core.claims.claim import ContactClaim
 from core.contact.clearance import Graze
 from core.dance import Dance, EndReason, RunEnd
-from core.errors import InvalidValue, said
+from core.display import Readable, display
+from core.errors import InvalidValue, format_number
 from core.motion.trajectory import trajectory
 from core.paths.path import HeadState
 from core.shapes.rectangles import bench_outlines
-from core.shown import Readable, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,18 +102,18 @@ class FirstContact(Readable):
             certain = ""
             if self.overlapping is not None:
                 a, b = self.overlapping
-                near = f"within {worded(self.margin, 'm')}" if self.margin else "in contact"
+                near = f"within {display(self.margin, 'm')}" if self.margin else "in contact"
                 may = " may be" if self.stray else " are"
-                certain = f"; benches {a} and {b}{may} {near} at {worded(self.time_bracket[1], 's')}"
-            return f"undecided from {worded(self.time_bracket[0], 's')} on{certain}"
-        near = "touch" if not self.margin else f"come within {worded(self.margin, 'm')}"
-        near = f"may {near} with strays up to {worded(self.stray, 'm')}" if self.stray else near
+                certain = f"; benches {a} and {b}{may} {near} at {display(self.time_bracket[1], 's')}"
+            return f"undecided from {display(self.time_bracket[0], 's')} on{certain}"
+        near = "touch" if not self.margin else f"come within {display(self.margin, 'm')}"
+        near = f"may {near} with strays up to {display(self.stray, 'm')}" if self.stray else near
         if self.benches is None or self.time is None:
             assert self.end is not None
             why = "" if self.end.reason is EndReason.STOP else f", where {self.end.why}"
-            return f"no two benches {near} until {worded(self.end.time, 's')}{why}"
+            return f"no two benches {near} until {display(self.end.time, 's')}{why}"
         a, b = self.benches
-        return f"benches {a} and {b} {near} at {worded(self.time, 's')}"
+        return f"benches {a} and {b} {near} at {display(self.time, 's')}"
 
     def plot(self, ax: Axes | None = None, *, enlarged: bool = False) -> Axes:
         """Plot the dance at first contact, the two benches filled; without a contact, just before the end of the run.
@@ -146,15 +146,15 @@ class FirstContact(Readable):
         margin = self.margin
         if enlarged and self.point is not None:
             place = f"({self.point[0]:.6f} m, {self.point[1]:.6f} m)"
-            near = f"Within {said(margin)} m: a gap of {self.gap:.6f} m at {place}"
+            near = f"Within {format_number(margin)} m: a gap of {self.gap:.6f} m at {place}"
             return near if margin else f"They meet at {place}"
-        what = f"First within {said(margin)} m" if margin else "First contact"
+        what = f"First within {format_number(margin)} m" if margin else "First contact"
         if self.outcome is Outcome.CONTACT and self.head is not None:
             return f"{what}: {self.time:.6f} s, head at radius {self.head.radius:.6f} m"
         if self.outcome is Outcome.CONTACT_AT_START:
-            return f"Within {said(margin)} m from the start on" if margin else f"{what}: already at the start"
+            return f"Within {format_number(margin)} m from the start on" if margin else f"{what}: already at the start"
         if self.outcome is Outcome.CLEAR and self.end is not None:
-            none = f"Never within {said(margin)} m" if margin else "No contact"
+            none = f"Never within {format_number(margin)} m" if margin else "No contact"
             if self.end.reason is EndReason.FOLD:
                 return f"{none}, but bench {self.end.bench} folds at {self.end.time:.6f} s"
             return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"

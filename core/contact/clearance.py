@@ -14,13 +14,13 @@ from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES
 from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Clock, Dance
+from core.display import Readable, WithArrays, display, format_count
 from core.dragon import Stray, checked_stray
-from core.errors import InvalidValue, asked_of
+from core.errors import InvalidValue, question_about
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip, Marched
 from core.motion.trajectory import instants
 from core.sampling import dips
-from core.shown import Readable, WithArrays, counted, worded
 from core.tables import data_frame, data_set
 from core.values import Floats
 
@@ -71,9 +71,9 @@ class ClearanceProfile(WithArrays):
             return "no instants"
         least = int(self.clearance.argmin())
         a, b = self.benches.reshape(-1, 2)[least]
-        nearest = f"{worded(self.clearance.item(least), 'm')} between benches {a} and {b}"
-        grazes = counted(len(self.grazes), "graze")
-        return f"{instants(self.time)}; least {nearest} at {worded(self.time.item(least), 's')}; {grazes}"
+        nearest = f"{display(self.clearance.item(least), 'm')} between benches {a} and {b}"
+        grazes = format_count(len(self.grazes), "graze")
+        return f"{instants(self.time)}; least {nearest} at {display(self.time.item(least), 's')}; {grazes}"
 
     def to_dataframe(self) -> pandas.DataFrame:
         """One row for each time: time [s], clearance [m], bench_a, bench_b.
@@ -123,7 +123,7 @@ class LeastClearance(Readable):
     benches: Pair
 
 
-@asked_of("dance", Dance, "the clearance over time was not found")
+@question_about("dance", Dance, "the clearance over time was not found")
 def clearance_profile(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> ClearanceProfile:
     """Exact clearance and its pair at every time, and its local minima refined.
 
@@ -183,7 +183,7 @@ def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
     return tuple(sorted(grazes, key=lambda graze: graze.time))
 
 
-@asked_of("dance", Dance, "the least clearance was not found")
+@question_about("dance", Dance, "the least clearance was not found")
 def least_clearance(
     dance: Dance,
     *,

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from core.contact.answer import FirstContact, Outcome
 from core.dance import Dance
+from core.display import Readable, display
 from core.error_free import paired
-from core.errors import asked_of
+from core.errors import question_about
 from core.kernels import Budget
-from core.shapes.engines import JUDGES, Engine, able, found_pairs, unions_meet
+from core.shapes.engines import JUDGES, Engine, able, engine_pairs, unions_meet
 from core.shapes.overlaps import Verdict
 from core.shapes.reach import SHORT, Reach, reach
 from core.shapes.rectangles import Pairs, bench_poses, corners, frames, frames_separation, meeting_pairs, upright_boxes
-from core.shown import Readable, worded
 from core.values import Floats
 
 Pair = tuple[int, int]
@@ -70,11 +70,11 @@ class ContactCheck(Readable):
 
     def _rows(self) -> list[tuple[str, str]]:
         said = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
-        rest = [("together", worded(self.together)), ("left out", worded(self.left_out))]
-        return [("agree", worded(self.agree)), ("judged", worded(self.judged)), *said, *rest]
+        rest = [("together", display(self.together)), ("left out", display(self.left_out))]
+        return [("agree", display(self.agree)), ("judged", display(self.judged)), *said, *rest]
 
 
-@asked_of("contact", FirstContact, "the engines' verdict on the contact was not found")
+@question_about("contact", FirstContact, "the engines' verdict on the contact was not found")
 def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget | None = None) -> ContactCheck | None:
     """The engines' verdicts CHECK_TRAVEL of head travel before and after the bracket of a first contact.
 
@@ -114,7 +114,7 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     )
 
 
-@asked_of("dance", Dance, "the trajectory was not computed")
+@question_about("dance", Dance, "the trajectory was not computed")
 def judged_poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     """Poses (T, n, 3) of the steady dragon at instants, moved into the run if they are outside."""
     held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
@@ -239,7 +239,7 @@ def _found(
     """Pairs that an engine finds at each instant, by their numbers in the dragon."""
     chained = len(judged) == int(judged[-1] - judged[0]) + 1
     found = []
-    for pairs in found_pairs(engine, poses, sizes, margin, chained=chained, budget=budget):
+    for pairs in engine_pairs(engine, poses, sizes, margin, chained=chained, budget=budget):
         a, b = judged[pairs].reshape(-1, 2).T
         apart = b - a != 1
         found.append(set(zip(a[apart].tolist(), b[apart].tolist(), strict=True)))

@@ -24,7 +24,7 @@ from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, Search
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Stray, checked_stray
-from core.errors import asked_of, checked_number
+from core.errors import checked_number, question_about
 from core.kernels import Budget, Ended
 from core.kernels.constants import FRONT, MX, UY
 from core.kernels.results import Marched
@@ -45,7 +45,7 @@ CORNERS = (
 EDGES = (("front", "inner", "rear", "outer"), ("front", "outer", "rear", "inner"))
 
 
-@asked_of("dance", Dance, "the first contact was not decided")
+@question_about("dance", Dance, "the first contact was not decided")
 def first_contact(
     dance: Dance,
     *,

@@ -15,14 +15,14 @@ from core.contact.march import TOUCHES
 from core.contact.near_graze import narrowed
 from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search, before_fold
 from core.dance import Dance
+from core.display import Readable, display
 from core.dragon import Stray, checked_stray
-from core.errors import asked_of, checked_number, checked_type
+from core.errors import checked_number, checked_type, question_about
 from core.kernels import Budget, Ended
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.shapes.engines import inside
 from core.shapes.rectangles import bench_poses
-from core.shown import Readable, worded
 from core.values import Floats, Point
 from core.venue import Area, Venue
 
@@ -97,7 +97,7 @@ class VenueClearance(Readable):
         if not known:
             return misplaced + "; ".join(area._line() for area in self.areas)
         near, name = min(known, key=lambda one: one[0].distance)
-        distance, time = worded(near.distance, "m"), worded(near.time, "s")
+        distance, time = display(near.distance, "m"), display(near.time, "s")
         return f"{misplaced}nearest to {name!r}: bench {near.bench}, {distance} at {time}"
 
     def _rows(self) -> list[tuple[str, str]]:
@@ -105,7 +105,7 @@ class VenueClearance(Readable):
         return [("misplaced", misplaced), *((area.name, area._line()) for area in self.areas)]
 
 
-@asked_of("dance", Dance, "the clearance between benches and venue was not found")
+@question_about("dance", Dance, "the clearance between benches and venue was not found")
 def venue_clearance(
     dance: Dance,
     venue: Venue,

@@ -26,13 +26,14 @@ from core.contact.coils import STRETCH, TwoCoils, beyond, free_arc
 from core.contact.first_contact import contact_within
 from core.dance import Dance
 from core.design.turn_circle import checked_circle
-from core.dragon import Dragon, Stray, checked_stray, told_chords
+from core.display import Readable, display
+from core.dragon import Dragon, Stray, checked_stray, chord_values
 from core.errors import (
     InvalidValue,
     Quantity,
     TooMuchWork,
-    asked_of,
     quantities,
+    question_about,
     too_much,
 )
 from core.kernels import Budget, Halted
@@ -41,7 +42,6 @@ from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.sampling import bisected
 from core.shapes.reach import reach
-from core.shown import Readable, worded
 
 # Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
 ENTRY_STEP = 0.01
@@ -101,11 +101,11 @@ class DeepestTurn(Readable):
 
     def _line(self) -> str:
         pair = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
-        entry = f"entry at a radius of {worded(self.turn.entry_radius, 'm')}, length {worded(self.turn.length, 'm')}"
+        entry = f"entry at a radius of {display(self.turn.entry_radius, 'm')}, length {display(self.turn.length, 'm')}"
         return f"{entry}, limited by {self.limited_by.value}{pair}"
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def deepest_turn(
     dragon: Dragon,
     pitch: float,
@@ -302,7 +302,7 @@ def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> To
     """The error if the budget ends before the shortest turn is found. entry: the radius tried last [m]"""
     rule = "must be smaller, or benches fewer or more alike: turns down to an entry radius of {entry} were not all"
     rule += " decided {then}; the {benches} chords are {shortest} to {longest} long"
-    sizes = {"entry": Quantity(entry, "m", 6), **told_chords(dragon)}
+    sizes = {"entry": Quantity(entry, "m", 6), **chord_values(dragon)}
     return too_much(budget, "turning_radius", rule, Quantity(radius, "m"), **sizes)
 
 

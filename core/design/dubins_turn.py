@@ -27,14 +27,14 @@ from core.dance import Dance
 from core.design.turn_bounds import least_entry
 from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import least_bend
-from core.dragon import Dragon, told_chords
-from core.errors import InvalidValue, Quantity, asked_of, quantities, too_much
+from core.display import Readable, display
+from core.dragon import Dragon, chord_values
+from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
 from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.pieces import LENGTH_MIN, Arc, Coil, Line, Piece
 from core.paths.route import Route
 from core.paths.turn import OUTSIDE
-from core.shown import Readable, worded
 from core.values import Floats, Point
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1], and the width to which the shortest
@@ -67,11 +67,11 @@ class DubinsTurn(Readable):
     evaluations: int
 
     def _line(self) -> str:
-        places = f"entry {worded(self.entry_radius, 'm')}, exit {worded(self.exit_radius, 'm')}"
-        return f"length {worded(self.length, 'm')}, {worded(self.straight, 'm')} of it straight, {places}"
+        places = f"entry {display(self.entry_radius, 'm')}, exit {display(self.exit_radius, 'm')}"
+        return f"length {display(self.length, 'm')}, {display(self.straight, 'm')} of it straight, {places}"
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def dubins_turn(
     dragon: Dragon,
     pitch: float,
@@ -104,7 +104,7 @@ def dubins_turn(
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was found {then}; the {benches} chords are {shortest} to"
         size = Quantity(circle.radius, "m")
-        raise too_much(work, "turning_radius", rule + " {longest} long", size, **told_chords(dragon)) from halted
+        raise too_much(work, "turning_radius", rule + " {longest} long", size, **chord_values(dragon)) from halted
     if found is None:
         why = "in every turn with a straight piece that was tried inside it benches come within {margin}"
         told = quantities("m", got=circle.radius, margin=circle.margin)

@@ -13,12 +13,12 @@ from core.contact.search import MARGIN_MAX, Search
 from core.design.pitch_bands import BORDER_WIDTH, Descent
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
+from core.display import Readable, display
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import SIZE_MAX, InvalidValue, Quantity, asked_of, checked_number, checked_size, quantities
+from core.errors import SIZE_MAX, InvalidValue, Quantity, checked_number, checked_size, quantities, question_about
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
 from core.sampling import bisected
-from core.shown import Readable, worded
 
 # Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].
 PASSED_OVER = 1e-9
@@ -97,9 +97,9 @@ class MinimumPitch(Readable):
         whose = f" of benches {self.benches[0]} and {self.benches[1]}" if self.benches else ""
         if self.bench is not None:
             whose = f" of bench {self.bench}"
-        limit = f"{worded(self.pitch, 'm')}, limited by {self.limited_by.value}{whose}"
-        scan = f"scanned every {worded(self.scan_step, 'm')} up to {worded(self.proven_from, 'm')}, then "
-        most = "for every larger pitch" if self.proven_up_to is None else f"up to {worded(self.proven_up_to, 'm')}"
+        limit = f"{display(self.pitch, 'm')}, limited by {self.limited_by.value}{whose}"
+        scan = f"scanned every {display(self.scan_step, 'm')} up to {display(self.proven_from, 'm')}, then "
+        most = "for every larger pitch" if self.proven_up_to is None else f"up to {display(self.proven_up_to, 'm')}"
         return f"{limit}; {scan if self.scan_step else ''}proven {most}"
 
 
@@ -268,7 +268,7 @@ class _PitchSearch:
         return LimitedBy.GRAZE, pair, growth * search.theta_at(search.bottom(travel, end, pair, 1e-12))
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def minimum_pitch(
     dragon: Dragon,
     *,

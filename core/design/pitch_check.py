@@ -9,7 +9,7 @@ from core.contact.search import MARGIN_MAX
 from core.dance import Dance
 from core.design.minimum_pitch import LimitedBy, MinimumPitch
 from core.dragon import Dragon, Stray, checked_stray
-from core.errors import InvalidValue, asked_of, checked_number, checked_type
+from core.errors import InvalidValue, checked_number, checked_type, question_about
 from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.shapes.reach import reach
@@ -18,9 +18,9 @@ from core.shapes.reach import reach
 CHECK_PITCH = 1e-6
 
 
-@asked_of("found", MinimumPitch, "the engines' verdict on the minimum pitch was not found")
+@question_about("minimum", MinimumPitch, "the engines' verdict on the minimum pitch was not found")
 def pitch_check(
-    found: MinimumPitch,
+    minimum: MinimumPitch,
     dragon: Dragon,
     *,
     margin: float = 0.0,
@@ -40,18 +40,18 @@ def pitch_check(
     checked_type("dragon", dragon, Dragon)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     strayed = checked_stray(stray, dragon)
-    if found.benches is None or found.head_radius is None:
+    if minimum.benches is None or minimum.head_radius is None:
         return None
-    if found.benches[1] >= dragon.benches:
+    if minimum.benches[1] >= dragon.benches:
         rule, got = "must be that of the search, with bench {bench}", f"one of {dragon.benches} benches"
-        raise InvalidValue("dragon", rule, got=got, bench=found.benches[1])
+        raise InvalidValue("dragon", rule, got=got, bench=minimum.benches[1])
     poses = []
-    for pitch in (found.pitch + CHECK_PITCH, found.pitch - CHECK_PITCH):
+    for pitch in (minimum.pitch + CHECK_PITCH, minimum.pitch - CHECK_PITCH):
         # On a spiral that starts at this radius, the head is there at time 0.
-        turns = found.head_radius / (found.pitch if found.limited_by is LimitedBy.START else pitch)
-        front = dragon if whole or strayed else dragon.leading(found.benches[1] + 1)
+        turns = minimum.head_radius / (minimum.pitch if minimum.limited_by is LimitedBy.START else pitch)
+        front = dragon if whole or strayed else dragon.leading(minimum.benches[1] + 1)
         poses.append(judged_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
     if strayed:
-        return judged_grounds(np.array(poses), reach(dragon, strayed), found.benches, margin=margin, budget=budget)
+        return judged_grounds(np.array(poses), reach(dragon, strayed), minimum.benches, margin=margin, budget=budget)
     size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
-    return judged_contact(np.array(poses), size, found.benches, margin=margin, whole=whole, budget=budget)
+    return judged_contact(np.array(poses), size, minimum.benches, margin=margin, whole=whole, budget=budget)

@@ -14,22 +14,22 @@ from core.contact.fold import clear_to_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
-from core.dragon import Dragon, told_chords
+from core.display import WithArrays, format_count, format_range
+from core.dragon import Dragon, chord_values
 from core.errors import (
     SIZE_MIN,
     Given,
     InvalidValue,
     Quantity,
     TooMuchWork,
-    asked_of,
     checked_number,
     checked_size,
     quantities,
+    question_about,
     too_much,
 )
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import Spiral
-from core.shown import WithArrays, counted, extent
 from core.tables import data_frame
 from core.values import Floats, Progress, unheard
 
@@ -70,9 +70,10 @@ class PitchScan(WithArrays):
     def _line(self) -> str:
         if not self.pitch.size:
             return "no contact at any pitch"
-        radius = f"contact with the head at {extent(self.radius, 'm')}"
-        pieces = counted(len(self.pieces), "piece")
-        return f"{counted(self.pitch.size, 'sample')} at pitches of {extent(self.pitch, 'm')}, {radius}, in {pieces}"
+        radius = f"contact with the head at {format_range(self.radius, 'm')}"
+        pieces = format_count(len(self.pieces), "piece")
+        samples = f"{format_count(self.pitch.size, 'sample')} at pitches of {format_range(self.pitch, 'm')}"
+        return f"{samples}, {radius}, in {pieces}"
 
     def to_dataframe(self) -> pandas.DataFrame:
         """One row for each pitch: pitch, radius [m], and the number of its piece.
@@ -138,7 +139,7 @@ class Stops:
         return search.growth * search.theta_at(travel)
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def pitch_scan(
     dragon: Dragon,
     pitches: Floats | Sequence[float],
@@ -194,7 +195,7 @@ def _too_much(budget: Budget, dragon: Dragon, pitches: Floats, pitch: float) -> 
     """The error if the budget ends before the scan does; pitch: the next one [m]."""
     missing = "the first contacts from a pitch of {pitch} on were not found {then}"
     rule = f"must be fewer, or benches: {missing}; the {{benches}} chords are {{shortest}} to {{longest}} long"
-    return too_much(budget, "pitches", rule, len(pitches), pitch=Quantity(pitch, "m", 6), **told_chords(dragon))
+    return too_much(budget, "pitches", rule, len(pitches), pitch=Quantity(pitch, "m", 6), **chord_values(dragon))
 
 
 def _checked_pitches(pitches: object) -> Floats:

@@ -25,14 +25,14 @@ from core.design.turn_boxes import sizes_of
 from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import least_bend
 from core.design.turn_overlap import Overlap, most_benches
-from core.dragon import Dragon, told_chords
-from core.errors import InvalidValue, Quantity, asked_of, quantities, too_much
+from core.display import Readable, display
+from core.dragon import Dragon, chord_values
+from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
 from core.extremes.speed import checked_limit, maximum_head_speed
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
 from core.paths.following import follows
 from core.paths.turn import Turn
-from core.shown import Readable, worded
 
 # Step of the grid of entry and exit radii, as a part of the circle's radius [1].
 GRID = 0.02
@@ -58,12 +58,12 @@ class TurnTime(Readable):
     handles: tuple[int, ...]
 
     def _line(self) -> str:
-        places = f"entry {worded(self.turn.entry_radius, 'm')}, exit {worded(self.turn.exit_radius, 'm')}"
-        speed = f"head at most at {worded(self.head_speed, 'm/s')}"
-        return f"{worded(self.time, 's')} for {worded(self.length, 'm')}, {speed}, {places}"
+        places = f"entry {display(self.turn.entry_radius, 'm')}, exit {display(self.turn.exit_radius, 'm')}"
+        speed = f"head at most at {display(self.head_speed, 'm/s')}"
+        return f"{display(self.time, 's')} for {display(self.length, 'm')}, {speed}, {places}"
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def turn_time(dragon: Dragon, path: Turn, speed_limit: float = 2.0, *, budget: Budget | None = None) -> TurnTime:
     """How long the head takes through a turn if no handle may exceed a speed.
 
@@ -81,7 +81,7 @@ def turn_time(dragon: Dragon, path: Turn, speed_limit: float = 2.0, *, budget: B
     return TurnTime(path, path.length, found.head_speed, path.length / found.head_speed, found.handles)
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def quickest_turn(
     dragon: Dragon,
     pitch: float,
@@ -106,7 +106,7 @@ def quickest_turn(
         turn = search.quickest()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to"
-        told = told_chords(dragon)
+        told = chord_values(dragon)
         raise too_much(
             search.budget, "turning_radius", rule + " {longest} long", Quantity(circle.radius, "m"), **told
         ) from halted

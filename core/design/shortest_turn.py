@@ -43,17 +43,17 @@ from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
 from core.design.turn_overlap import Overlap, most_benches
 from core.design.turn_places import polished, starts
-from core.dragon import Dragon, Stray, checked_stray, told_chords
+from core.display import Readable, display
+from core.dragon import Dragon, Stray, checked_stray, chord_values
 from core.errors import (
     InvalidValue,
     Quantity,
-    asked_of,
+    question_about,
     too_much,
 )
 from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
-from core.shown import Readable, worded
 from core.values import Floats
 
 # Width of the bracket of the length [m].
@@ -109,12 +109,12 @@ class ShortestTurn(Readable):
 
     def _line(self) -> str:
         low, high = self.length_bracket
-        places = f"entry {worded(self.turn.entry_radius, 'm')}, exit {worded(self.turn.exit_radius, 'm')}"
-        length = f"length {worded(self.turn.length, 'm')} ({worded(high - low, 'm')} or less above the shortest)"
-        return f"{length}, {places}, ratio {worded(self.turn.ratio)}, limited by {self.limited_by.value}"
+        places = f"entry {display(self.turn.entry_radius, 'm')}, exit {display(self.turn.exit_radius, 'm')}"
+        length = f"length {display(self.turn.length, 'm')} ({display(high - low, 'm')} or less above the shortest)"
+        return f"{length}, {places}, ratio {display(self.turn.ratio)}, limited by {self.limited_by.value}"
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def shortest_turn(
     dragon: Dragon,
     pitch: float,
@@ -149,7 +149,7 @@ def shortest_turn(
     except Halted as halted:
         rule = "must be smaller, or benches fewer or more alike: no turn was decided to be the shortest {then}; the"
         rule += " {benches} chords are {shortest} to {longest} long"
-        raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **told_chords(dragon)) from halted
+        raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **chord_values(dragon)) from halted
 
 
 class Search:

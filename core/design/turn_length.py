@@ -12,13 +12,13 @@ from core.design.shortest_turn import RATIOS_WORK, SHORTEST_WORK, Search
 from core.design.turn_bounds import least_entry
 from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import apart_from_circle
-from core.dragon import Dragon, told_chords
-from core.errors import Quantity, asked_of, too_much
+from core.dragon import Dragon, chord_values
+from core.errors import Quantity, question_about, too_much
 from core.kernels import Budget, Halted
 from core.paths.turn import Turn
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def turn_length_bounds(
     dragon: Dragon,
     pitch: float,
@@ -50,7 +50,7 @@ def turn_length_bounds(
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no length was proven {then}; the {benches} chords are {shortest} to"
         size = Quantity(circle.radius, "m")
-        raise too_much(work, "turning_radius", rule + " {longest} long", size, **told_chords(dragon)) from halted
+        raise too_much(work, "turning_radius", rule + " {longest} long", size, **chord_values(dragon)) from halted
     return min(low, longest), longest
 
 

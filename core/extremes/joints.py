@@ -10,11 +10,11 @@ import numpy as np
 from core.contact.clearance import PROFILE_STEP
 from core.contact.search import SAMPLES
 from core.dance import Dance
-from core.errors import asked_of
+from core.display import Readable
+from core.errors import question_about
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.sampling import dips
-from core.shown import Readable
 from core.values import Floats
 
 # Refinement of a peak to 1e-9 of a step: instants of one round around it, in steps; number of rounds; and number of
@@ -40,7 +40,7 @@ class SharpestBend(Readable):
 # The benches from m on are equal and follow the same way: benches (i, i + 1) have the angle that (m, m + 1) had when
 # handle m was where handle i is now. So m + 2 benches are enough once each handle has passed the start of the one
 # before it.
-@asked_of("dance", Dance, "the sharpest bend was not found")
+@question_about("dance", Dance, "the sharpest bend was not found")
 def sharpest_bend(
     dance: Dance, *, start: float | None = None, stop: float | None = None, budget: Budget | None = None
 ) -> SharpestBend | None:

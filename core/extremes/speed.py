@@ -9,11 +9,11 @@ import numpy as np
 from core import kernels
 from core.contact.search import Search
 from core.dance import Dance
-from core.errors import InvalidValue, Quantity, asked_of, bound, checked_number
+from core.display import Readable
+from core.errors import InvalidValue, Quantity, bound, checked_number, question_about
 from core.kernels import Budget, Judged
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
 from core.sampling import bisected
-from core.shown import Readable
 
 # Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12,
 # except in the last moments before a fold, where rates grow without bound and lose digits.
@@ -93,7 +93,7 @@ class FirstExcess(Readable):
     handle: int | None
 
 
-@asked_of("dance", Dance, "the highest speed was not found")
+@question_about("dance", Dance, "the highest speed was not found")
 def highest_speed(
     dance: Dance, *, start: float | None = None, stop: float | None = None, budget: Budget | None = None
 ) -> HighestSpeed:
@@ -157,7 +157,7 @@ def _calm(search: Search) -> float:
     return search.path.calm(2.0 * kernels.SINE_LIMIT / search.rings.all_chord)
 
 
-@asked_of("dance", Dance)
+@question_about("dance", Dance)
 def maximum_head_speed(
     dance: Dance,
     speed_limit: float,
@@ -182,7 +182,7 @@ def maximum_head_speed(
     return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time, found.passage)
 
 
-@asked_of("dance", Dance, "the first time that a handle is too fast was not found")
+@question_about("dance", Dance, "the first time that a handle is too fast was not found")
 def first_excess(
     dance: Dance,
     speed_limit: float,

@@ -48,15 +48,15 @@ from core import kernels
 from core.claims.certificate import Certificate
 from core.claims.claim import ClaimKind, GroundClaim
 from core.dance import Dance
+from core.display import Readable, WithArrays, format_count
 from core.dragon import Dragon
 from core.error_free import paired
-from core.errors import InvalidValue, asked_of, checked_number, checked_point, listed
+from core.errors import InvalidValue, checked_list, checked_number, checked_point, question_about
 from core.ground.tracks import Track, tracks
 from core.kernels import Budget
 from core.kernels.constants import CHORD, CORNER_PULL, FREE, HALF_LENGTH, HALF_WIDTH, RADIUS
 from core.shapes.engines import GRID, GROWTH_MOST, Polygons, distance_from, united
 from core.shapes.rectangles import bench_outlines
-from core.shown import Readable, WithArrays, counted
 from core.values import Floats
 
 # Least and largest excess that a question may ask for [m].
@@ -109,7 +109,7 @@ class Envelope(WithArrays):
 
     def _rows(self) -> list[tuple[str, str]]:
         points = sum(len(ring) for rings in self.polygons for ring in rings)
-        words = f"{counted(len(self.polygons), 'polygon')}, {points} points"
+        words = f"{format_count(len(self.polygons), 'polygon')}, {points} points"
         return [("polygons", words), *((name, text) for name, text in Readable._rows(self) if name != "polygons")]
 
     def distance(self, line: object) -> float:
@@ -118,13 +118,15 @@ class Envelope(WithArrays):
         line: [(x, y), ...] [m]. No bench comes nearer to it than this, and one comes within this plus the excess.
         raises: InvalidValue (line)
         """
-        points = [checked_point(f"line.{k}", point) for k, point in enumerate(listed("line", line, "a list of points"))]
+        points = [
+            checked_point(f"line.{k}", point) for k, point in enumerate(checked_list("line", line, "a list of points"))
+        ]
         if not points:
             raise InvalidValue("line", "must have at least one point")
         return distance_from(self.polygons, np.array(points))
 
 
-@asked_of("dance", Dance, "the ground that benches sweep was not found")
+@question_about("dance", Dance, "the ground that benches sweep was not found")
 def envelope(
     dance: Dance,
     *,

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.dance import Dance
-from core.errors import asked_of
+from core.errors import question_about
 from core.kernels import Budget
 from core.kernels.constants import CHAIN_COLUMNS, CHORD, LAG, SIZE_COLUMNS
 from core.values import Floats
@@ -15,7 +15,7 @@ from core.values import Floats
 STEP, ROWS_MAX = 0.25, 2_000
 
 
-@asked_of("dance", Dance)
+@question_about("dance", Dance)
 def handle_places(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Floats:
     """Arc length s of every handle along the path.
 
@@ -30,7 +30,7 @@ def handle_places(dance: Dance, times: ArrayLike, *, budget: Budget | None = Non
     return _behind(dance, np.array([dance.clock.travel(time) for time in asked.tolist()]), budget or Budget())
 
 
-@asked_of("dance", Dance, "the places of the handles were not found")
+@question_about("dance", Dance, "the places of the handles were not found")
 def _behind(dance: Dance, travels: Floats, budget: Budget) -> Floats:
     """Arc lengths (T, n + 1) of all handles for travels (T,) of the head [m]. raises: TooMuchWork"""
     path, last = dance.path, dance.dragon.benches

@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike
 
 from core import plots
 from core.dance import Clock, Dance
+from core.display import WithArrays, display, format_range
 from core.error_free import paired, two_product, two_sum
-from core.errors import asked_of
+from core.errors import question_about
 from core.kernels import Budget
 from core.paths.frame import WORLD
 from core.shapes.rectangles import bench_outlines
-from core.shown import WithArrays, extent, worded
 from core.tables import data_frame, data_set
 from core.values import Floats
 
@@ -45,7 +45,7 @@ class Trajectory(WithArrays):
     dance: Dance | None = field(default=None, kw_only=True, repr=False, compare=False)
 
     def _line(self) -> str:
-        speeds = f", {extent(self.speed, 'm/s')}" if self.speed.size else ""
+        speeds = f", {format_range(self.speed, 'm/s')}" if self.speed.size else ""
         return f"{instants(self.time)}; {self.speed.shape[-1]} handles{speeds}"
 
     def to_dataframe(self) -> pandas.DataFrame:
@@ -118,7 +118,7 @@ def exact_travels(clock: Clock, times: Floats) -> Floats:
     return paired(travel, rest + (more + lost * speeds))
 
 
-@asked_of("dance", Dance, "the trajectory was not computed")
+@question_about("dance", Dance, "the trajectory was not computed")
 def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) -> Trajectory:
     """Position and velocity of every handle at every time.
 
@@ -170,5 +170,5 @@ def instants(time: Floats) -> str:
     '3 instants from 0 to 2 s'
     """
     if time.size < 2:
-        return f"{time.size} instants" if not time.size else f"1 instant at {worded(time.item(0), 's')}"
-    return f"{time.size} instants from {extent(time, 's')}"
+        return f"{time.size} instants" if not time.size else f"1 instant at {display(time.item(0), 's')}"
+    return f"{time.size} instants from {format_range(time, 's')}"

@@ -10,11 +10,11 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.errors import Given, InvalidValue, checked_number, checked_size, listed
+from core.display import REPR_MOST, Readable
+from core.errors import Given, InvalidValue, checked_list, checked_number, checked_size
 from core.kernels import Budget
 from core.paths.pieces import LENGTH_MIN, WAYPOINT_GAP, Arc, Line, Piece, Waypoints, checked_points, point_too_near
 from core.paths.route import Route
-from core.shown import REPR_MOST, Readable
 from core.values import Floats, Point
 
 # Default radius of an arc at a corner [m].
@@ -70,8 +70,8 @@ class Legs(Route):
 
     def __repr__(self) -> str:
         given = f"{list(self.points)!r}, {sorted(self.straight)!r}, radius={self.radius!r}, start={self.start!r}"
-        listed = f"Legs({given}{self._ends})"
-        return listed if len(listed) <= REPR_MOST else Readable.__repr__(self)
+        text = f"Legs({given}{self._ends})"
+        return text if len(text) <= REPR_MOST else Readable.__repr__(self)
 
     def _laid_out(self, start_heading: float | None, end_heading: float | None) -> tuple[list[Piece], list[int]]:
         """Lines, arcs and curves in the order of the dance, and the first point of each."""
@@ -132,7 +132,7 @@ class Legs(Route):
 
 def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
     """The straight legs, each a whole number below the number of legs. raises: InvalidValue"""
-    given = listed("path.straight", straight, "a list of legs")
+    given = checked_list("path.straight", straight, "a list of legs")
     for k, leg in enumerate(given):
         name = f"path.straight.{k}"
         if checked_number(name, leg, "", 0, legs - 1) != int(leg):

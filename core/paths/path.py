@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Protocol, Self
 
 from core import kernels
+from core.display import Readable
 from core.paths.frame import Frame
-from core.shown import Readable
 from core.values import Floats
 
 Columns = tuple[Floats, Floats, Floats]

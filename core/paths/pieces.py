@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import kernels
+from core.display import REPR_MOST, Readable
 from core.error_free import two_product, two_sum
-from core.errors import InvalidValue, Quantity, checked_angle, checked_number, checked_point, checked_size, listed
+from core.errors import InvalidValue, Quantity, checked_angle, checked_list, checked_number, checked_point, checked_size
 from core.kernels import Budget
 from core.kernels.constants import COIL_ARC_LOW, COIL_GROWTH_LOW, S_END, S_END_LOW, S_START, S_START_LOW
 from core.paths.cubics import cut
-from core.shown import REPR_MOST, Readable
 from core.values import Floats, Point
 
 # Least distance between two consecutive waypoints [m]: nearer ones are a mistake.
@@ -38,7 +38,7 @@ def point_too_near(name: str, gap: float) -> InvalidValue:
 
 def checked_points(name: str, value: object) -> tuple[Point, ...]:
     """The value as two points or more. raises: InvalidValue"""
-    given = listed(name, value, "a list of points [x, y] in metres")
+    given = checked_list(name, value, "a list of points [x, y] in metres")
     if len(given) < 2:
         raise InvalidValue(name, "must be at least 2 points", got=len(given))
     return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(given))
@@ -157,8 +157,8 @@ class Waypoints(Readable):
                 _settle(self, **{name: checked_angle(f"waypoints.{name}", heading)})
 
     def __repr__(self) -> str:
-        listed = f"Waypoints({self.points!r}, {self.start_heading!r}, {self.end_heading!r})"
-        return listed if len(listed) <= REPR_MOST else super().__repr__()
+        text = f"Waypoints({self.points!r}, {self.start_heading!r}, {self.end_heading!r})"
+        return text if len(text) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
         return f"{len(self.points)} points from {self.points[0]!r} to {self.points[-1]!r} m"

@@ -9,8 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.display import REPR_MOST, TABLE_DIGITS, Readable, display, format_count
 from core.error_free import paired
-from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_number, listed, too_much
+from core.errors import Given, InvalidValue, Parameter, Quantity, Value, checked_list, checked_number, too_much
 from core.kernels import Budget, Halted
 from core.kernels.constants import (
     K_END,
@@ -28,7 +29,6 @@ from core.kernels.constants import (
 from core.paths.frame import WORLD
 from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Arc, Coil, Line, Piece
-from core.shown import REPR_MOST, TABLE_DIGITS, Readable, counted, worded
 from core.values import Floats
 
 # Largest drawn distance from the start of a route [m], and number of points.
@@ -65,7 +65,7 @@ class Route(Readable):
 
     def __init__(self, pieces: Sequence[Piece], start: float = 0.0, *, budget: Budget | None = None) -> None:
         budget = budget or Budget()
-        self.pieces: tuple[Piece, ...] = tuple(listed("path.pieces", pieces, "a list of pieces"))
+        self.pieces: tuple[Piece, ...] = tuple(checked_list("path.pieces", pieces, "a list of pieces"))
         if not self.pieces:
             raise InvalidValue("path.pieces", "must hold at least one piece")
         self.start = checked_number("path.start", start, "m", -1e9, 1e9)
@@ -152,20 +152,24 @@ class Route(Readable):
         return hash(self._given)
 
     def __repr__(self) -> str:
-        listed = f"Route({list(self.pieces)!r}, start={self.start!r})"
-        return listed if len(listed) <= REPR_MOST else super().__repr__()
+        text = f"Route({list(self.pieces)!r}, start={self.start!r})"
+        return text if len(text) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
         kinds = ", ".join(type(piece).__name__ for piece in self.pieces[:4])
         more = ", ..." if len(self.pieces) > 4 else ""
-        pieces = f"{counted(len(self.pieces), 'piece')} ({kinds}{more})"
-        return f"{pieces}, s from {worded(self.begin)} to {worded(self.end, 'm')}"
+        pieces = f"{format_count(len(self.pieces), 'piece')} ({kinds}{more})"
+        return f"{pieces}, s from {display(self.begin)} to {display(self.end, 'm')}"
 
     def _rows(self) -> list[tuple[str, str]]:
         rows = [(f"piece {k}", str(piece)) for k, piece in enumerate(self.pieces[:PIECES_LISTED])]
         more = len(self.pieces) - PIECES_LISTED
         rows += [("other pieces", str(more))] if more > 0 else []
-        return [*rows, ("begin", worded(self.begin, "m", TABLE_DIGITS)), ("end", worded(self.end, "m", TABLE_DIGITS))]
+        return [
+            *rows,
+            ("begin", display(self.begin, "m", TABLE_DIGITS)),
+            ("end", display(self.end, "m", TABLE_DIGITS)),
+        ]
 
     def _points(self, s: Floats | float) -> Floats:
         flat = paired(np.asarray(s, dtype=np.float64).reshape(-1))

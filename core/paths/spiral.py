@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from core import kernels
+from core.display import TABLE_DIGITS, Readable, display
 from core.dragon import Dragon
 from core.error_free import paired
 from core.errors import Given, InvalidValue, checked_angle, checked_number, checked_point, checked_size
@@ -20,7 +21,6 @@ from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Coil
 from core.paths.route import Route
 from core.sampling import bisected
-from core.shown import TABLE_DIGITS, Readable, worded
 from core.values import Floats, Point
 
 START_TURNS_MAX = 1e5
@@ -86,7 +86,7 @@ class Spiral(Readable):
         return f"Spiral({given})"
 
     def _rows(self) -> list[tuple[str, str]]:
-        return [*super()._rows(), ("length", worded(self.length, "m", TABLE_DIGITS))]
+        return [*super()._rows(), ("length", display(self.length, "m", TABLE_DIGITS))]
 
     # The head enters at s = 0 and may go to the centre; the tail is on the outward extension, which has no end.
     begin = 0.0

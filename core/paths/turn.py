@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from core import kernels
+from core.display import TABLE_DIGITS, display
 from core.errors import SIZE_MAX, SIZE_MIN, InvalidValue, Quantity, checked_number, checked_size, quantities
 from core.paths.pieces import LENGTH_MIN, Arc, Coil
 from core.paths.route import Route
-from core.shown import TABLE_DIGITS, worded
 from core.values import Floats, Point
 
 RATIO_MIN = 0.01
@@ -111,7 +111,7 @@ class Turn(Route):
         units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "exit_radius", "radii", "length"), "m")
         units |= {"ratio": "", "angles": "rad"} | dict.fromkeys(("centres", "entry", "tangent_point", "exit"), "m")
         named = [(name, getattr(self, name), unit) for name, unit in units.items()]
-        return [(name.replace("_", " "), worded(value, unit, TABLE_DIGITS)) for name, value, unit in named]
+        return [(name.replace("_", " "), display(value, unit, TABLE_DIGITS)) for name, value, unit in named]
 
 
 class Arcs(NamedTuple):

@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import Quantity, said
+from core.errors import Quantity, format_number
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, Side
 from core.proof.pairs import Benches, Size, TouchingLine, Unproven, above, below
 
@@ -79,7 +79,7 @@ class Chain(Follower["Pose"]):
     @staticmethod
     def named(theta: float) -> Quantity:
         """A place in a message."""
-        return Quantity(theta, "rad", shown=f"theta = {said(theta)} rad")
+        return Quantity(theta, "rad", text=f"theta = {format_number(theta)} rad")
 
     def pose_at(self, bench: int, place: arb) -> Pose:
         """A bench and those behind it when its front handle is at a place [rad]."""

@@ -13,7 +13,7 @@ from flint import arb
 from core.contact.search import MARGIN_MAX
 from core.dance import checked_head_speed
 from core.dragon import Dragon
-from core.errors import SIZE_MIN, ProofRefused, Quantity, Value, checked_number, checked_size, quantities, said
+from core.errors import SIZE_MIN, ProofRefused, Quantity, Value, checked_number, checked_size, format_number, quantities
 from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
@@ -26,7 +26,7 @@ from core.values import Progress
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
 TIME_BRACKET = "1e-10"
 PITCH_STEP = "1e-6"
-STEP: dict[str, Value] = {"step": Quantity(float(PITCH_STEP), "m", shown=f"{PITCH_STEP} m")}
+STEP: dict[str, Value] = {"step": Quantity(float(PITCH_STEP), "m", text=f"{PITCH_STEP} m")}
 # A fold is proven between two places of the head, each at this relative distance from the place that doubles find [1].
 # Doubles are within 1e-12 of it; if the fold only just exists, 12. finds no wall from farther away.
 FOLD_WITHIN = (1e-9, 1e-11)
@@ -186,10 +186,10 @@ class MinimumPitchClaim(SpiralClaim):
             if not circle > less.start:
                 raise Unproven("the start is not shown to lie within the circle with {step} less", **STEP)
             why = "the start lies within the circle"
-        danced = f"{dragon_words(self.dragon)} on the spiral inwards from {said(self.start_turns)} turns"
-        until = f"until the head is {said(self.turning_radius)} m from the centre, and with {PITCH_STEP} m less {why}"
-        clear = f"with pitch {said(self.pitch)} m every bench follows and {apart_words(self.margin)}"
-        return f"{danced}: {clear} {until}. This says nothing of larger pitches."
+        danced = f"{dragon_words(self.dragon)} on the spiral inwards from {format_number(self.start_turns)} turns"
+        until = f"until the head is {format_number(self.turning_radius)} m from the centre"
+        clear = f"with pitch {format_number(self.pitch)} m every bench follows and {apart_words(self.margin)}"
+        return f"{danced}: {clear} {until}, and with {PITCH_STEP} m less {why}. This says nothing of larger pitches."
 
 
 def checked_margin(margin: float) -> float:
@@ -205,7 +205,7 @@ def settle(claim: object, **checked: float) -> None:
 
 def soon_after(time: float, bracket: str = TIME_BRACKET) -> Quantity:
     """The end of the bracket after a time in a message [s]."""
-    return Quantity(time + float(bracket), "s", shown=f"{said(time)} + {bracket} s")
+    return Quantity(time + float(bracket), "s", text=f"{format_number(time)} + {bracket} s")
 
 
 def near_pair(chain: AnyChain, head: arb, time: float) -> list[int]:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from flint import arb
 
 from core.dance import Dance, EndReason
-from core.errors import Given, InvalidValue, said
+from core.errors import Given, InvalidValue, format_number
 from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, soon_after, verify_near
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
@@ -66,7 +66,7 @@ class ClearClaim(DanceClaim):
         return {}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
-        span = f"from {said(self.start)} s to {said(self.stop)} s{self._ending()}"
+        span = f"from {format_number(self.start)} s to {format_number(self.stop)} s{self._ending()}"
         return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {apart_words(self.margin)} {span}."
 
     def _ending(self) -> str:

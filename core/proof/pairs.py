@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from flint import acb, arb
 
-from core.errors import Parameter, ProofRefused, Value, filled
+from core.errors import Parameter, ProofRefused, Value, fill_template
 
 
 class Unfinished(Exception):
@@ -18,7 +18,7 @@ class Unfinished(Exception):
         self.template, self.values = template, values
 
     def __str__(self) -> str:
-        return filled(self.template, self.values)
+        return fill_template(self.template, self.values)
 
 
 class Unproven(Unfinished):

@@ -13,8 +13,9 @@ from typing import Any
 
 from flint import acb, arb
 
+from core.display import format_count
 from core.dragon import Dragon
-from core.errors import InvalidValue, Parameter, said
+from core.errors import InvalidValue, Parameter, format_number
 from core.paths import pieces
 from core.paths.route import Route
 from core.paths.spiral import Spiral
@@ -22,7 +23,6 @@ from core.paths.turn import Turn
 from core.proof.chain import Chain
 from core.proof.route import Coil, Path, Piece, RouteChain
 from core.proof.words import spiral_words
-from core.shown import counted
 
 Record = Mapping[str, Any]
 
@@ -90,14 +90,14 @@ def described(record: Record) -> str:
     if record["kind"] == "spiral":
         return spiral_words(record["pitch"], record["start_turns"])
     if record["kind"] in ("turn", "free_turn"):
-        entered = f"which it enters {said(record['entry_radius'])} m from the centre at 0 s"
+        entered = f"which it enters {format_number(record['entry_radius'])} m from the centre at 0 s"
         if "exit_radius" in record:
-            entered += f" and leaves {said(record['exit_radius'])} m from it"
-        coils = f"spirals of pitch {said(record['pitch'])} m and {said(record['start_turns'])} turns"
-        return f"the turn of ratio {said(record['ratio'])}, {entered}, between {coils}"
+            entered += f" and leaves {format_number(record['exit_radius'])} m from it"
+        coils = f"spirals of pitch {format_number(record['pitch'])} m and {format_number(record['start_turns'])} turns"
+        return f"the turn of ratio {format_number(record['ratio'])}, {entered}, between {coils}"
     kinds = ", ".join(piece["kind"] for piece in record["pieces"])
-    place = f"its s = 0 at {said(record['start'])} m from its beginning"
-    return f"the route of {counted(len(record['pieces']), 'piece')} ({kinds}), joined exactly, {place}"
+    place = f"its s = 0 at {format_number(record['start'])} m from its beginning"
+    return f"the route of {format_count(len(record['pieces']), 'piece')} ({kinds}), joined exactly, {place}"
 
 
 def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChain:

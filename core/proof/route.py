@@ -11,7 +11,7 @@ from itertools import pairwise
 from flint import acb, arb
 
 from core.dragon import Dragon
-from core.errors import Quantity, said
+from core.errors import Quantity, format_number
 from core.proof.chain import GUESS_RADIUS, Follower, delta, newton
 from core.proof.pairs import Benches, Unproven, above
 
@@ -243,7 +243,7 @@ class RouteChain(Follower["RoutePose"]):
     @staticmethod
     def named(place: float) -> Quantity:
         """A place in a message."""
-        return Quantity(-place, "m", shown=f"s = {said(-place)} m")
+        return Quantity(-place, "m", text=f"s = {format_number(-place)} m")
 
     def place_after(self, way: arb) -> arb:
         """Place of the head after this way from s = 0. way: [m], negative before it; returns [m]."""

@@ -11,7 +11,7 @@ from flint import acb, arb
 
 from core.dance import Dance
 from core.dragon import checked_stray
-from core.errors import InvalidValue, Quantity, said
+from core.errors import InvalidValue, Quantity, format_number
 from core.paths.spiral import Spiral
 from core.proof.chain import Chain
 from core.proof.claims import SpiralClaim, checked_pair, settle
@@ -64,14 +64,14 @@ class ToleranceClaim(SpiralClaim):
         return {}
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
-        span = f"from {said(self.start)} s to {said(self.stop)} s"
-        kept = f"while every hole is within {said(self.stray)} m of its place and every chord keeps its length"
+        span = f"from {format_number(self.start)} s to {format_number(self.stop)} s"
+        kept = f"while every hole is within {format_number(self.stray)} m of its place and every chord keeps its length"
         dance = danced_words(self.dragon, self.head_speed, spiral_words(self.pitch, self.start_turns))
         words = f"{dance}: {kept}, {apart_words(0.0)} {span}"
         if self.shown is None:
             return f"{words}."
         a, b = self._verify_pose(overlap, self.shown)
-        shown = f"in a pose with strays below {said(self.shown)} m at {said(overlap['time'])} s"
+        shown = f"in a pose with strays below {format_number(self.shown)} m at {format_number(overlap['time'])} s"
         return f"{words}, and benches {a} and {b} overlap {shown}."
 
     def _verify_pose(self, overlap: dict[str, Any], most: float) -> list[int]:

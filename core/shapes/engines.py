@@ -52,7 +52,7 @@ def able(margin: float) -> list[Engine]:
     return [engine for engine in Engine if margin == 0.0 or engine is not Engine.ANGLE_SUM]
 
 
-def found_pairs(
+def engine_pairs(
     engine: Engine, poses: Floats, sizes: Floats, margin: float, *, chained: bool, budget: Budget | None = None
 ) -> list[Pairs]:
     """The pairs (P, 2) within the margin that an engine finds at each instant: a < b, sorted.

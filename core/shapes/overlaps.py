@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from core.display import Readable, WithArrays, display, format_count
 from core.errors import (
     SIZE_MAX,
     SIZE_MIN,
@@ -17,15 +18,14 @@ from core.errors import (
     InvalidValue,
     Parameter,
     Value,
-    asked_of,
     checked_number,
     from_to,
     quantities,
+    question_about,
 )
 from core.kernels import Budget
-from core.shapes.engines import JUDGES, Engine, able, found_pairs
+from core.shapes.engines import JUDGES, Engine, able, engine_pairs
 from core.shapes.rectangles import Pairs, Separation, frames, frames_separation
-from core.shown import Readable, WithArrays, counted, worded
 from core.values import Floats
 
 # Largest value [m], far beyond any dance: a double resolves only 1e-7 m there.
@@ -51,7 +51,7 @@ class Overlaps(WithArrays):
     contact: Separation
 
     def _line(self) -> str:
-        return f"{counted(len(self.pairs), 'pair')}, separation {worded(self.contact.separation, 'm')}"
+        return f"{format_count(len(self.pairs), 'pair')}, separation {display(self.contact.separation, 'm')}"
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -73,10 +73,10 @@ class CrossCheck(WithArrays):
 
     def _rows(self) -> list[tuple[str, str]]:
         counts = [
-            (engine.value, f"{counted(len(pairs), 'pair')}, {len(self.only[engine])} not found by all")
+            (engine.value, f"{format_count(len(pairs), 'pair')}, {len(self.only[engine])} not found by all")
             for engine, pairs in self.pairs.items()
         ]
-        return [("agree", worded(self.agree)), *counts, ("left out", worded(self.left_out))]
+        return [("agree", display(self.agree)), *counts, ("left out", display(self.left_out))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +87,7 @@ class Verdict(Readable):
     after: bool
 
 
-@asked_of("poses", object, "the overlapping pairs were not found")
+@question_about("poses", object, "the overlapping pairs were not found")
 def overlaps(
     poses: ArrayLike,
     lengths: ArrayLike,
@@ -113,12 +113,12 @@ def overlaps(
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
     if not isinstance(engine, str) or engine not in list(Engine):
         raise InvalidValue("engine", "must be one of {engines}", got=Given(engine), engines=", ".join(Engine))
-    (pairs,) = found_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)
+    (pairs,) = engine_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)
     frame = frames(pose, size)
     return Overlaps(pairs, frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]]))
 
 
-@asked_of("poses", object, "the overlapping pairs were not found by all engines")
+@question_about("poses", object, "the overlapping pairs were not found by all engines")
 def cross_check(
     poses: ArrayLike,
     lengths: ArrayLike,
@@ -134,7 +134,7 @@ def cross_check(
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
     found = {
-        engine: found_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)[0]
+        engine: engine_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)[0]
         for engine in able(margin)
     }
     codes = {engine: pairs[:, 0] * len(pose) + pairs[:, 1] for engine, pairs in found.items()}

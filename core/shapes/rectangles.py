@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
+from core.display import WithArrays, display
 from core.dragon import Dragon
-from core.errors import InvalidValue, Quantity, TooLarge, asked_of
+from core.errors import InvalidValue, Quantity, TooLarge, question_about
 from core.kernels import Budget
-from core.shown import WithArrays, worded
 from core.values import Floats
 
 Pairs = NDArray[np.int64]
@@ -70,8 +70,8 @@ class Separation(WithArrays):
 
     def _line(self) -> str:
         if not self.separation.ndim:
-            return worded(self.separation.item(), "m")
-        return worded(self.separation, "m")
+            return display(self.separation.item(), "m")
+        return display(self.separation, "m")
 
 
 def frames_separation(a: Floats, b: Floats) -> Separation:
@@ -136,7 +136,7 @@ def bench_poses(handles: Floats) -> Floats:
     return np.concatenate([middle, heading[..., None]], axis=-1)
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def bench_outlines(dragon: Dragon, handles: Floats) -> Floats:
     """Corners of every bench: front-left, front-right, rear-right, rear-left.
 

@@ -22,12 +22,12 @@ from core import kernels
 from core.claims.certificate import Certificate
 from core.claims.claim import ClaimKind, ProbabilityClaim
 from core.dance import Dance
+from core.display import WithArrays, display, format_count
 from core.error_free import paired
-from core.errors import Given, InvalidValue, Quantity, asked_of, checked_type, too_much
+from core.errors import Given, InvalidValue, Quantity, checked_type, question_about, too_much
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
 from core.shapes.reach import gains
-from core.shown import WithArrays, counted, worded
 from core.tolerance.tolerance import tolerance
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME, Wobble, check_sizes
@@ -95,11 +95,11 @@ class ContactProbability(WithArrays, Certificate):
 
     def _line(self) -> str:
         low, high = self.limits
-        count = f"{counted(self.contacts, 'contact')} in {counted(self.samples, 'sample')}"
-        return f"{worded(self.probability)}, between {low:.6g} and {high:.6g}: {count}"
+        count = f"{format_count(self.contacts, 'contact')} in {format_count(self.samples, 'sample')}"
+        return f"{display(self.probability)}, between {low:.6g} and {high:.6g}: {count}"
 
 
-@asked_of("dance", Dance)
+@question_about("dance", Dance)
 def contact_probability(
     dance: Dance,
     model: Wobble,

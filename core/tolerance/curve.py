@@ -10,11 +10,11 @@ import numpy as np
 
 from core import plots
 from core.dance import Dance
+from core.display import WithArrays, format_range
 from core.dragon import Dragon
-from core.errors import Given, InvalidValue, Quantity, TooMuchWork, asked_of, checked_size, too_much
+from core.errors import Given, InvalidValue, Quantity, TooMuchWork, checked_size, question_about, too_much
 from core.kernels import Budget
 from core.paths.spiral import Spiral
-from core.shown import WithArrays, extent
 from core.tables import data_frame
 from core.tolerance.tolerance import Tolerance, tolerance
 from core.values import Floats, Progress, unheard
@@ -39,7 +39,7 @@ class ToleranceCurve(WithArrays):
     tolerances: tuple[Tolerance, ...]
 
     def _line(self) -> str:
-        return f"strays of {extent(self.stray, 'm')} at pitches of {extent(self.pitch, 'm')}"
+        return f"strays of {format_range(self.stray, 'm')} at pitches of {format_range(self.pitch, 'm')}"
 
     def to_dataframe(self) -> pandas.DataFrame:
         """One row for each pitch: pitch, stray [m], limited_by. raises: ImportError without pandas, naming the extra"""
@@ -61,7 +61,7 @@ class ToleranceCurve(WithArrays):
         return axes
 
 
-@asked_of("dragon", Dragon)
+@question_about("dragon", Dragon)
 def tolerance_curve(
     dragon: Dragon,
     pitches: Floats | Sequence[float],

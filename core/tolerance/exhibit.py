@@ -23,9 +23,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.display import WithArrays, display
 from core.dragon import Dragon
 from core.shapes.rectangles import bench_poses, frames, frames_separation
-from core.shown import WithArrays, worded
 from core.tolerance.between import DEPTH, touching_pose
 from core.values import Floats
 
@@ -60,7 +60,9 @@ class Exhibit(WithArrays):
     def _line(self) -> str:
         a, b = self.benches
         other = "the venue" if b is None else f"bench {b}"
-        return f"bench {a} and {other} overlap by {worded(self.depth, 'm')} with strays up to {worded(self.stray, 'm')}"
+        return (
+            f"bench {a} and {other} overlap by {display(self.depth, 'm')} with strays up to {display(self.stray, 'm')}"
+        )
 
 
 @dataclass(frozen=True, slots=True)

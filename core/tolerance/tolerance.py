@@ -18,12 +18,12 @@ from core.claims.claim import BenchBetween, ClaimKind, DanceSummary, StrayClaim
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges
 from core.dance import Dance
-from core.errors import asked_of, checked_type
+from core.display import Readable, display
+from core.errors import checked_type, question_about
 from core.kernels import Budget
 from core.motion.trajectory import trajectory
 from core.paths.frame import Frame
 from core.shapes.rectangles import bench_poses, frames, frames_separation
-from core.shown import Readable, worded
 from core.tolerance.exhibit import Body, Exhibit, exhibit
 from core.tolerance.safe import Field, SafeStray, held_stray
 from core.venue import Venue
@@ -77,16 +77,16 @@ class Tolerance(Readable):
     certificate: StrayProof
 
     def _line(self) -> str:
-        safe = f"strays up to {worded(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
+        safe = f"strays up to {display(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
         shown = self.stray_bracket[1]
         if shown is None or self.benches is None:
             return safe
         other = self.area if self.benches[1] is None else f"bench {self.benches[1]}"
-        touch = f"bench {self.benches[0]} and {other} touch at {worded(self.time, 's')}"
-        return f"{safe}; with {worded(shown, 'm')} {touch}"
+        touch = f"bench {self.benches[0]} and {other} touch at {display(self.time, 's')}"
+        return f"{safe}; with {display(shown, 'm')} {touch}"
 
 
-@asked_of("dance", Dance, "how far people may stray was not found")
+@question_about("dance", Dance, "how far people may stray was not found")
 def tolerance(
     dance: Dance,
     venue: Venue | None = None,

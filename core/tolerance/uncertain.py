@@ -25,7 +25,7 @@ import numpy as np
 from core import kernels
 from core.contact.search import Search
 from core.dragon import Dragon
-from core.errors import asked_of, checked_number, checked_size
+from core.errors import checked_number, checked_size, question_about
 from core.kernels import Budget
 from core.paths.spiral import Spiral
 from core.sampling import bisected
@@ -35,7 +35,7 @@ from core.shapes.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 WIDTH = 1e-6
 
 
-@asked_of("dragon", Dragon, "the stray that is safe in spite of errors was not found")
+@question_about("dragon", Dragon, "the stray that is safe in spite of errors was not found")
 def uncertain_tolerance(
     dragon: Dragon,
     pitch: float,

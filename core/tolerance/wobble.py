@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 from core.dance import Dance
+from core.display import Readable
 from core.dragon import wider_pin
 from core.errors import SIZE_MAX, InvalidValue, Parameter, Quantity, checked_number, quantities
-from core.shown import Readable
 
 # Least number of instants in a correlation time [1].
 INSTANTS_PER_TIME = 5

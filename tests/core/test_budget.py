@@ -58,7 +58,7 @@ from core import (
     uncertain_tolerance,
     venue_clearance,
 )
-from core.errors import spoken
+from core.errors import format_field
 from tests.core.every_digit import every_digit
 
 # A question ends this soon after it was stopped, however busy the machine is [s].
@@ -119,7 +119,7 @@ def test_a_stopped_question_ends_and_says_what_was_too_much(name: str) -> None:
         QUESTIONS[name](budget)
     error = caught.value
     assert error.stopped
-    assert error.message.startswith(f"{spoken(error.field)} must ")
+    assert error.message.startswith(f"{format_field(error.field)} must ")
     assert error.named("renamed").stopped
 
 

@@ -27,15 +27,15 @@ from core.errors import (
     Quantity,
     TooLarge,
     TooMuchWork,
+    checked_list,
     checked_number,
     checked_size,
     checked_type,
-    filled,
-    listed,
+    fill_template,
+    format_bound,
+    format_field,
+    format_number,
     quantities,
-    said,
-    said_bound,
-    spoken,
 )
 
 pytestmark = pytest.mark.uncompiled
@@ -170,30 +170,35 @@ def test_a_value_of_another_type_is_refused_by_what_it_must_be() -> None:
 
 def test_what_a_caller_gave_may_hold_braces() -> None:
     assert InvalidValue("pitch", "must be a number", got=Given({"low": 1}), low=2).message.endswith("got {'low': 1}")
-    assert filled("{a} and {b}", {"a": "{b}", "b": 1.0}) == "{b} and 1"
+    assert fill_template("{a} and {b}", {"a": "{b}", "b": 1.0}) == "{b} and 1"
 
 
 @pytest.mark.parametrize("number", [432.9179242286, -432.9179242286, 0.1, -0.1, 1e-12, 5.0])
 @pytest.mark.parametrize("decimals", [0, 3, 9])
 def test_a_bound_is_rounded_to_the_side_on_which_it_is_true(number: float, decimals: int) -> None:
-    low, high = (float(said_bound(number, decimals, up=up)) for up in (False, True))
+    low, high = (float(format_bound(number, decimals, up=up)) for up in (False, True))
     assert low <= number <= high
     assert high - low <= 1.000001 * 10.0**-decimals
 
 
 def test_numbers_and_fields_are_written_as_people_do() -> None:
-    assert [said(number) for number in (9.0, -0.0, 1e300, 0.1 + 0.2)] == ["9", "0", "1e+300", "0.30000000000000004"]
-    assert spoken("path.pieces.0.points.12") == "path.pieces[0].points[12]"
-    assert spoken("dragon.width") == "dragon.width"
+    assert [format_number(number) for number in (9.0, -0.0, 1e300, 0.1 + 0.2)] == [
+        "9",
+        "0",
+        "1e+300",
+        "0.30000000000000004",
+    ]
+    assert format_field("path.pieces.0.points.12") == "path.pieces[0].points[12]"
+    assert format_field("dragon.width") == "dragon.width"
 
 
 @pytest.mark.parametrize("value", [[1, 2], (1, 2), range(1, 3), iter([1, 2])])
 def test_a_sequence_is_listed(value: Any) -> None:
-    assert listed("points", value, "a list of points") == [1, 2]
+    assert checked_list("points", value, "a list of points") == [1, 2]
 
 
 @pytest.mark.parametrize("value", ["ab", b"ab", {"a": 1}, 7, None])
 def test_what_is_no_sequence_is_refused_with_what_it_must_be(value: Any) -> None:
     with pytest.raises(InvalidValue) as refused:
-        listed("points", value, "a list of points")
+        checked_list("points", value, "a list of points")
     assert refused.value.message == f"points must be a list of points, got {value!r}"

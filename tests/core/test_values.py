@@ -9,7 +9,7 @@ import pytest
 
 import core
 from core.values import Floats, Point
-from tests.core.test_shown import DANCE, hints
+from tests.core.test_display import DANCE, hints
 
 FOUND = [
     core.trajectory(DANCE, [0, 300]),

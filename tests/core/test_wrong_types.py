@@ -48,7 +48,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
         "engine": core.Engine.FCL,
         "margin": 0.0,
     },
-    core.pitch_check: {"found": PITCH, "dragon": DRAGON, "margin": 0.0},
+    core.pitch_check: {"minimum": PITCH, "dragon": DRAGON, "margin": 0.0},
     core.pitch_scan: {"dragon": DRAGON, "pitches": [0.5, 0.6], "start_turns": 8.0, "margin": 0.0},
     core.quick_check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},

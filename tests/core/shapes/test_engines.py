@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from core.kernels import Budget
-from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, found_pairs, united
+from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, engine_pairs, united
 from tests.core.shapes.scenes import unlinked_pairs
 from tests.depth import examples
 
@@ -40,7 +40,7 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
     def found(asked: list[int]) -> set[tuple[int, int]]:
         scene, instant = asked
         poses, size = scenes[scene]
-        (pairs,) = found_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
+        (pairs,) = engine_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
         return {(a, b) for a, b in pairs.tolist()}
 
     wanted = [truth[scene][instant] for scene, instant in order]
@@ -53,9 +53,9 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
 def test_many_instants_at_once_are_as_one_by_one(engine: Engine) -> None:
     for poses, size in crowds(5):
         for chained in (True, False):
-            together = found_pairs(engine, poses, size, 0.0, chained=chained)
+            together = engine_pairs(engine, poses, size, 0.0, chained=chained)
             for instant, pairs in enumerate(together):
-                (alone,) = found_pairs(engine, poses[instant : instant + 1], size, 0.0, chained=chained)
+                (alone,) = engine_pairs(engine, poses[instant : instant + 1], size, 0.0, chained=chained)
                 np.testing.assert_array_equal(pairs, alone)
 
 

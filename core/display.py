@@ -1,4 +1,4 @@
-"""Short displays of values and results: one line in a console, a small table in a notebook."""
+"""How values and results print: one line in a console, a small table in a notebook."""
 
 from __future__ import annotations
 
@@ -55,20 +55,20 @@ class Readable:
 
     def _line(self) -> str:
         """The short fields, each with its unit; a bracket only if its two ends differ in these digits."""
-        differing = [one for one in self._told() if not _alike(*one[:2])]
-        told = [(name, worded(value, unit, LINE_DIGITS)) for name, value, unit in differing]
-        return ", ".join(f"{name} {text}" for name, text in told if len(text) <= TEXT_MOST)
+        values = [one for one in self._values() if not _alike(*one[:2])]
+        texts = [(name, display(value, unit, LINE_DIGITS)) for name, value, unit in values]
+        return ", ".join(f"{name} {text}" for name, text in texts if len(text) <= TEXT_MOST)
 
     def _rows(self) -> list[tuple[str, str]]:
         """Name and value of every row of the table."""
-        return [(name, worded(value, unit, TABLE_DIGITS)) for name, value, unit in self._told()]
+        return [(name, display(value, unit, TABLE_DIGITS)) for name, value, unit in self._values()]
 
-    def _told(self) -> list[tuple[str, object, str]]:
+    def _values(self) -> list[tuple[str, object, str]]:
         """Name, value and unit of every field that has a value."""
         every = [field.name for field in fields(self) if field.repr]  # type: ignore[arg-type]
         units = units_of(type(self))
-        told = [(name, getattr(self, name)) for name in every]
-        return [(name.replace("_", " "), value, units.get(name, "")) for name, value in told if value is not None]
+        values = [(name, getattr(self, name)) for name in every]
+        return [(name.replace("_", " "), value, units.get(name, "")) for name, value in values if value is not None]
 
 
 class WithArrays(Readable):
@@ -89,35 +89,35 @@ def units_of(kind: type) -> dict[str, str]:
     return UNITS | getattr(kind, "_units", {})
 
 
-def worded(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
-    """A value in words: numbers with their unit, an array by its shape and range, a result by its line.
+def display(value: object, unit: str = "", digits: int = LINE_DIGITS) -> str:
+    """The text that shows a value: numbers with their unit, an array by its shape and range, a result by its line.
 
-    >>> worded((2.5, 1 / 3), "m", 4)
+    >>> display((2.5, 1 / 3), "m", 4)
     '2.5, 0.3333 m'
-    >>> worded(np.arange(12.0).reshape(3, 4), "s")
+    >>> display(np.arange(12.0).reshape(3, 4), "s")
     'array of 3 x 4, 0 to 11 s'
-    >>> worded(np.array(2.5), "m"), worded(np.empty(0), "m")
+    >>> display(np.array(2.5), "m"), display(np.empty(0), "m")
     ('2.5 m', 'none')
     """
     if isinstance(value, np.ndarray):
         if value.size <= 1:
-            return extent(value, unit, digits) if value.size else "none"
-        return f"array of {' x '.join(map(str, value.shape))}, {extent(value, unit, digits)}"
+            return format_range(value, unit, digits) if value.size else "none"
+        return f"array of {' x '.join(map(str, value.shape))}, {format_range(value, unit, digits)}"
     if isinstance(value, (tuple, list)):
         return f"{_entries(value, digits) or 'none'} {unit if value else ''}".rstrip()
     return f"{_entry(value, digits)} {unit}".rstrip()
 
 
-def extent(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
+def format_range(values: Sequence[float] | np.ndarray, unit: str = "", digits: int = LINE_DIGITS) -> str:
     """The range of the values, or their common value. values: (...), not empty"""
     least, most = float(np.min(values)) + 0.0, float(np.max(values)) + 0.0  # no -0
     return f"{least:.{digits}g}{'' if least == most else f' to {most:.{digits}g}'} {unit}".rstrip()
 
 
-def counted(count: int, noun: str) -> str:
+def format_count(count: int, noun: str) -> str:
     """A count with its noun.
 
-    >>> counted(1, "pair"), counted(0, "graze")
+    >>> format_count(1, "pair"), format_count(0, "graze")
     ('1 pair', '0 grazes')
     """
     return f"{count} {noun}{'' if count == 1 else 's'}"
@@ -135,7 +135,7 @@ def _equal(one: object, other: object) -> bool:
 
 def _alike(name: str, value: object) -> bool:
     """True for a bracket whose two ends have the same digits in one line."""
-    return name.endswith(" bracket") and isinstance(value, tuple) and len({worded(end) for end in value}) == 1
+    return name.endswith(" bracket") and isinstance(value, tuple) and len({display(end) for end in value}) == 1
 
 
 def _entries(values: Sequence[object], digits: int) -> str:

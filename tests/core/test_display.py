@@ -27,8 +27,8 @@ from core import (
     Venue,
     Waypoints,
 )
+from core.display import WithArrays, display, format_range, units_of
 from core.errors import BenchDragonError
-from core.shown import WithArrays, extent, units_of, worded
 
 # A line of a console and a half: nothing public is longer [characters].
 LINE_MOST = 220
@@ -257,8 +257,8 @@ def test_a_table_has_every_field_with_its_unit() -> None:
 
 
 def test_zero_has_no_sign_and_an_unknown_bound_is_called_so() -> None:
-    assert extent([-0.0, 1.0], "m") == "0 to 1 m"
-    assert worded((1.5, None), "m/s") == "1.5, unknown m/s"
+    assert format_range([-0.0, 1.0], "m") == "0 to 1 m"
+    assert display((1.5, None), "m/s") == "1.5, unknown m/s"
 
 
 def test_a_name_in_a_table_is_escaped() -> None:
