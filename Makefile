@@ -85,7 +85,7 @@ serve: setup
 	@BENCH_DRAGON_DATA="$${BENCH_DRAGON_DATA:-data}" $(BIN)/bench-dragon serve --host $(HOST) --port $(PORT)
 
 test: test-setup
-	@$(BIN)/python tests/page/browser.py
+	@$(BIN)/python tests/support/browser.py
 	@$(BIN)/python -m pytest --numprocesses logical --dist worksteal $(ARGS)
 
 # Not with the settings of this make, which are for this machine.
@@ -93,16 +93,16 @@ machines:
 	@env -u MAKEFLAGS -u MAKELEVEL bash .ci/machines $(SUITES)
 
 hunt: test-setup
-	@$(BIN)/python -m tests.hunt $(or $(SECONDS),1200) $(SEED)
+	@$(BIN)/python -m tests.campaigns.hunt $(or $(SECONDS),1200) $(SEED)
 
 deep: setup
 	@DEEP=1 $(MAKE) --no-print-directory test
 
 rounding: test-setup
-	@$(BIN)/python -m tests.core.rounding_sweep $(or $(ARGS),10000)
+	@$(BIN)/python -m tests.campaigns.rounding_sweep $(or $(ARGS),10000)
 
 libreoffice: test-setup
-	@$(BIN)/python -m tests.app.grade.libreoffice $(ARGS)
+	@$(BIN)/python -m tests.campaigns.libreoffice $(ARGS)
 
 lint: test-setup
 	@$(BIN)/ruff check .
@@ -111,19 +111,19 @@ lint: test-setup
 	@$(BIN)/oxlint --quiet app/page
 
 sweep-pitch: test-setup
-	@$(BIN)/python -m tests.core.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)
+	@$(BIN)/python -m tests.campaigns.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)
 
 sweep-kills: test-setup
-	@$(BIN)/python -m tests.app.sweeps.kills $(or $(DESIGNS),200000) $(or $(KILLS),50) $(or $(FIRST),0)
+	@$(BIN)/python -m tests.campaigns.sweep_kills $(or $(DESIGNS),200000) $(or $(KILLS),50) $(or $(FIRST),0)
 
 job-kills: test-setup
-	@$(BIN)/python -m tests.app.jobs.kills $(or $(KILLS),50) $(or $(SEED),0)
+	@$(BIN)/python -m tests.campaigns.job_kills $(or $(KILLS),50) $(or $(SEED),0)
 
 soak: test-setup
-	@$(BIN)/python -m tests.app.soak $(or $(SECONDS),300) $(or $(FOLDER),build)
+	@$(BIN)/python -m tests.campaigns.soak $(or $(SECONDS),300) $(or $(FOLDER),build)
 
 fuzz: test-setup
-	@$(BIN)/python -m tests.app.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0) $(or $(FILES),5000)
+	@$(BIN)/python -m tests.campaigns.fuzz $(or $(CASES),10000) $(or $(MUTANTS),12000) $(or $(SEED),0) $(or $(FILES),5000)
 
 bench: test-setup
 	@$(BIN)/python -m benchmarks.report docs/performance.md
@@ -132,7 +132,7 @@ ccd: test-setup
 	@$(BIN)/python -m benchmarks.ccd --queries $(or $(QUERIES),100000) --seed $(or $(SEED),2026)
 
 examples: test-setup
-	@$(BIN)/python -m tests.app.renew_examples
+	@$(BIN)/python -m tests.support.renew_examples
 
 figures: test-setup
 	@$(BIN)/bench-dragon figures docs
@@ -147,7 +147,7 @@ dist: test-setup
 	@$(INSTALL) build/checks requirements-dist.lock
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
-	@build/checks/bin/python -m tests.wheels dist/*.whl
+	@build/checks/bin/python -m tests.support.wheels dist/*.whl
 
 # Processor time counts: on a busy machine the clock runs on.
 install-time: setup

@@ -14,8 +14,8 @@ import sys
 
 from playwright.sync_api import Page, sync_playwright
 
-from tests.page.browser import found
 from tests.page.conftest import ARGUMENTS, WIDE
+from tests.support.browser import found
 
 MOVES = 200
 POINTS = [(-170.0, 0.0), *((8.0 * k - 70.0, round(6.0 * math.sin(0.9 * k), 2)) for k in range(19))]

@@ -33,9 +33,8 @@ OUTER = tuple(json.loads(os.environ.setdefault("OUTER_VARIABLES", json.dumps(_DR
 os.environ |= {"LC_ALL": "C.UTF-8", "TERM": "xterm"}
 
 from core import kernels  # noqa: E402
-from tests import lock  # noqa: E402
-from tests.depth import DEEP  # noqa: E402
-from tests.page import browser  # noqa: E402
+from tests.support import browser, lock  # noqa: E402
+from tests.support.depth import DEEP  # noqa: E402
 
 ROOT = Path(__file__).parent.parent
 START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start takes about one

@@ -29,7 +29,7 @@ from benchmarks.ccd.series import Expansion
 from benchmarks.ccd.truth import covered, track
 from core import Spiral
 from core.proof.paths import chain_on, recorded_path
-from tests.depth import some
+from tests.support.depth import some
 
 SHARD = load_shard(SAMPLE)
 EVERYTHING = np.ones(len(SHARD), dtype=bool)

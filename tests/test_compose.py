@@ -18,10 +18,10 @@ import yaml
 from compose_spec import PyCompose
 
 from app.settings import Settings
-from tests.app.jobs.service import LINGER, PATIENCE, wait_for
 from tests.app.jobs.test_sweeps import SPEC, followed, undisturbed
-from tests.app.sweeps.kills import free_port
+from tests.campaigns.sweep_kills import free_port
 from tests.conftest import STOP_TIMEOUT, wait_until_live
+from tests.support.job_service import LINGER, PATIENCE, wait_for
 
 ROOT = Path(__file__).parent.parent
 FILE = yaml.safe_load((ROOT / "compose.yaml").read_text(encoding="utf-8"))

@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from app.settings import Settings
-from tests.app.command import PATIENCE, bin_folder
+from tests.support.command import PATIENCE, bin_folder
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.conftest import OUTER
-from tests.lock import PROCESSORS, PYTHONS, ROOT, resolved
+from tests.support.lock import PROCESSORS, PYTHONS, ROOT, resolved
 
 pytestmark = [pytest.mark.uncompiled, pytest.mark.index]
 

@@ -22,7 +22,7 @@ import core
 from app.service.workers import process_count
 from app.settings import WORKERS_MAX, usable_cores
 from core import InvalidValue
-from tests.lock import PYTHONS
+from tests.support.lock import PYTHONS
 
 ROOT = Path(__file__).parent.parent
 SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))

@@ -1,6 +1,7 @@
 """Tests stand in the rooms of what they test: core/paths/turn.py has tests/core/paths/test_turn.py.
 
-So does app, but for the modules that a file tests together, as users ask for them.
+So does app, but for the modules that a file tests together, as users ask for them. What several files use stands in
+tests/support, what runs for minutes or hours in tests/campaigns.
 """
 
 from __future__ import annotations

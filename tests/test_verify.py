@@ -32,9 +32,9 @@ from core.proof import (
     prove_minimum_pitch,
 )
 from core.proof import verify as core_verify
-from tests.core.forgeries import FORGERIES, edit, put_at, stretches
-from tests.core.proof.differential import MAKERS, hunt, made
-from tests.depth import DEEP, examples, some
+from tests.campaigns.differential import MAKERS, hunt, made
+from tests.support.depth import DEEP, examples, some
+from tests.support.forgeries import FORGERIES, edit, put_at, stretches
 
 ROOT = Path(__file__).parents[1]
 VERIFY = ROOT / "examples" / "verify.py"
@@ -382,7 +382,7 @@ def test_every_kind_of_claim_is_verified_and_no_other_number_of_it(verify: Modul
 
 
 def test_both_checkers_have_one_verdict_on_changed_certificates() -> None:
-    """`python -m tests.core.proof.differential` checks 100,000."""
+    """`python -m tests.campaigns.differential` checks 100,000."""
     count, disagreements = hunt(seed=4, cases=CHANGED)
     assert (count, disagreements) == (CHANGED, [])
 

@@ -13,7 +13,7 @@ import pytest
 from app.files.tables import XLSX_TYPE
 from app.settings import Settings, unknown_variables
 from core import InvalidValue
-from tests.app.serving import serving
+from tests.support.serving import serving
 
 BODY_BYTES_MAX = 1000
 LIMITS = {

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from app.files.tables import ARROW_TYPE
-from tests.app.attacks import ATTACKS, memory, tables, watching
-from tests.app.serving import serving
-from tests.depth import examples
+from tests.support.attacks import ATTACKS, memory, tables, watching
+from tests.support.depth import examples
+from tests.support.serving import serving
 
 # Duration of an attack, and longest wait of another client, which is 0.1 s on an idle machine [s]. What keeps others
 # waiting does so until it is done, also after its clients have gone.

@@ -14,8 +14,8 @@ import pytest
 
 from app.service.graders import Graders
 from core import BenchDragonError, Budget, InvalidValue, TooMuchWork
-from tests.app.bombs import GRADES, MAPS, end, fail, take_memory
-from tests.app.serving import Service, serving
+from tests.support.bombs import GRADES, MAPS, end, fail, take_memory
+from tests.support.serving import Service, serving
 
 FILE = {"Content-Type": "application/octet-stream"}
 # Memory of a reader of any of these files [MB]; some took 3 GB. A new reader has 75 to 110 MB.

@@ -34,8 +34,8 @@ from app.questions.maximum_head_speed import MaximumHeadSpeed
 from app.service.workers import SILENT_SECONDS, START_SECONDS
 from app.settings import Settings
 from core.kernels import COMPILED
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
 from tests.conftest import heed_ctrl_c
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
 
 # The service, which replaces a process that is silent for so long [s].
 SILENT = 2.0

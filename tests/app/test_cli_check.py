@@ -12,8 +12,8 @@ import httpx
 import openpyxl
 import pytest
 
-from tests.app.command import run
 from tests.app.test_cli import answer_of, served
+from tests.support.command import run
 
 ROUNDING = 1e-12  # of an angle [1]
 DANCE = """

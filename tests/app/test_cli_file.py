@@ -9,7 +9,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.command import run
+from tests.support.command import run
 
 DANCE = """
 margin = 0.2

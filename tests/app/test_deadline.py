@@ -16,8 +16,8 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.serving import free_port, serving
 from tests.conftest import STOP_TIMEOUT, wait_until_live
+from tests.support.serving import free_port, serving
 
 # Minutes of work.
 HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}

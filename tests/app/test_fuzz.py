@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import httpx
 
-from tests.app.fuzz import ask_mutants
-from tests.app.fuzz_files import ask_files, readers_over
-from tests.depth import examples
+from tests.campaigns.fuzz import ask_mutants
+from tests.campaigns.fuzz_files import ask_files, readers_over
+from tests.support.depth import examples
 
 MUTANTS, FILES, SEED = examples(80, 150), examples(80, 400), 1
 

@@ -24,8 +24,8 @@ from app.files.tables import XLSX_TYPE
 from app.questions.registry import QUESTIONS
 from app.service.examples import EXAMPLES
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.app.grade.students import CONTACT, contact_workbook, spiral
-from tests.depth import some
+from tests.support.depth import some
+from tests.support.students import CONTACT, contact_workbook, spiral
 
 PACKAGE = "generated_client"
 WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)

@@ -23,8 +23,8 @@ import httpx
 import pytest
 
 from app.files.tables import CSV_TYPE
-from tests.app.serving import Service, serving
-from tests.depth import some
+from tests.support.depth import some
+from tests.support.serving import Service, serving
 
 HEAD_SECONDS, GRACE_SECONDS = 0.5, 1
 # Longest wait for what should come within the times above on a busy machine [s].

@@ -19,8 +19,8 @@ from app.service.main import create_app
 from app.settings import Settings
 from app.wire.question import JSON
 from tests.app.conftest import ANSWER_TIMEOUT
-from tests.app.renew_examples import text
-from tests.depth import examples
+from tests.support.depth import examples
+from tests.support.renew_examples import text
 
 EXAMPLES_PER_CALL = examples(5, 25)
 # Examples with right values for the calls that take up to a second each, and with wrong ones for films, maps and plans,

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.app import command
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
 from tests.conftest import heed_ctrl_c
+from tests.support import command
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE
 
 FIVE = ("--benches", "5", "--start-turns", "6")  # a dragon whose proof takes no time
 TWELVE = ("--benches", "12", "--pitch", "0.7", "--start-turns", "5", "--turning-diameter", "3")

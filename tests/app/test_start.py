@@ -13,9 +13,9 @@ import httpx
 import pytest
 
 from app.start import importing
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
-from tests.app.serving import free_port
 from tests.conftest import wait_until_live
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.support.serving import free_port
 
 
 def test_the_garbage_collector_rests_during_imports_and_leaves_what_they_made_alone() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE
 
 pytestmark = pytest.mark.uncompiled
 

@@ -18,7 +18,7 @@ from app.files.film_spec import FilmSpec
 from app.wire.benches import bench_table
 from app.wire.clocks import time_of_day
 from core import InvalidValue
-from tests.app.command import run
+from tests.support.command import run
 
 NAMES = ["Zhou", "Li, the elder", "", "Wu"]
 DRAGON = {"lengths": [3.41, 2.2, 2.2, 2.2], "widths": [0.3] * 4, "overhangs": [0.275] * 4, "names": NAMES}

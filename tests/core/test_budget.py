@@ -59,7 +59,7 @@ from core import (
     venue_clearance,
 )
 from core.errors import format_field
-from tests.core.every_digit import every_digit
+from tests.support.every_digit import every_digit
 
 # A question ends this soon after it was stopped, however busy the machine is [s].
 ENDS_WITHIN = 1.0

@@ -34,7 +34,7 @@ from core import (
     venue_clearance,
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
-from tests.core.slow_search import SlowDance
+from tests.support.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
 # The slow dance finds the end by bisecting on whether a chain exists: as good as the crest is flat [m of travel].

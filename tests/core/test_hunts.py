@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from core import Coil, Dance, Dragon, Line, Outcome, Route, Turn, first_contact, trajectory, venue_clearance
-from tests.core import hunt_contacts, hunt_turns, hunt_venues, hunting
-from tests.core.slow_route import SlowRoute
-from tests.depth import examples
+from tests.campaigns import hunt_contacts, hunt_turns, hunt_venues, hunting
+from tests.support.depth import examples
+from tests.support.slow_route import SlowRoute
 
 CONTACTS, VENUES = examples(25, 200), examples(25, 200)
 # Places of handles far out on a route [m].

@@ -13,7 +13,7 @@ import pytest
 
 import core
 from core import kernels
-from tests.core.every_digit import every_digit
+from tests.support.every_digit import every_digit
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "core" / "kernels"
@@ -38,7 +38,7 @@ from core import *
 modules = [name for name in sys.modules if name.startswith("core.kernels.")]
 assert len(modules) > 9 and not core.kernels.COMPILED
 assert all(sys.modules[name].__file__.endswith(".py") for name in modules)
-from tests.core.every_digit import every_digit
+from tests.support.every_digit import every_digit
 for expression in sys.argv[1:]:
     print(ascii(every_digit(eval(expression))))
 """

@@ -12,7 +12,7 @@ from core.contact.march import BRACKET
 from core.contact.search import Search
 from core.kernels import FREE, Ended
 from tests.core.contact.test_first_contact import ACCURACY
-from tests.depth import some
+from tests.support.depth import some
 
 # Points of a random curve; its angles and chords are sums of that many terms, good to this [rad], relative [1].
 POINTS = 20_001

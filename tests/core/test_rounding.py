@@ -30,8 +30,8 @@ from core.contact.search import Search
 from core.design.ways import Ways
 from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
-from tests.core.exact_chain import BITS, middle, next_delta, separation, spiral_place
-from tests.core.rounding_sweep import Errors, compare, sweep
+from tests.campaigns.rounding_sweep import Errors, compare, sweep
+from tests.support.exact_chain import BITS, middle, next_delta, separation, spiral_place
 
 # Gaps compared of every seed; `make rounding` compares 10,000.
 GAPS = 300

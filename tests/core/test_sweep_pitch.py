@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from core import Dragon
-from tests.core.slow_pitch import SlowWay
-from tests.core.sweep_pitch import fault
+from tests.campaigns.sweep_pitch import fault
+from tests.support.slow_pitch import SlowWay
 
 DRAGONS = 8
 # Half the width of a reference value, see tests/reference [m].

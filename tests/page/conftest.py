@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize, expect, sync_playwright
 
-from tests.app.serving import serving
-from tests.page.browser import found
-from tests.page.pending import settled
+from tests.support.browser import found
+from tests.support.pending import settled
+from tests.support.serving import serving
 
 ARGUMENTS = [
     "--no-sandbox",

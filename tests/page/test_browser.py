@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.page.browser import NAMES, PLACES, candidates, starts
+from tests.support.browser import NAMES, PLACES, candidates, starts
 
 ROOT = Path(__file__).parents[2]
 # Code that hides every installed browser.
-WITHOUT = "from tests.page import browser; browser.PLACES = ()"
+WITHOUT = "from tests.support import browser; browser.PLACES = ()"
 LEFT_OUT = "tests are left out: no Chrome or Chromium starts here"
 
 pytestmark = pytest.mark.uncompiled

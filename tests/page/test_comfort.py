@@ -12,9 +12,9 @@ import pypdfium2
 import pytest
 from playwright.sync_api import expect
 
-from tests.app.jobs.service import wait_for
-from tests.page import polite
-from tests.page.pending import reached, settled
+from tests.support import polite
+from tests.support.job_service import wait_for
+from tests.support.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}

@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.page import polite
-from tests.page.pending import reached, settled
+from tests.support import polite
+from tests.support.pending import reached, settled
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 # Between two samples the picture may be off by this much [m]; a bench is 0.3 m wide.

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from tests.page.axe import serious
-from tests.page.pending import settled
+from tests.support.axe import serious
+from tests.support.pending import settled
 
 PHONE = {"width": 390, "height": 844}
 

@@ -10,9 +10,9 @@ import pytest
 from playwright.sync_api import expect
 
 from app.wire.benches import bench_table
-from tests.page import polite
-from tests.page.axe import serious
-from tests.page.pending import reached, settled
+from tests.support import polite
+from tests.support.axe import serious
+from tests.support.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 S_CURVE = "?path=route&route=*-80,-16_0,-16_16,-8_0,0_-16,8_*0,16_80,16&benches=8"

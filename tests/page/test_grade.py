@@ -11,8 +11,8 @@ import pytest
 from playwright.sync_api import expect
 
 from core import Dragon
-from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
-from tests.page.axe import serious
+from tests.support.axe import serious
+from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
 # Instants of a workbook that is soon read.
 FEW = SPIRAL_TIMES[:21]

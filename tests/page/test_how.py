@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.page import polite
-from tests.page.axe import serious
-from tests.page.pending import settled
+from tests.support import polite
+from tests.support.axe import serious
+from tests.support.pending import settled
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 SECTIONS = ("chord", "staircase", "step", "graze", "stray")

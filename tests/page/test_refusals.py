@@ -16,8 +16,8 @@ from app.settings import Settings
 from app.wire import claims as wire
 from app.wire.problem import DETAIL_MAX
 from core.claims.claim import ContactClaim, StrayClaim
-from tests.core.claims.every_kind import CLAIMS, SENTENCES
-from tests.page.pending import settled
+from tests.support.every_kind import CLAIMS, SENTENCES
+from tests.support.pending import settled
 
 ROOT = Path(__file__).parent.parent.parent
 # Latin letters that are no unit, no name and no symbol, outside of quotes.

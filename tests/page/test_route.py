@@ -11,9 +11,9 @@ import openpyxl
 import pytest
 from playwright.sync_api import expect
 
-from tests.page import polite
-from tests.page.axe import serious
-from tests.page.pending import reached, settled
+from tests.support import polite
+from tests.support.axe import serious
+from tests.support.pending import reached, settled
 
 ROOT = Path(__file__).parents[2]
 PHONE = {"width": 390, "height": 844}

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.page.pending import settled
+from tests.support.pending import settled
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 FINGER = 44  # [px]: the least width and height of what a finger should hit

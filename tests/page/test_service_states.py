@@ -8,9 +8,9 @@ from urllib.parse import urlencode
 
 from playwright.sync_api import expect
 
-from tests.app.serving import free_port, serving
-from tests.page import polite
-from tests.page.pending import settled
+from tests.support import polite
+from tests.support.pending import settled
+from tests.support.serving import free_port, serving
 
 PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
 OWN_MAX, ALL_MAX = 160_000, 1_600_000  # [bytes] over the wire

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import expect
 
-from tests.page import polite
-from tests.page.pending import settled
+from tests.support import polite
+from tests.support.pending import settled
 
 SURE = ("Contact at", "Nothing touches", "touch at", "meet at", "时碰撞", "无碰撞")
 CHORD, OVERHANG, WIDTH, STRAY = 1.65, 0.275, 0.3, 0.05

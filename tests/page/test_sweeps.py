@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
-from tests.app.jobs.service import SHORT, Service, wait_for
-from tests.page import polite
-from tests.page.axe import serious
-from tests.page.pending import reached, settled
+from tests.support import polite
+from tests.support.axe import serious
+from tests.support.job_service import SHORT, Service, wait_for
+from tests.support.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 WIDE = {"width": 1440, "height": 900}

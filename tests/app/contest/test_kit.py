@@ -27,7 +27,7 @@ from app.contest.tables import paper_tables
 from app.files.tables import Language
 from app.files.words import Say
 from app.wire.question import Terms
-from tests.app.command import COMMAND, run
+from tests.support.command import COMMAND, run
 from tests.test_docs import KITS, assert_alike
 
 REFERENCE = Path(__file__).parents[2] / "reference"

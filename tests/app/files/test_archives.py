@@ -8,7 +8,7 @@ import zipfile
 import pytest
 
 from app.files.archives import BadArchive, opened, pieces_of
-from tests.app.bombs import lying, zipped
+from tests.support.bombs import lying, zipped
 
 PARTS = {"a.txt": b"words " * 50_000, "b.txt": b""}
 

@@ -12,7 +12,7 @@ import pytest
 
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
-from tests.app.command import run
+from tests.support.command import run
 
 OLD, NEW = b"what stood here before", b"what is written now"
 # Longest file in the tests of a full disk [bytes].

@@ -12,7 +12,7 @@ import pytest
 from app.files import figures
 from core import Dance, Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
 from core.design.pitch_scan import scan_near_minimum
-from tests.depth import some
+from tests.support.depth import some
 
 SMALL = Dragon(benches=30)
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"

@@ -15,8 +15,8 @@ from PIL import Image, ImageSequence
 from app.files.film import Stage, film
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, first_contact, trajectory
-from tests.app.command import run
-from tests.depth import some
+from tests.support.command import run
+from tests.support.depth import some
 
 # Colours of the head and of the body; video keeps them to within a few parts of 255.
 HEAD, BODY, NEAR = (213, 94, 0), (0, 114, 178), 60

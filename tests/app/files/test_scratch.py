@@ -16,8 +16,8 @@ import pytest
 
 from app.files.lock import FolderLock
 from app.files.scratch import reclaim, temporary
-from tests.app.jobs.service import wait_for
-from tests.app.serving import serving
+from tests.support.job_service import wait_for
+from tests.support.serving import serving
 
 HOLD = """
 import sys, time

@@ -16,8 +16,8 @@ from app.files.tables import Language
 from app.grade.numbers import TURN_LENGTH_LEAST, gives
 from app.grade.report import typed
 from app.grade.shortcuts import pitch_grids, shortcuts
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, run
-from tests.app.grade.students import CONTACT, contact_workbook, spiral
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, run
+from tests.support.students import CONTACT, contact_workbook, spiral
 
 
 @pytest.fixture(scope="module")

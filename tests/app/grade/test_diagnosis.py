@@ -11,9 +11,9 @@ from app.files.tables import Language
 from app.grade.report import FileAnswer, graded
 from core import Budget, Dragon
 from core.values import Floats
-from tests.app.grade import students
-from tests.app.grade.hunt_grades import hunt
-from tests.app.grade.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, of, spiral, turn
+from tests.campaigns.hunt_grades import hunt
+from tests.support import students
+from tests.support.students import CONTACT, SPIRAL_TIMES, TURN_TIMES, of, spiral, turn
 
 AT_CONTACT = np.array([CONTACT])
 ONCE = Dragon(overhang=0.1375)
@@ -258,7 +258,7 @@ def test_sparse_instants_do_not_contradict_the_speeds() -> None:
 
 
 def test_nobody_is_accused_by_chance() -> None:
-    """Some cases of the campaign; `python -m tests.app.grade.hunt_grades` has as many as there is time for."""
+    """Some cases of the campaign; `python -m tests.campaigns.hunt_grades` has as many as there is time for."""
     done, faults = hunt(20261126, cases=150)
     assert (done, faults) == (150, [])
 

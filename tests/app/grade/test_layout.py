@@ -12,8 +12,8 @@ import pytest
 from app.files.tables import Language
 from app.grade.report import FileAnswer, graded
 from core import Budget
-from tests.app.grade import students
-from tests.app.grade.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
+from tests.support import students
+from tests.support.students import SPIRAL_TIMES, by_xlsxwriter, few, spiral
 
 ROOT = Path(__file__).parents[3]
 

@@ -20,9 +20,9 @@ from app.grade.reading import FILE_MAX, grids_of
 from app.grade.report import FileAnswer, graded
 from app.grade.workbook import ELEMENTS_MAX, UNPACKED_MAX
 from core import Budget, TooMuchWork
-from tests.app.grade.libreoffice import FEW, SMALL
-from tests.app.grade.students import ALL_CELLS, TURN_TIMES, Sheets, by_xlsxwriter, few, rows_of, three, turn
-from tests.depth import some
+from tests.campaigns.libreoffice import FEW, SMALL
+from tests.support.depth import some
+from tests.support.students import ALL_CELLS, TURN_TIMES, Sheets, by_xlsxwriter, few, rows_of, three, turn
 
 ROOT = Path(__file__).parents[3]
 SHEETS = ("xl/worksheets/sheet1.xml", "xl/worksheets/sheet2.xml")

@@ -16,8 +16,8 @@ from app.files.tables import Language
 from app.grade.report import graded as graded_here
 from app.service.graders import Graders
 from core import Budget
-from tests.app.grade.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
-from tests.app.serving import Service, serving
+from tests.support.serving import Service, serving
+from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
 FILE = {"Content-Type": "application/octet-stream"}
 
@@ -39,7 +39,7 @@ def first() -> bytes:
 
 
 def test_the_service_answers_what_the_command_answers(client: httpx.Client, second: bytes, tmp_path: Path) -> None:
-    from tests.app.command import run
+    from tests.support.command import run
 
     file = tmp_path / "result2.xlsx"
     file.write_bytes(second)

@@ -15,8 +15,8 @@ import pytest
 
 from app.jobs.places import OfService
 from core import BenchDragonError
-from tests.app import command
-from tests.app.jobs.service import ENDLESS, SHORT, Service, direct, wait_for
+from tests.support import command
+from tests.support.job_service import ENDLESS, SHORT, Service, direct, wait_for
 
 TOKEN = "correct horse"
 

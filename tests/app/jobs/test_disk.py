@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.app.jobs.service import ENDLESS, SHORT, Service
+from tests.support.job_service import ENDLESS, SHORT, Service
 
 DISK_BYTES = 1_000_000
 # About 1.3 MB of JSON, which the disk does not hold.

@@ -13,7 +13,7 @@ import httpx
 import pytest
 
 from app.jobs.room import DAY, FRESH
-from tests.app.jobs.service import ENDLESS, LONG, PATIENCE, SHORT, Service, wait_for
+from tests.support.job_service import ENDLESS, LONG, PATIENCE, SHORT, Service, wait_for
 
 TOKEN = "correct horse"
 BEARER = {"Authorization": f"Bearer {TOKEN}"}

@@ -18,8 +18,8 @@ from app.files.tables import ARROW_TYPE
 from app.jobs import runner
 from app.jobs.store import Store
 from app.settings import Settings
-from tests.app.jobs.kills import post, survive
-from tests.app.jobs.service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
+from tests.campaigns.job_kills import post, survive
+from tests.support.job_service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
 
 KILLS, SEED = 4, 1
 

@@ -16,7 +16,7 @@ from app.sweeps.shards import ShardPiece, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from app.wire.question import JSON
-from tests.app.jobs.service import LINGER, SHORT, Service, wait_for
+from tests.support.job_service import LINGER, SHORT, Service, wait_for
 
 TOKEN = "correct horse"
 SPEC: dict[str, Any] = {

@@ -14,7 +14,7 @@ from app.files.tables import XLSX_TYPE, Language
 from app.files.words import Say
 from app.maps.places import places_of
 from core import InvalidValue
-from tests.app.command import run
+from tests.support.command import run
 
 ROWS = [
     ["名称", "长度", "宽度", "孔距"],

@@ -19,7 +19,7 @@ from app.files.words import Say
 from app.maps.layout import DanceParts
 from app.maps.places import places_of
 from core import InvalidValue
-from tests.app.command import run
+from tests.support.command import run
 
 Draw = Callable[[Any], object]
 

@@ -20,8 +20,8 @@ from app.maps.places import places_of
 from app.questions.maps import MapFormat
 from core import InvalidValue
 from core.shapes.engines import GROWTH_MOST
-from tests.app.command import run
 from tests.conftest import ROOT
+from tests.support.command import run
 
 SAY = Say(Language.ENGLISH)
 # Rounding of degrees in doubles, on places 10,000 km from the centre of the earth [m].

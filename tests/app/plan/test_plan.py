@@ -17,7 +17,7 @@ from matplotlib import font_manager
 from app.files import fonts
 from app.plan.sheet import MARGIN, RATIOS, scale_of
 from core import InvalidValue
-from tests.app.command import run
+from tests.support.command import run
 
 # Millimetres in a point of PDF, and how well a place on paper is known [mm].
 POINT, ON_PAPER = 25.4 / 72.0, 0.02

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import core
-from tests.app.command import run
+from tests.support.command import run
 
 MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
 ASKED = {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, "start": 395.0, "stop": 405.0}

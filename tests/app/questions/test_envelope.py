@@ -15,7 +15,7 @@ import shapely
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_geojson
 from app.questions.envelope import Envelope, EnvelopeRequest
 from core import Arc, Dance, Dragon, Route, Spiral, envelope
-from tests.app.command import run
+from tests.support.command import run
 
 # Rounds on a circle, which leave a hole.
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}

@@ -22,7 +22,7 @@ from core import (
     uncertain_tolerance,
 )
 from core.tolerance.curve import time_on_circle
-from tests.app.command import run
+from tests.support.command import run
 
 SMALL = {"benches": 40, "start_turns": 9}
 SQUARE = {"type": "Polygon", "coordinates": [[[-15, -15], [15, -15], [15, 15], [-15, 15], [-15, -15]]]}

@@ -16,7 +16,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.jobs.service import ENDLESS, LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
+from tests.support.job_service import ENDLESS, LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
 
 ANSWERED = [
     SHORT,

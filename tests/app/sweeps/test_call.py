@@ -10,7 +10,7 @@ import pytest
 import core
 from app.sweeps import Range, Samples, sweep
 from core import InvalidValue
-from tests.app.sweeps.odd_questions import LAND
+from tests.support.odd_questions import LAND
 
 
 def test_a_call_answers_and_the_same_call_goes_on(tmp_path: Path) -> None:

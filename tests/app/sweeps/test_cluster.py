@@ -17,9 +17,9 @@ from app.sweeps.engines import NoAnswer
 from app.sweeps.run import Progress, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
-from tests.app.sweeps.kills import free_port
-from tests.app.sweeps.odd_questions import LAND, UNANSWERABLE
 from tests.app.sweeps.test_run import compacted, spec_of, undisturbed
+from tests.campaigns.sweep_kills import free_port
+from tests.support.odd_questions import LAND, UNANSWERABLE
 
 
 def test_a_local_cluster_answers_as_this_process_does_and_leaves_no_worker(tmp_path: Path) -> None:

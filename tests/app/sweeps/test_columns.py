@@ -12,7 +12,7 @@ from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.sweeps.columns import Column, answer_columns, value_type
 from app.sweeps.questions import QUESTIONS, question_of
 from app.wire.question import Terms
-from tests.app.sweeps.odd_questions import Height
+from tests.support.odd_questions import Height
 
 
 def test_numbers_words_and_pairs_become_columns_and_lists_json() -> None:

@@ -19,8 +19,8 @@ from app.sweeps.run import begin
 from app.sweeps.shards import ShardPiece, parts, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
-from tests.app.command import COMMAND, ENVIRONMENT, PATIENCE, bin_folder, run
 from tests.conftest import heed_ctrl_c
+from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE, bin_folder, run
 
 SPEC = """
 question = "collision_time"

@@ -15,7 +15,7 @@ from app.sweeps.run import begin
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep, summary
 from core import InvalidValue
-from tests.app.sweeps.odd_questions import LAND
+from tests.support.odd_questions import LAND
 
 
 def swept(folder: Path, **told: Any) -> Sweep:

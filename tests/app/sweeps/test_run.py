@@ -19,7 +19,7 @@ from app.sweeps.run import Progress, missing_shards, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from core import InvalidValue
-from tests.app.sweeps.odd_questions import INTERRUPTED, LAND, SLOW, UNANSWERABLE
+from tests.support.odd_questions import INTERRUPTED, LAND, SLOW, UNANSWERABLE
 
 
 class Shared(Processes):

@@ -21,7 +21,7 @@ from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name,
 from app.sweeps.spec import Spec
 from app.wire.question import Terms
 from core import InvalidValue
-from tests.app.sweeps.odd_questions import LAND
+from tests.support.odd_questions import LAND
 
 
 def spec_of(question: Question, over: dict[str, Any], **more: Any) -> Spec:

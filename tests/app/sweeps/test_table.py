@@ -15,8 +15,8 @@ from app.sweeps.run import begin
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep, without_formulas
 from core import InvalidValue
-from tests.app.sweeps.odd_questions import LAND
 from tests.app.sweeps.test_run import spec_of
+from tests.support.odd_questions import LAND
 
 SPEC = spec_of(LAND, 40, 7)
 

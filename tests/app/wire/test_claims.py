@@ -15,7 +15,7 @@ from app.questions.envelope import Envelope, EnvelopeRequest, envelope
 from app.questions.tolerance import ToleranceQuery, tolerance
 from app.wire import claims
 from app.wire.question import Answer, Terms
-from tests.core.claims.every_kind import CLAIMS
+from tests.support.every_kind import CLAIMS
 
 
 def plain(value: Any) -> Any:

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from app.wire.degrees import ACROSS_MAX, Origin, Plane, place_of
 from core import Dance, Dragon, InvalidValue, check
 from core import Spiral as CoreSpiral
-from tests.app.command import run
 from tests.app.test_cli import answer_of
+from tests.support.command import run
 
 # The plane that touches the earth shortens a length of 10 km by this part of it [1].
 FLATNESS = 1.1e-6

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import httpx
 import pytest
 
-from tests.app.command import run
+from tests.support.command import run
 
 # Names of core that no request has.
 INSIDE = re.compile(r"turning_radius|path\.path|pieces|times\[|dragon\.|path\.")

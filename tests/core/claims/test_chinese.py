@@ -7,7 +7,7 @@ import re
 import pytest
 
 from core.claims.certificate import claim_words
-from tests.core.claims.every_kind import CLAIMS, SENTENCES
+from tests.support.every_kind import CLAIMS, SENTENCES
 
 # Latin letters that are no unit and no name.
 ENGLISH = re.compile(r"(?<![A-Za-z])(?!Clopper|Pearson)[A-Za-z]{4,}")

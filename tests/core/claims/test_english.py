@@ -7,7 +7,7 @@ import pytest
 from core import Dance, Dragon, Spiral
 from core.claims.certificate import claim_words
 from core.claims.claim import ClaimKind, DanceSummary, StrayClaim
-from tests.core.claims.every_kind import CLAIMS, SENTENCES
+from tests.support.every_kind import CLAIMS, SENTENCES
 
 
 @pytest.mark.parametrize("name", CLAIMS)

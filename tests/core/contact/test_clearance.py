@@ -21,7 +21,7 @@ from core import (
 )
 from core.contact.clearance import PROOF_WIDTHS
 from tests.core.contact.test_first_contact import ROUNDING, random_dance
-from tests.core.slow_search import SlowDance
+from tests.support.slow_search import SlowDance
 
 PROVEN = 1.1e-5  # [m]: a least clearance is proven to this
 TURN = Turn(1.7)

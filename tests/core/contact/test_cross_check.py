@@ -27,8 +27,8 @@ from core.paths.spiral import Spiral
 from core.shapes.engines import Engine
 from core.shapes.overlaps import Verdict, separation
 from core.shapes.rectangles import bench_poses
-from tests.core.shapes.scenes import unlinked_pairs
-from tests.depth import examples
+from tests.support.depth import examples
+from tests.support.scenes import unlinked_pairs
 
 Floats = NDArray[np.float64]
 

@@ -33,8 +33,8 @@ from core import (
 from core.contact.march import BRACKET
 from core.contact.search import MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
-from tests.core.slow_search import SlowDance
-from tests.depth import some
+from tests.support.depth import some
+from tests.support.slow_search import SlowDance
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "first_contact.json").read_text())["cases"]
 # Times are promised to this [s] and places to what the head moves meanwhile [m].

@@ -9,7 +9,7 @@ from flint import arb
 from core import Dragon, Spiral
 from core.contact.march import BRACKET, BRACKETS_GRAZING, TRAVEL_ROUNDING
 from core.contact.search import Search
-from tests.core.exact_chain import spiral_place
+from tests.support.exact_chain import spiral_place
 
 
 def test_wider_brackets_are_tried_one_after_the_other() -> None:

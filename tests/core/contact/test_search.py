@@ -10,7 +10,7 @@ from core.contact.near_graze import others_clear
 from core.contact.search import Search, joined
 from core.kernels import Ended
 from core.kernels.results import Dip, Marched
-from tests.core.slow_search import SlowDance, arc_length
+from tests.support.slow_search import SlowDance, arc_length
 
 DRAGON, SPIRAL = Dragon(30), Spiral()
 SLOW = SlowDance.of(DRAGON, SPIRAL)

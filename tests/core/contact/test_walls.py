@@ -32,7 +32,7 @@ from core import (
 from core.contact.search import Search
 from core.shapes.rectangles import corners
 from tests.core.test_venue import SQUARE, STAGE, WELL, box, boxed
-from tests.depth import examples
+from tests.support.depth import examples
 
 SAME_DISTANCE = 1e-11  # [m]: ours and shapely's, at coordinates to 30 m
 PROVEN = 1.1e-5  # [m]: a distance is proven to this

@@ -27,7 +27,7 @@ from core import (
     trajectory,
 )
 from core.shapes.rectangles import corners
-from tests.depth import some
+from tests.support.depth import some
 
 ENTRY_ERROR = 1e-9  # [m]
 STEP = 0.1  # [s], between the instants that shapely sees

@@ -25,10 +25,10 @@ from core import (
     first_contact,
     minimum_pitch,
 )
-from tests.core.slow_pitch import SlowWay
-from tests.core.slow_search import SlowDance, chord_squared
-from tests.core.sweep_pitch import random_case
-from tests.depth import examples, some
+from tests.campaigns.sweep_pitch import random_case
+from tests.support.depth import examples, some
+from tests.support.slow_pitch import SlowWay
+from tests.support.slow_search import SlowDance, chord_squared
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
 # Pitches are promised to this [m].

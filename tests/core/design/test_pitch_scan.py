@@ -11,7 +11,7 @@ import core.design.pitch_scan
 from core import Dance, Dragon, InvalidValue, Outcome, Spiral, TooMuchWork, first_contact, minimum_pitch
 from core.design.pitch_scan import JUMP, JUMP_WIDTH, RADIUS_WIDTH, Stops, pitch_scan, scan_near_minimum
 from tests.core.contact.test_fold import TO_THE_FOLD
-from tests.depth import some
+from tests.support.depth import some
 
 SMALL = Dragon(benches=30)
 BRACKET = 1e-9  # [m]: how well the minimum pitch is known

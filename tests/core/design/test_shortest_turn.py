@@ -28,7 +28,7 @@ from core import (
     first_contact,
     shortest_turn,
 )
-from tests.depth import DEEP, some
+from tests.support.depth import DEEP, some
 
 PITCH, RADIUS = 1.7, 4.5
 # Lengths that others found with free entry and exit on grids of 2 mm, and bounds by hand: ratio, length [m].

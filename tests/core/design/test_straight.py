@@ -9,9 +9,9 @@ import pytest
 
 from core import Dragon, kernels
 from core.design.straight import Straight, curvature_most
-from tests.core.slow_pitch import SlowWay
-from tests.core.sweep_pitch import random_case
-from tests.depth import some
+from tests.campaigns.sweep_pitch import random_case
+from tests.support.depth import some
+from tests.support.slow_pitch import SlowWay
 
 # Rounding of a slow clearance on ways of metres [m], and on a wide spiral per metre of its growth [1].
 ROUNDING, ROUNDING_PER_GROWTH = 1e-11, 1e-12

@@ -9,8 +9,8 @@ import pytest
 
 from core.design.turn_bounds import Boxes, divided, joined, multipliers_at
 from core.design.turn_boxes import sizes_of, turns_in
-from tests.core.design.boxes_of_turns import GROWTH, LEAST
 from tests.core.design.test_turn_boxes import boxes
+from tests.support.boxes_of_turns import GROWTH, LEAST
 
 
 @pytest.mark.uncompiled

@@ -10,7 +10,7 @@ import pytest
 from core import Turn
 from core.design.turn_bounds import Multipliers, lower_lengths
 from core.design.turn_boxes import sizes_of, too_tight, turns_in
-from tests.core.design.boxes_of_turns import GROWTH, LEAST
+from tests.support.boxes_of_turns import GROWTH, LEAST
 
 BOXES, PLACES = 1_500, 30
 ROUNDED = 1e-9  # [m], [rad]

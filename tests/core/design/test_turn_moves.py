@@ -10,8 +10,8 @@ import pytest
 from core.design.turn_moves import bent, coil_bend, displaced
 from core.paths.spiral import Spiral
 from core.values import Floats
-from tests.core.design.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
-from tests.depth import examples
+from tests.support.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
+from tests.support.depth import examples
 
 BESIDE = [(4.2, 4.3, 1.4), (4.29, 4.4, 2.0)]
 SAMPLES = 400

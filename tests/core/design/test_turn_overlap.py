@@ -7,8 +7,8 @@ import pytest
 
 from core import Dance, Dragon, first_contact
 from core.design.turn_overlap import Overlap
-from tests.core.design.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
-from tests.depth import examples
+from tests.support.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
+from tests.support.depth import examples
 
 DRAGON = Dragon(60)
 MOST = 26  # benches of a pose

@@ -11,8 +11,8 @@ from core.contact.march import TOUCHES
 from core.design.ways import CONTACT_WIDTH, Ways
 from core.kernels import Ended
 from tests.core.design.test_minimum_pitch import FOLDING
-from tests.core.slow_pitch import SlowWay
-from tests.core.slow_search import SlowDance
+from tests.support.slow_pitch import SlowWay
+from tests.support.slow_search import SlowDance
 
 RADIUS, TURNS = 3.0, 9.0
 # The head of FOLDING folds on a circle of 0.85 m at this pitch, by 40 digits [m].

@@ -27,7 +27,7 @@ from core import (
     envelope,
     trajectory,
 )
-from tests.depth import examples
+from tests.support.depth import examples
 
 POSES = 10_000
 RING = 5.0  # radius of a round dance [m]

@@ -26,8 +26,8 @@ from core.kernels.constants import (
     TX,
     UX,
 )
+from tests.campaigns.rounding_sweep import ROUTES
 from tests.core.paths.test_route import TURN as TURN_PATH
-from tests.core.rounding_sweep import ROUTES
 
 # Instants within an interval. Differences of a derivative are means of the next one, over APART instants.
 INSTANTS, APART = 161, 8

@@ -10,7 +10,7 @@ from flint import arb
 from core import kernels
 from core.error_free import paired
 from core.kernels.constants import HIGH, LOW
-from tests.core.exact_chain import BITS, spiral_place
+from tests.support.exact_chain import BITS, spiral_place
 
 # Largest error of an arc length, in units of the growth: of asinh, which is up to 14 [1].
 ARC_ERROR = 4e-15

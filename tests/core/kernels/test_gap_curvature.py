@@ -35,7 +35,7 @@ from core.kernels.constants import (
 )
 from tests.core.kernels import test_bounds as route
 from tests.core.kernels.test_pairs import APART, checked_pairs, sampled
-from tests.depth import some
+from tests.support.depth import some
 
 # Directions of axes fixed in a bench, from its length [rad].
 AXES = (0.0, 0.7, 0.5 * np.pi, 2.5)

@@ -9,8 +9,8 @@ import pytest
 
 from core import Dance, Dragon, Spiral, kernels
 from core.contact.search import Search
-from tests.core.slow_search import SlowDance, rectangles_gap
-from tests.depth import some
+from tests.support.depth import some
+from tests.support.slow_search import SlowDance, rectangles_gap
 
 # Instants within an interval, and how many apart the second differences are taken; those are means of the derivative.
 INSTANTS, APART = 121, 20

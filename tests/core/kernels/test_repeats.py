@@ -9,7 +9,7 @@ from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_c
 from core.contact.search import Search
 from core.kernels.constants import THETA
 from tests.core.contact.test_first_contact import ACCURACY
-from tests.depth import some
+from tests.support.depth import some
 
 # Two poses of one bench at one place of a path, found by two ways of the head [m].
 SAME = 1e-9

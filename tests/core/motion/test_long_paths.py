@@ -9,7 +9,7 @@ import pytest
 from flint import arb
 
 from core import Coil, Dance, Dragon, Line, Passage, Route, Spiral, trajectory
-from tests.core.exact_chain import coil_handles
+from tests.support.exact_chain import coil_handles
 
 # Of 10,000 turns a double knows the length to 1e-8 m and the angle to 4e-12 rad.
 DRAGON = Dragon(12, head_length=2.5)

@@ -25,7 +25,7 @@ from core import (
 )
 from core.error_free import paired
 from core.kernels import LANES_PER_BLOCK
-from tests.core.slow_search import SlowDance
+from tests.support.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
 

@@ -34,7 +34,7 @@ from core import (
 )
 from core.paths.path import Path
 from core.shapes.rectangles import corners
-from tests.depth import examples
+from tests.support.depth import examples
 
 TURN = Turn(1.7, 4.5, 2.0)
 SAME = 1e-10  # [m], [m/s], [s]: one curve written in two ways

@@ -22,10 +22,10 @@ from core.proof import (
     prove_tolerance,
     verify,
 )
-from tests.core.forgeries import FORGERIES, edit, through_json
-from tests.core.forgeries import put_at as at
-from tests.core.proof.contacts import CONTACTS, SMALL, proof_of
-from tests.depth import examples
+from tests.support.depth import examples
+from tests.support.forgeries import FORGERIES, edit, through_json
+from tests.support.forgeries import put_at as at
+from tests.support.reference_contacts import CONTACTS, SMALL, proof_of
 
 ROOT = Path(__file__).parents[3]
 PITCHES = {

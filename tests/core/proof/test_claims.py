@@ -18,8 +18,8 @@ from core.proof.chain import Chain
 from core.proof.claims import head_theta, near_pair, verify_near
 from core.proof.pairs import Unproven
 from core.shapes.rectangles import corners
-from tests.core.forgeries import edit, through_json
 from tests.core.proof.test_certificate import PITCH_ROUNDING, PITCHES, SMALL, proof_of
+from tests.support.forgeries import edit, through_json
 
 # Distances by shapely [m], and places by bisection in doubles [rad], are this near to the true ones.
 SHAPELY, PLACE = 1e-11, 1e-9

@@ -19,9 +19,9 @@ from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, verify
 from core.proof.paths import chain_on, recorded_path
 from core.shapes.rectangles import corners
-from tests.core.forgeries import edit, places, refusal, stretches, through_json
-from tests.core.forgeries import put_at as at
-from tests.depth import examples, some
+from tests.support.depth import examples, some
+from tests.support.forgeries import edit, places, refusal, stretches, through_json
+from tests.support.forgeries import put_at as at
 
 ROOT = Path(__file__).parents[3]
 CONTACTS = {

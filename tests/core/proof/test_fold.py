@@ -17,9 +17,9 @@ from core.proof import Certificate, prove_minimum_pitch, verify
 from core.proof.chain import Chain, delta, rises_to
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unproven
-from tests.core.forgeries import edit, places, refusal, stretches, through_json
-from tests.core.forgeries import put_at as at
-from tests.depth import some
+from tests.support.depth import some
+from tests.support.forgeries import edit, places, refusal, stretches, through_json
+from tests.support.forgeries import put_at as at
 
 DRAGON, RADIUS, TURNS = Dragon(14, 2.21, 1.47, 0.06, 0.12), 0.85, 5.0
 ONE = Dragon(1, 2.21, 1.47, 0.06, 0.12)

@@ -12,7 +12,7 @@ from flint import acb, arb, ctx
 
 from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, Side, best_side
 from core.shapes.reach import bench_hulls, directions, supports
-from tests.core.tolerance.places import moved_points, random_strays
+from tests.support.random_strays import moved_points, random_strays
 
 # Rounding of places and supports in doubles [m].
 ROUNDING = 1e-11

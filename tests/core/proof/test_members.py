@@ -10,9 +10,9 @@ import pytest
 
 from core.errors import ProofRefused
 from core.proof import Certificate, verify
-from tests.core.forgeries import edit, places, refusal, through_json
-from tests.core.forgeries import put_at as at
-from tests.core.proof.contacts import SMALL, proof_of
+from tests.support.forgeries import edit, places, refusal, through_json
+from tests.support.forgeries import put_at as at
+from tests.support.reference_contacts import SMALL, proof_of
 
 
 @pytest.fixture(scope="module")

@@ -17,8 +17,8 @@ from core.proof import Certificate, prove_tolerance, verify
 from core.proof.chain import Chain
 from core.sampling import bisected
 from core.tolerance.curve import time_on_circle
-from tests.core.forgeries import FORGERIES, edit, places, put_at, refusal, stretches, through_json
-from tests.core.forgeries import put_at as at
+from tests.support.forgeries import FORGERIES, edit, places, put_at, refusal, stretches, through_json
+from tests.support.forgeries import put_at as at
 
 DANCE = Dance(Dragon(12), Spiral(0.7, 5.0))
 STOP = time_on_circle(DANCE, 1.5)

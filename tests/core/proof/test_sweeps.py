@@ -16,8 +16,8 @@ from core.proof.chain import Chain
 from core.proof.pairs import Unproven
 from core.proof.sweeps import OverlapFound, found, recorded, swept
 from core.shapes.rectangles import corners
-from tests.core.forgeries import stretches
 from tests.core.proof.test_certificate import CONTACTS, DOUBLES
+from tests.support.forgeries import stretches
 
 # Places between which the head is swept [rad].
 HIGH, LOW = 60.0, 52.0

@@ -20,7 +20,7 @@ from core.shapes.rectangles import (
     literal_corners,
     paper_corners,
 )
-from tests.core.shapes.scenes import LENGTH, WIDTH, benches, crowd
+from tests.support.scenes import LENGTH, WIDTH, benches, crowd
 
 Floats = NDArray[np.float64]
 # Rounding of points and distances within ten metres of the origin [m].

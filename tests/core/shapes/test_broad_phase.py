@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from core.errors import SIZE_MAX, TooLarge
 from core.shapes.overlaps import overlaps
 from core.shapes.rectangles import CROSS_CANDIDATES_MAX, PAIRS_MAX, frames, meeting_pairs
-from tests.core.shapes.scenes import WIDTH, Pairs, Scene, all_pairs, crowd
+from tests.support.scenes import WIDTH, Pairs, Scene, all_pairs, crowd
 
 Floats = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from core.kernels import Budget
 from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, engine_pairs, united
-from tests.core.shapes.scenes import unlinked_pairs
-from tests.depth import examples
+from tests.support.depth import examples
+from tests.support.scenes import unlinked_pairs
 
 Floats = NDArray[np.float64]
 THREADS = 4

@@ -17,8 +17,8 @@ from core.motion.trajectory import trajectory
 from core.paths.spiral import Spiral
 from core.shapes.overlaps import POSITION_MAX, Engine, Verdict, cross_check, overlaps, separation, verdicts
 from core.shapes.rectangles import bench_poses
-from tests.core.shapes.scenes import LENGTH, WIDTH, Scene, all_pairs, benches, crowd
-from tests.depth import examples
+from tests.support.depth import examples
+from tests.support.scenes import LENGTH, WIDTH, Scene, all_pairs, benches, crowd
 
 Floats = NDArray[np.float64]
 

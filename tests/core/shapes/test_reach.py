@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from core import Dragon, InvalidValue
 from core.kernels.constants import DIRECTIONS
 from core.shapes.reach import SIZES_MAX, bench_hulls, directions, gains, reach, supports
-from tests.core.tolerance.places import moved_points, random_strays
-from tests.depth import examples
+from tests.support.depth import examples
+from tests.support.random_strays import moved_points, random_strays
 
 ROUNDING = 1e-11  # [m]
 TIGHT = 1e-3  # supports exceed what places reach by at most this of the stray [1]

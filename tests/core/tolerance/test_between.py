@@ -12,7 +12,7 @@ from core.paths.following import follows
 from core.tolerance.between import held_apart, sag_pulls, sags_of, smallest_circles, touching_pose
 from core.tolerance.exhibit import exhibit
 from core.values import Floats
-from tests.depth import examples, some
+from tests.support.depth import examples, some
 
 CHORD_ERROR = 1e-12  # [m]
 FAR = 9.0  # a stray above all that are found [m]

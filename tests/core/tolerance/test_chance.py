@@ -33,7 +33,7 @@ from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME
 from core.values import Floats
-from tests.core.every_digit import every_digit
+from tests.support.every_digit import every_digit
 
 SPIRAL = Dance(Dragon(20), Spiral())
 # Shortly before the first contact of that dance [s].

@@ -10,7 +10,7 @@ import shapely
 
 from core import Dance, Dragon, Line, Route, Spiral, bench_outlines, separation, tolerance, trajectory
 from core.tolerance.exhibit import Body, body, extended, nearest_rotated
-from tests.core.tolerance.adversaries import to_circle
+from tests.campaigns.adversaries import to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
 
 WIDE_SPIRAL = 6e-3  # the same of 40 benches with strays of 38 cm [1]

@@ -8,7 +8,7 @@ from core import Dance, Dragon, Line, Outcome, Route, Spiral, first_contact, min
 from core.tolerance.curve import time_on_circle
 from core.tolerance.safe import STRAY_MIN
 from core.tolerance.tolerance import Limit
-from tests.core.tolerance.adversaries import CIRCLE, to_circle
+from tests.campaigns.adversaries import CIRCLE, to_circle
 from tests.core.tolerance.test_tolerance import BRACKET
 
 # pitch [m], a bound by hand and a contact found by hand [m], both sampled in time and rounded to 1e-5.

@@ -22,7 +22,7 @@ from core import (
 )
 from core.sampling import bisected
 from core.tolerance.tolerance import Limit, Tolerance
-from tests.core.tolerance.adversaries import seek, to_circle
+from tests.campaigns.adversaries import seek, to_circle
 
 # Largest width of a bracket, as a part of its proven end [1].
 BRACKET = 2e-3

@@ -1,7 +1,7 @@
 """Errors of computed gaps against their bounds: random chains in doubles and to 50 digits.
 
-python -m tests.core.rounding_sweep 10000 [SEED] compares this many gaps and prints the largest and the median error, in
-parts of its bound; exit code 1 where one exceeds its bound.
+python -m tests.campaigns.rounding_sweep 10000 [SEED] compares this many gaps and prints the largest and the median
+error, in parts of its bound; exit code 1 where one exceeds its bound.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Tu
 from core.contact.search import Search
 from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
-from tests.core.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
+from tests.support.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
 
 # Gaps compared in every chain, half of them of pairs behind the head.
 PAIRS = 20

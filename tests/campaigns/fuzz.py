@@ -1,6 +1,6 @@
 """Odd requests: valid and invalid ones made from the description of every call, and examples with odd values.
 
-`make fuzz`: python -m tests.app.fuzz CASES MUTANTS [SEED [FILES]] asks a service this many of each, sends it
+`make fuzz`: python -m tests.campaigns.fuzz CASES MUTANTS [SEED [FILES]] asks a service this many of each, sends it
 damaged files (5,000 by default), and prints its answers.
 """
 
@@ -22,7 +22,7 @@ from hypothesis import HealthCheck, given, settings
 
 from app.service.examples import EXAMPLES
 from app.wire.problem import PROBLEM_TYPE
-from tests.app.serving import serving
+from tests.support.serving import serving
 
 # Nothing takes longer than the deadline of an answer and a busy machine need [s].
 SLOWEST = 20.0
@@ -126,7 +126,7 @@ def ask_described(url: str, count: int) -> Tally:
 
 
 def main() -> None:
-    from tests.app.fuzz_files import ask_files, readers_over
+    from tests.campaigns.fuzz_files import ask_files, readers_over
 
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else 0
     files = int(sys.argv[4]) if len(sys.argv) > 4 else 5_000

@@ -1,6 +1,6 @@
 """First contacts, least clearances and verdicts of random dances against a slow search that shares no code with them.
 
-`python -m tests.core.hunt_contacts SEED SECONDS`. Dances are on spirals, on turns and on routes of lines, arcs and
+`python -m tests.campaigns.hunt_contacts SEED SECONDS`. Dances are on spirals, on turns and on routes of lines, arcs and
 coils, also from before time 0, with passages and pauses; dragons are uniform or given bench by bench. Half of the
 margins are chosen so that benches only graze, and so meet slowly.
 """
@@ -28,9 +28,9 @@ from core import (
     first_contact,
     least_clearance,
 )
-from tests.core import hunting
-from tests.core.slow_route import SlowRoute
-from tests.core.slow_search import RUN, SPLIT, STEP, SlowDance
+from tests.campaigns import hunting
+from tests.support.slow_route import SlowRoute
+from tests.support.slow_search import RUN, SPLIT, STEP, SlowDance
 
 # Accuracy of slow clearances [m], and of times at 1 m/s [s].
 GAP, TIME = 1e-9, 1e-9

@@ -1,6 +1,6 @@
 """Kills processes of a service at random moments while it works on jobs, and compares what comes out.
 
-python -m tests.app.jobs.kills KILLS SEED
+python -m tests.campaigns.job_kills KILLS SEED
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import httpx
 from app.files.tables import XLSX_TYPE
 from app.jobs.job import JobState
 from app.jobs.store import Store
-from tests.app.jobs.service import Service, direct, wait_for
+from tests.support.job_service import Service, direct, wait_for
 
 ROLES = ("child", "spare", "runner", "worker", "parent")
 # Between two kills, at most [s].

@@ -1,7 +1,7 @@
 """Venues of random dances on spirals, up to the fold, against dense poses compared by shapely.
 
-`python -m tests.core.hunt_venues SEED SECONDS`. Most obstacles have a corner next to a place that a bench passes, many
-of them in the last metres before the fold; spirals stand anywhere, turned and mirrored.
+`python -m tests.campaigns.hunt_venues SEED SECONDS`. Most obstacles have a corner next to a place that a bench
+passes, many of them in the last metres before the fold; spirals stand anywhere, turned and mirrored.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ import numpy as np
 import shapely
 
 from core import Area, BenchDragonError, Dance, Dragon, Judgement, Outcome, Spiral, Venue, check, venue_clearance
-from tests.core import hunting
-from tests.core.slow_search import RUN, SPLIT, SlowDance
+from tests.campaigns import hunting
+from tests.support.slow_search import RUN, SPLIT, SlowDance
 
 # Accuracy of slow distances [m]: towards a fold handles move without bound for a rounding of the time.
 GAP = 1e-9

@@ -9,7 +9,7 @@ from typing import Any
 from core import Dance, Dragon, Spiral
 from core.proof import Certificate, prove_collision_time
 
-REFERENCE = Path(__file__).parents[2] / "reference"
+REFERENCE = Path(__file__).parents[1] / "reference"
 CONTACTS = {case["name"]: case for case in json.loads((REFERENCE / "first_contact.json").read_text())["cases"]}
 SMALL = CONTACTS["n_5"]
 

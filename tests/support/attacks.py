@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from urllib.parse import urlencode, urlsplit
 
 from app.files.tables import CSV_TYPE, XLSX_TYPE
-from tests.app.bombs import GRADES, MAPS
+from tests.support.bombs import GRADES, MAPS
 
 Attack = Callable[[str, float], None]  # base URL and how long to go on [s]
 ATTACKS: dict[str, Attack] = {}

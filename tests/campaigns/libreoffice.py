@@ -1,4 +1,4 @@
-"""Workbooks as LibreOffice writes them: python -m tests.app.grade.libreoffice [--renew]
+"""Workbooks as LibreOffice writes them: python -m tests.campaigns.libreoffice [--renew]
 
 It has LibreOffice read and write the contest's three workbooks, and grades all of their cells. --renew writes the small
 ones of tests/reference/libreoffice anew, with which the tests do without it.
@@ -14,9 +14,9 @@ from tempfile import TemporaryDirectory
 from app.files.tables import Language
 from app.grade.report import graded
 from core import Budget
-from tests.app.grade.students import ALL_CELLS, Sheets, by_xlsxwriter, three
+from tests.support.students import ALL_CELLS, Sheets, by_xlsxwriter, three
 
-SMALL = Path(__file__).parents[2] / "reference" / "libreoffice"
+SMALL = Path(__file__).parents[1] / "reference" / "libreoffice"
 # Instants of the small workbooks.
 FEW = 4
 SECONDS = 300  # longest conversion [s]; the largest takes about 10

@@ -1,4 +1,4 @@
-"""Right students whom the grader might accuse: python -m tests.app.grade.hunt_grades [seed] [seconds]
+"""Right students whom the grader might accuse: python -m tests.campaigns.hunt_grades [seed] [seconds]
 
 Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off,
 from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the

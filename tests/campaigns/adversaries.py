@@ -1,7 +1,7 @@
 """Poses that seek a contact: two benches of the default dragon, every chord kept, all holes within a little less than
 the answer of tolerance().
 
-`python -m tests.core.tolerance.adversaries` says how near a million of them come. Half of those drawn at random turn as
+`python -m tests.campaigns.adversaries` says how near a million of them come. Half of those drawn at random turn as
 far as the stray allows, half have the middle on the edge of all places for their turn. The nearest ones then go
 downhill along the gradient of the gap. The gap is the largest of several, so that way ends on the ridge between two:
 the best poses are then varied at random, by less and less. Poses beyond the stray are taken back to its edge.
@@ -18,7 +18,7 @@ from core import Dance, Dragon, Spiral, bench_poses, clearance_profile, toleranc
 from core.shapes.rectangles import frames, frames_separation
 from core.tolerance.tolerance import Tolerance
 from core.values import Floats
-from tests.core.tolerance.places import random_strays, strays_of
+from tests.support.random_strays import random_strays, strays_of
 
 CIRCLE = 4.5  # radius of the turning circle [m]
 # Poses drawn at random for a place; those of them that go downhill; those of these that are varied, and how often [1].
@@ -84,7 +84,7 @@ class Place:
         return np.stack([random_strays(rng, chord, self.stray, count) for chord in self.chords], axis=1)
 
     def laid(self, shapes: Floats) -> Floats:
-        """Strays of shapes (..., bench, 3): q and the middle of each, see places.py."""
+        """Strays of shapes (..., bench, 3): q and the middle of each, see random_strays.py."""
         parts = [strays_of(shapes[:, k, 0], shapes[:, k, 1:], self.chords[k], self.stray) for k in range(2)]
         return np.stack(parts, axis=1)
 

@@ -1,6 +1,6 @@
 """The service under attack, seen by another client: each attack alone, then all in turn beside 64 clients.
 
-`make soak`: python -m tests.app.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
+`make soak`: python -m tests.campaigns.soak SECONDS FOLDER, which writes soak.csv and soak.png into FOLDER.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from contextlib import suppress
 from multiprocessing.queues import SimpleQueue
 from pathlib import Path
 
-from tests.app.attacks import ATTACKS, ask, memory, watching
-from tests.app.serving import serving
+from tests.support.attacks import ATTACKS, ask, memory, watching
+from tests.support.serving import serving
 
 # Every process of the service has loaded all it needs by then [s].
 START_SECONDS = 5.0

@@ -1,6 +1,7 @@
 """A sweep on a real Dask cluster whose client, workers and scheduler are killed at random, again and again.
 
-python -m tests.app.sweeps.kills [DESIGNS [KILLS [SEED]]] compares the compacted table with that of an undisturbed run.
+python -m tests.campaigns.sweep_kills [DESIGNS [KILLS [SEED]]] compares the compacted table with that of an
+undisturbed run.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from app.sweeps.shards import parts
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[2]
 # Between two looks at the processes, and the most that a sweep may go on without a new part [s].
 LOOK, PATIENCE = 0.1, 300.0
 SHARDS = 200

@@ -1,6 +1,6 @@
 """The two checkers of certificates against each other: they must have one verdict on changed ones with fitted digests.
 
-python -m tests.core.proof.differential [CASES] [SEED] checks 100,000 changed certificates and prints those about which
+python -m tests.campaigns.differential [CASES] [SEED] checks 100,000 changed certificates and prints those about which
 core/proof and examples/verify.py disagree; exit code 1 if there is any.
 
 A stretch that one of them cannot show at once may be shown in parts: their enclosures differ, and verify.py halves
@@ -37,7 +37,7 @@ from core.proof import (
 from core.proof.certificate import digest
 from core.tolerance.tolerance import tolerance
 
-VERIFY = Path(__file__).parents[3] / "examples" / "verify.py"
+VERIFY = Path(__file__).parents[2] / "examples" / "verify.py"
 # Parts of each stretch, where only one of the two proves a certificate.
 PARTS = (8, 64)
 # Factors and values that a number may get.

@@ -15,9 +15,9 @@ from pathlib import Path
 import ezdxf
 import httpx
 
-from tests.app.bombs import GRADES, MAPS, lying, zipped
-from tests.app.fuzz import SLOWEST, Tally
-from tests.app.grade.students import by_xlsxwriter, few
+from tests.campaigns.fuzz import SLOWEST, Tally
+from tests.support.bombs import GRADES, MAPS, lying, zipped
+from tests.support.students import by_xlsxwriter, few
 
 # Call and file.
 Sample = tuple[str, bytes]

@@ -12,7 +12,7 @@ from collections import Counter
 import numpy as np
 
 from core import Dragon, InvalidValue, LimitedBy, minimum_pitch
-from tests.core.slow_pitch import SlowWay
+from tests.support.slow_pitch import SlowWay
 
 # A pitch this much above the answer must be feasible, one this much below the infeasible end must not be [1], and at
 # least the second number [m]: pitches are promised to 1e-9 m.

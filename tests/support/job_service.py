@@ -15,8 +15,8 @@ from typing import Any, Self
 import httpx
 
 from app.files.tables import XLSX_TYPE
-from tests.app.command import serve
 from tests.conftest import STOP_TIMEOUT, wait_until_live
+from tests.support.command import serve
 
 PATIENCE = 60.0  # [s] for what is coming
 LINGER = 10.0  # [s] until whoever follows a process has ended after it, on a busy machine

@@ -1,7 +1,7 @@
-"""All random campaigns against slow oracles: python -m tests.hunt [SECONDS [SEED]]; exit code 1 for any false answer.
+"""All random campaigns against slow oracles: python -m tests.campaigns.hunt [SECONDS [SEED]].
 
-Each campaign is a module with `hunt(seed, seconds)`, which returns the number of cases and the false ones, as a number
-or a list of sentences. The time is shared out among them.
+The exit code is 1 for any false answer. Each campaign is a module with `hunt(seed, seconds)`, which returns the number
+of cases and the false ones, as a number or a list of sentences. The time is shared out among them.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from importlib import import_module
 
 # Module of each campaign, and what it judges.
 CAMPAIGNS = {
-    "tests.core.hunt_contacts": "first contacts, least clearances and verdicts on any path, with passages",
-    "tests.core.hunt_turns": "turns with any entry and exit, long spirals, boxes of turns that share an overlap",
-    "tests.core.hunt_venues": "walls and obstacles, up to the fold",
-    "tests.core.proof.differential": "certificates with a changed number, judged by both verifiers",
-    "tests.app.grade.hunt_grades": "sheets and typed numbers that are nearly right",
+    "tests.campaigns.hunt_contacts": "first contacts, least clearances and verdicts on any path, with passages",
+    "tests.campaigns.hunt_turns": "turns with any entry and exit, long spirals, boxes of turns that share an overlap",
+    "tests.campaigns.hunt_venues": "walls and obstacles, up to the fold",
+    "tests.campaigns.differential": "certificates with a changed number, judged by both verifiers",
+    "tests.campaigns.hunt_grades": "sheets and typed numbers that are nearly right",
 }
 SECONDS = 1200.0  # of all campaigns together
 

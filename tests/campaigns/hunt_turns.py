@@ -1,6 +1,6 @@
 """Turns with any entry and exit, dances far in on long spirals, and boxes of turns, against a slow search.
 
-`python -m tests.core.hunt_turns SEED SECONDS`. First contacts, least clearances and verdicts are judged as in
+`python -m tests.campaigns.hunt_turns SEED SECONDS`. First contacts, least clearances and verdicts are judged as in
 hunt_contacts. Spirals have up to 1,000 turns, and the dance begins where the head has a few left. Of a box of turns
 that share an overlap (core/design/turn_overlap.py), random turns are laid out slowly, and must overlap at some instant.
 """
@@ -15,10 +15,10 @@ from core import BenchDragonError, Dance, Dragon, InvalidValue, Spiral, Turn
 from core.design.turn_boxes import sizes_of, turns_in
 from core.design.turn_moves import box_of, least_bend
 from core.design.turn_overlap import Overlap
-from tests.core import hunting
-from tests.core.hunt_contacts import GAP, SlowLook, judged, random_dragon
-from tests.core.slow_route import SlowRoute
-from tests.core.slow_search import STEP, SlowDance, arc_length
+from tests.campaigns import hunting
+from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_dragon
+from tests.support.slow_route import SlowRoute
+from tests.support.slow_search import STEP, SlowDance, arc_length
 
 # Error of a slow place for each metre of a path, some roundings of a double [1].
 OF_PATH = 3e-15

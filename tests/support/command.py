@@ -164,7 +164,7 @@ def bin_folder() -> Path:
         door.bind(f"{place}/door")
         door.listen()
         given: dict[str, Any] = {"cwd": ROOT, "env": ENVIRONMENT, "stdin": subprocess.PIPE, "pass_fds": [door.fileno()]}
-        forks = subprocess.Popen([sys.executable, "-m", "tests.app.command", str(door.fileno())], **given)
+        forks = subprocess.Popen([sys.executable, "-m", "tests.support.command", str(door.fileno())], **given)
     atexit.register(_close, place, forks, os.getpid())
     return place
 

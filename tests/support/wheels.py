@@ -1,7 +1,7 @@
-"""What the names of wheels promise: python -m tests.wheels WHEEL... Run by make dist, with auditwheel and patchelf.
+"""What the names of wheels promise: python -m tests.support.wheels WHEEL...
 
-A wheel for one platform holds compiled loops, and one for every platform none. On Linux a wheel with compiled loops
-needs no library beside those that manylinux allows.
+make dist runs it, with auditwheel and patchelf. A wheel for one platform holds compiled loops, and one for every
+platform none. On Linux a wheel with compiled loops needs no library beside those of manylinux.
 """
 
 from __future__ import annotations

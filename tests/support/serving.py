@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.app.command import Process, serve
 from tests.conftest import STOP_TIMEOUT, wait_until_live
+from tests.support.command import Process, serve
 
 
 @dataclass

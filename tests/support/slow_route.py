@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core import Arc, Coil, Line
-from tests.core.slow_search import SlowDance, arc_length
+from tests.support.slow_search import SlowDance, arc_length
 
 # Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
 NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11

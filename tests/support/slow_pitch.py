@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.core.slow_search import arc_length, head_angle, next_delta, rectangles_gap
+from tests.support.slow_search import arc_length, head_angle, next_delta, rectangles_gap
 
 # Steps in which the way is sampled, each up to a distance outside the circle; both in shortest chords [1]. Small
 # circles have two dips within a tenth of a chord near the circle.

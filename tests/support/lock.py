@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 UV = Path(sys.executable).with_name("uv")
 # Every Python that pyproject.toml names, and the processors of Linux machines.
 PYTHONS = ("3.11", "3.12", "3.13", "3.14")
