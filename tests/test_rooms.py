@@ -174,5 +174,6 @@ def test_a_column_written_as_a_number_is_noticed(code: str) -> None:
 
 
 def test_columns_of_the_kernels_are_named() -> None:
-    core = {path: nodes for path, nodes in trees().items() if path.startswith("tests/core/")}
-    assert {path: used for path, nodes in core.items() if (used := numeric_columns(nodes))} == {}
+    of_core = ("tests/core/", "tests/support/", "tests/campaigns/")
+    files = {path: nodes for path, nodes in trees().items() if path.startswith(of_core)}
+    assert {path: used for path, nodes in files.items() if (used := numeric_columns(nodes))} == {}
