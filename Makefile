@@ -26,7 +26,7 @@ help:
 	@echo 'make deep     the tests with all cases and samples, of which make test runs some of each kind'
 	@echo 'make rounding 10,000 computed gaps against 50-digit arithmetic and the bounds on rounding (ARGS="GAPS SEED")'
 	@echo 'make libreoffice  grades the three workbooks as saved by LibreOffice (needs libreoffice-calc; ARGS=--renew: the small ones)'
-	@echo 'make lint     ruff and mypy, and oxlint for the page'
+	@echo 'make lint     ruff and mypy, and for the page oxlint and TypeScript'
 	@echo 'make sweep-pitch  the minimum pitch of 2,000 random dragons against a slow scan, 10 minutes (DRAGONS=, FIRST=)'
 	@echo 'make sweep-kills  a sweep of 200,000 designs on a Dask cluster with 50 kills, half an hour (DESIGNS=, KILLS=, FIRST=)'
 	@echo 'make job-kills  50 processes of the service killed at random while it works on jobs, 5 minutes (KILLS=, SEED=)'
@@ -104,11 +104,21 @@ rounding: test-setup
 libreoffice: test-setup
 	@$(BIN)/python -m tests.campaigns.libreoffice $(ARGS)
 
-lint: test-setup
+# TypeScript for the types of the page's scripts. Node.js, which runs it, comes as a wheel; it takes the certificates of the
+# system, as uv does.
+$(VENV)/types: .ci/typescript/node.lock .ci/typescript/package-lock.json $(VENV)/tests
+	@$(INSTALL) $(VENV) .ci/typescript/node.lock
+	@mkdir -p $(VENV)/typescript
+	@cp .ci/typescript/*.json $(VENV)/typescript
+	@cd $(VENV)/typescript && NODE_OPTIONS=--use-system-ca PATH="$(CURDIR)/$(BIN):$$PATH" npm ci --silent --no-audit --no-fund
+	@touch $@
+
+lint: test-setup $(VENV)/types
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
 	@$(BIN)/mypy
 	@$(BIN)/oxlint --quiet app/page
+	@$(BIN)/node $(VENV)/typescript/node_modules/typescript/bin/tsc --project jsconfig.json
 
 sweep-pitch: test-setup
 	@$(BIN)/python -m tests.campaigns.sweep_pitch $(or $(DRAGONS),2000) $(or $(FIRST),0)

@@ -88,9 +88,11 @@ export class Service {
     this.#beat();
   }
 
-  /** The newest answer on a channel; null for an empty one. body: sent as JSON; file: sent as it is; how: method, cache.
-   throws: Problem, Superseded */
-  async ask(channel, path, { query, body, file, accept = "application/json", headers: more, ...how } = {}) {
+  /**
+   * The newest answer on a channel; null for an empty one. body: sent as JSON; file: sent as it is; how: method, cache.
+   * throws: Problem, Superseded
+   */
+  async ask(channel, path, /** @type {Question} */ { query, body, file, accept = "application/json", headers: more, ...how } = {}) {
     if (!this.#channels.has(channel)) this.#channels.set(channel, new Channel());
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
     const type = file ? "application/octet-stream" : body && "application/json";

@@ -21,9 +21,15 @@ export async function tableOfFile(file, service) {
 }
 
 export class BenchTable {
-  /** group: the numbers of equal benches, which the table replaces */
+  /**
+   * group: the numbers of equal benches, which the table replaces
+   * @param {State} state
+   * @param {Service} service
+   */
   constructor(group, state, service) {
-    Object.assign(this, { group, state, service });
+    this.group = group;
+    this.state = state;
+    this.service = service;
     this.title = make("summary");
     const described = { "aria-describedby": "csv-help csv-error" };
     this.text = make("textarea", { id: "csv", rows: ROWS, spellcheck: false, wrap: "off", "data-label": "csv", ...described });

@@ -45,8 +45,8 @@ export function benchesOf(text) {
     return rows.map((row) => row[at] ?? "");
   };
   const numbers = (pattern) => column(pattern).map((cell) => Number(cell.replace(",", ".")));
-  const { names, ...sizes } = COLUMNS;
-  return { names: column(names), ...Object.fromEntries(Object.entries(sizes).map(([name, pattern]) => [name, numbers(pattern)])) };
+  const { names, lengths, widths, overhangs } = COLUMNS;
+  return { names: column(names), lengths: numbers(lengths), widths: numbers(widths), overhangs: numbers(overhangs) };
 }
 
 const quoted = (name) => (/[",]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name);

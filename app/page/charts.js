@@ -18,7 +18,9 @@ export class Chart {
 
   /** plan(data): {labels of both axes, table of uPlot, range of y, width of the line [px] (0: draw() draws it), draw(pen, colours)} */
   constructor(box, plan, seek) {
-    Object.assign(this, { box, plan, seek });
+    this.box = box;
+    this.plan = plan;
+    this.seek = seek;
     new ResizeObserver(() => this.#plot?.setSize({ width: box.clientWidth, height: HEIGHT })).observe(box);
   }
 

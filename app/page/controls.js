@@ -34,6 +34,9 @@ const SHOWN = Object.fromEntries(FIELDS.map(({ name, centimetres }) => [name, ce
 export class Controls {
   #rows = new Map();
 
+  /**
+   * @param {State} state
+   */
   constructor(form, state) {
     this.state = state;
     form.addEventListener("submit", (event) => event.preventDefault());

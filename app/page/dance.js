@@ -85,7 +85,7 @@ export function addGround(path, { x, y }, dragon, k, stray) {
 
 /** The two ends of an edge by its name in the service; inner is the side nearer to the centre. */
 function edge(corners, name) {
-  const far = ([[ax, ay], [bx, by]]) => Math.hypot(ax + bx, ay + by);
+  const far = (/** @type {number[][]} */ [a, b]) => Math.hypot(a[0] + b[0], a[1] + b[1]);
   const [inner, outer] = [[corners[0], corners[3]], [corners[1], corners[2]]].sort((a, b) => far(a) - far(b));
   return { front: [corners[0], corners[1]], rear: [corners[2], corners[3]], inner, outer }[name];
 }
@@ -115,7 +115,9 @@ class Pen {
     context.resetTransform();
     context.clearRect(0, 0, width, height);
     context.setTransform(zoom, 0, 0, -zoom, width / 2 - x * zoom, height / 2 + y * zoom);
-    Object.assign(this, { context, scale, right: x + wide / (2 * scale) });
+    this.context = context;
+    this.scale = scale;
+    this.right = x + wide / (2 * scale);
   }
 
   fill(path, colour) {
@@ -185,6 +187,8 @@ export class Dance {
   /** Functions of a pen and the colours that draw additional layers: below the benches, and above them. */
   below = [];
   above = [];
+  /** (x, y) -> whether a tap there was for a drawing [px]; null: none is edited */
+  tapped = null;
   /** True if the path is drawn by hand, so that it must be clearly visible. */
   drawn = false;
   #path = null;
@@ -194,7 +198,8 @@ export class Dance {
   #palette = [];
 
   constructor(canvas, inset, { moved, picked }) {
-    Object.assign(this, { canvas, inset });
+    this.canvas = canvas;
+    this.inset = inset;
     this.view = new View(canvas, { moved, clicked: (x, y) => this.tapped?.(x, y) || picked(this.#nearest(x, y)) });
     this.restyle();
   }
@@ -251,9 +256,9 @@ export class Dance {
   covered(rectangles) {
     const { pose, contact } = this.scene;
     const places = Array.from(pose.x, (x, k) => this.view.toScreen(x, pose.y[k]));
-    const point = contact?.point ? this.view.toScreen(...contact.point) : [NaN, NaN];
+    const point = contact?.point ? this.view.toScreen(contact.point[0], contact.point[1]) : [NaN, NaN];
     return rectangles.map(({ left, top, right, bottom }) => {
-      const isUnder = ([x, y]) => x > left && x < right && y > top && y < bottom;
+      const isUnder = (place) => place[0] > left && place[0] < right && place[1] > top && place[1] < bottom;
       return places.filter(isUnder).length + (isUnder(point) ? places.length : 0);
     });
   }

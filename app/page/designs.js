@@ -9,9 +9,14 @@ export class Designs {
   /** The spec behind the map; null if another browser asked for it. */
   #spec = null;
 
-  /** names: of the state's numbers, which a design may set */
+  /**
+   * names: of the state's numbers, which a design may set
+   * @param {State} state
+   * @param {Service} service
+   */
   constructor(state, service, names) {
-    Object.assign(this, { state, names });
+    this.state = state;
+    this.names = names;
     this.map = new SweepMap($("#map"), (over, row) => this.#open(over, row));
     this.jobs = new Jobs($("#jobs"), service, (columns, spec) => this.#show(columns, spec));
     new SweepForm($("#sweep"), state, (spec) => this.jobs.start(spec));

@@ -19,8 +19,14 @@ export class Drawn {
   /** A failure whose benches must still be moved into view. */
   #wanted = null;
 
+  /**
+   * @param {{ state: State, service: Service, questions: Questions, dance: any, draw: any }} parts
+   */
   constructor({ state, service, questions, dance, draw }) {
-    Object.assign(this, { state, questions, picture: dance, draw });
+    this.state = state;
+    this.questions = questions;
+    this.picture = dance;
+    this.draw = draw;
     this.steps = new Steps(state, () => this.show());
     const course = () => (questions.course?.drawing === state.get("drawing") ? questions.course : null);
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());

@@ -21,9 +21,18 @@ export class Editor {
   #knots = [];
   #drag = null;
 
-  /** course(): the drawn path from the service; chosen(): called when another item is edited */
+  /**
+   * course(): the drawn path from the service; chosen(): called when another item is edited
+   * @param {State} state
+   * @param {Steps} steps
+   */
   constructor(dance, state, steps, course, chosen) {
-    Object.assign(this, { dance, state, steps, course, chosen, box: $("#knots") });
+    this.dance = dance;
+    this.state = state;
+    this.steps = steps;
+    this.course = course;
+    this.chosen = chosen;
+    this.box = $("#knots");
     dance.tapped = (x, y) => this.#tap(x, y);
     for (const button of $$("[data-tool]")) button.addEventListener("click", () => this.take(button.dataset.tool));
     onClick("#edit", () => this.turn(!this.active));

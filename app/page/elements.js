@@ -1,6 +1,8 @@
 /** Helpers that find, make and listen to elements of the document, read its colours, and save a file. */
 
+/** @type {(selector: string) => any} */
 export const $ = (selector) => document.querySelector(selector);
+/** @type {(selector: string) => any[]} */
 export const $$ = (selector) => [...document.querySelectorAll(selector)];
 export const onClick = (selector, act) => $(selector).addEventListener("click", act);
 

@@ -4,6 +4,7 @@
  * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
  * begin with: [from, to, step]; only: the path that has this number; centimetres: the unit here and on the slider. An
  * empty text leaves the number to the service.
+ * @type {{name: string, value: string, group: string, slider: [number, number, number], only?: string, centimetres?: boolean}[]}
  */
 export const FIELDS = [
   { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
@@ -30,7 +31,7 @@ export const DRAGON = namesOf("dragon");
 /** Numbers that define a contact. */
 export const CONTACT = ["margin", ...namesOf("people")];
 /** Largest distance of every hole from its place [m]: the stray of people, and half the difference of hole and pin. */
-export const strayOf = ({ stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
+export const strayOf = (/** @type {any} */ { stray, hole, pin }) => Number(stray) + (hole - pin) / 2;
 /** The numbers of a turn in addition to those of its coils. */
 export const TURN = ["turning_diameter", "ratio", "entry_radius", "exit_radius"];
 /** Texts as numbers; other texts stay unchanged, so that the service refuses them. */

@@ -15,9 +15,18 @@ const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
 
 export class Files {
-  /** steps: receives drawings; questions: has the shown dance */
+  /**
+   * steps: receives drawings; questions: has the shown dance
+   * @param {State} state
+   * @param {Steps} steps
+   * @param {Service} service
+   * @param {Questions} questions
+   */
   constructor(state, steps, service, questions) {
-    Object.assign(this, { state, steps, service, questions });
+    this.state = state;
+    this.steps = steps;
+    this.service = service;
+    this.questions = questions;
     const onchange = () => {
       if (this.input.files[0]) this.open(this.input.files[0]);
       this.input.value = "";

@@ -24,6 +24,9 @@ export class Grader {
   #language = null;
   #working = "";
 
+  /**
+   * @param {Service} service
+   */
   constructor(service) {
     this.service = service;
     const drop = $("#drop");
@@ -73,6 +76,7 @@ export class Grader {
     const requests = this.#files.map((file) => [{ name: file.name.slice(-200), language: this.#language }, file]);
     if (numbers.length) requests.unshift([{ language: this.#language, ...Object.fromEntries(numbers) }, undefined]);
     const wrong = typed.filter(([, text]) => !NUMBER.test(text));
+    /** @type {{refused?: Element, answer?: any}[]} */
     const results = wrong.map(([name, text]) => {
       const what = say(`typed_${name}`);
       return refusedBox(what, { textContent: say("noNumber", { what, text, example: EXAMPLES[name] }) });

@@ -16,9 +16,14 @@ export class Graphs {
   #charts;
   #watch = null;
 
-  /** seek(time): shows the dance at this time [s] */
+  /**
+   * seek(time): shows the dance at this time [s]
+   * @param {State} state
+   * @param {Questions} questions
+   */
   constructor(state, questions, seek) {
-    Object.assign(this, { state, questions });
+    this.state = state;
+    this.questions = questions;
     const choosePitch = (pitch) => state.set({ pitch: pitch.toFixed(PITCH_DECIMALS) });
     this.#charts = {
       clearance: new Chart($("#clearance .plot"), clearancePlan, seek),

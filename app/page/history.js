@@ -1,5 +1,6 @@
 /** Undo and redo of the drawing. Each step is an entry of the browser's history too, so that its back button works. */
 
+
 /** Changes of the same kind within this time [ms] are one step, such as arrow keys or digits of a number. */
 const TOGETHER = 1_000;
 
@@ -8,9 +9,13 @@ export class Steps {
   #future = [];
   #last = { kind: null, at: 0 };
 
-  /** changed(): called when undo or redo becomes possible or impossible */
+  /**
+   * changed(): called when undo or redo becomes possible or impossible
+   * @param {State} state
+   */
   constructor(state, changed) {
-    Object.assign(this, { state, changed });
+    this.state = state;
+    this.changed = changed;
   }
 
   get canUndo() {

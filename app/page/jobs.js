@@ -38,9 +38,14 @@ export class Jobs {
   #jobs = new Map();
   #timer = 0;
 
-  /** show(columns, spec): draw the table of a sweep */
+  /**
+   * show(columns, spec): draw the table of a sweep
+   * @param {Service} service
+   */
   constructor(list, service, show) {
-    Object.assign(this, { list, service, show });
+    this.list = list;
+    this.service = service;
+    this.show = show;
     for (const { id, spec } of remembered()) this.#jobs.set(id, { spec });
     $("#token").addEventListener("change", () => this.#listAll());
     this.#look();

@@ -34,7 +34,9 @@ export function radiiOf({ radius, least_radius: least }) {
 export class Judgement {
   /** seek(failure): shows the dance at its time; look(point): moves the picture there */
   constructor(box, seek, look) {
-    Object.assign(this, { box, seek, look });
+    this.box = box;
+    this.seek = seek;
+    this.look = look;
   }
 
   /** Show the verdict on a dance that the service has checked. */

@@ -93,9 +93,15 @@ const REQUESTS = {
 };
 
 export class Keep {
-  /** jobs: makes films */
+  /**
+   * jobs: makes films
+   * @param {{ state: State, service: Service, questions: Questions, jobs: Jobs, canvas: any }} parts
+   */
   constructor({ state, service, questions, jobs, canvas }) {
-    Object.assign(this, { service, questions, jobs, canvas });
+    this.service = service;
+    this.questions = questions;
+    this.jobs = jobs;
+    this.canvas = canvas;
     onClick("#share", () => {
       state.write();
       // An address without anything opens in motion.
@@ -137,9 +143,13 @@ export class Keep {
     $("#curl").textContent = (lines[wanted] ?? (() => [this.#curl(REQUESTS[item.ask](this.questions, item.forms[0]), item)]))().join("\n");
   }
 
-  /** The command for a question. item: its first format goes into a file; what takes long is asked as a job */
+  /**
+   * The command for a question. item: its first format goes into a file; what takes long is asked as a job
+   * @param {{path: string, query?: any, body?: any}} question
+   * @param {any} [item]
+   */
   #curl({ path, query, body }, item) {
-    const base = new URL("./", location).href;
+    const base = new URL("./", location.href).href;
     if (item?.job) return this.#curl({ path: "jobs", body: { question: path, request: body, accept: TYPES[item.forms[0]] } });
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
     const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";

@@ -24,7 +24,11 @@ export class SweepMap {
 
   /** open(design): values by name, and the answer's under `answer`; colour(name): of the page */
   constructor(box, open) {
-    Object.assign(this, { box, open, canvas: box.querySelector("canvas"), reading: box.querySelector(".reading"), select: $("#map-value") });
+    this.box = box;
+    this.open = open;
+    this.canvas = box.querySelector("canvas");
+    this.reading = box.querySelector(".reading");
+    this.select = $("#map-value");
     this.select.addEventListener("change", () => this.draw());
     this.canvas.addEventListener("pointermove", (event) => this.#point(this.#at(event)));
     this.canvas.addEventListener("click", (event) => {
@@ -113,7 +117,7 @@ export class SweepMap {
     return this.select.selectedOptions[0].textContent;
   }
 
-  #legend([low, high], two) {
+  #legend(/** @type {number[]} */ [low, high], two) {
     $("#map-legend").hidden = !two;
     const [least, largest] = $("#map-legend").querySelectorAll("span");
     [least.textContent, largest.textContent] = [formatNumber(low), formatNumber(high)];
@@ -197,7 +201,7 @@ function edges(values) {
   return [low, ...values.slice(1).map((one, k) => (one + values[k]) / 2), high];
 }
 
-function drawCells(context, [xs, ys], grid, [low, high], at, colour) {
+function drawCells(context, [xs, ys], grid, /** @type {number[]} */ [low, high], at, colour) {
   const shades = palette(colour("ramp"));
   const [ex, ey] = [edges(xs), edges(ys)];
   grid.forEach((row, j) =>

@@ -10,7 +10,10 @@ const [PAUSE, LONG] = [10, 20];
 export class Pace {
   #rows = [];
 
-  /** field: that of the head speed, above these elements */
+  /**
+   * field: that of the head speed, above these elements
+   * @param {State} state
+   */
   constructor(field, state) {
     this.state = state;
     this.title = make("summary");

@@ -22,16 +22,23 @@ export class Player {
   #passed = 0;
   #exact = null;
 
-  /** show(pose): draws it; list(pose): only puts it into the table */
+  /**
+   * show(pose): draws it; list(pose): only puts it into the table
+   * @param {State} state
+   * @param {Questions} questions
+   */
   constructor(state, questions, show, list) {
-    Object.assign(this, { state, questions, show, list });
+    this.state = state;
+    this.questions = questions;
+    this.show = show;
+    this.list = list;
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
     onClick("#play", () => this.toggle());
     onClick("#back", () => this.#step(-1));
     onClick("#on", () => this.#step(1));
     onClick("#to-end", () => this.seek(Infinity));
     $("#time").addEventListener("input", (event) => this.seek(Number(event.target.value)));
-    $("#rate").append(...RATES.map((rate) => new Option(`${rate}×`, rate)));
+    $("#rate").append(...RATES.map((rate) => new Option(`${rate}×`, String(rate))));
     $("#rate").addEventListener("change", (event) => state.set({ rate: Number(event.target.value) }));
   }
 

@@ -64,9 +64,15 @@ export class Questions {
   /** True if the engines judge the whole dragon at the minimum pitch: at first, and when input pauses. */
   #whole = true;
 
-  /** tell(kind, detail): called for a new answer of this kind, and for a new or solved refusal */
+  /**
+   * tell(kind, detail): called for a new answer of this kind, and for a new or solved refusal
+   * @param {Service} service
+   * @param {State} state
+   */
   constructor(service, state, tell) {
-    Object.assign(this, { service, state, tell });
+    this.service = service;
+    this.state = state;
+    this.tell = tell;
   }
 
   /** Ask everything that depends on the numbers of the state. */
@@ -161,7 +167,7 @@ export class Questions {
   }
 
   /** The shown part of a turn, whose coils have no end; a spiral is shown to its end, a drawn path in its place. */
-  #stretch({ kind, numbers: { head_speed: speed }, extras, drawing }) {
+  #stretch(/** @type {any} */ { kind, numbers: { head_speed: speed }, extras, drawing = null }) {
     if (kind === "route") return placeOf(drawing);
     return kind === "turn" ? { start: -TURN_TRAVEL / speed, stop: timeAfter(TURN_TRAVEL, speed, extras.passages) } : {};
   }
@@ -241,7 +247,7 @@ export class Questions {
     const staircase = [...CIRCLE, "margin"];
     const look = this.#over(staircase, LOOK);
     if (this.#near.has("scan") && this.#isNew("look", look)) this.#looked = this.#keep("look", "pitch-scan", look);
-    const slow = [["tolerance", "tolerance", this.toleranceOf()]];
+    const slow = /** @type {any[]} */ ([["tolerance", "tolerance", this.toleranceOf()]]);
     if (this.state.get("path") === "turn") {
       slow.push(["head", "maximum-head-speed", this.#fastestHead()]);
       slow.push(["time", "turn-time", this.#turnTime()]);
@@ -355,8 +361,8 @@ export class Questions {
     return true;
   }
 
-  /** The answer; undefined if it was refused or superseded. */
-  async #answer(channel, path, { request, ...question }) {
+  /** The answer; undefined if it was refused or superseded. question: with `request`, which is of the page alone */
+  async #answer(channel, path, /** @type {any} */ { request, ...question }) {
     try {
       const answer = await this.service.ask(channel, path, question);
       if (this.refusals.delete(channel)) this.tell("refused");

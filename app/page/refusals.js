@@ -40,8 +40,16 @@ export function refusalIn(problem, chinese, say) {
 
 /** One refusal and how it is worded; its arguments are those of refusalIn(). */
 class Refusal {
-  constructor({ detail, template, got, reason, values = {}, pointer }, chinese, say) {
-    Object.assign(this, { detail, template, got, reason, values, pointer, chinese, say, column: chinese ? 1 : 0 });
+  constructor({ detail, template, got, reason, values, pointer }, chinese, say) {
+    this.detail = detail;
+    this.template = template;
+    this.got = got;
+    this.reason = reason;
+    this.values = values ?? {};
+    this.pointer = pointer;
+    this.chinese = chinese;
+    this.say = say;
+    this.column = chinese ? 1 : 0;
     this.parameter = this.values.field?.parameter ?? "";
     this.field = fieldOf(lastOf(this.parameter));
     this.unit = this.field?.centimetres ? "cm" : this.values.unit?.text;

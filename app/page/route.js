@@ -30,9 +30,17 @@ export class RouteForm {
   #points = [];
   #things = [];
 
-  /** editor: chooses the edited item; steps: receives changes; files: {open, save, map} */
+  /**
+   * editor: chooses the edited item; steps: receives changes; files: {open, save, map}
+   * @param {State} state
+   * @param {Steps} steps
+   * @param {Editor} editor
+   */
   constructor(box, state, steps, editor, files) {
-    Object.assign(this, { box, state, steps, editor });
+    this.box = box;
+    this.state = state;
+    this.steps = steps;
+    this.editor = editor;
     this.preset = labelled("select", "preset", { id: "preset", onchange: () => this.beginWith(this.preset.value) });
     this.preset.append(textElement("option", "presetChoose", { value: "" }), ...["empty", ...Object.keys(PRESETS)].map((name) => textElement("option", `preset_${name}`, { value: name })));
     this.corner = this.#number("cornerRadius", (radius) => this.#take({ radius }));

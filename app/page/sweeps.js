@@ -24,9 +24,13 @@ const NONE = "";
 export class SweepForm {
   #rows;
 
-  /** start(spec): asks the service; throws its refusal */
+  /**
+   * start(spec): asks the service; throws its refusal
+   * @param {State} state
+   */
   constructor(form, state, start) {
-    Object.assign(this, { state, start });
+    this.state = state;
+    this.start = start;
     const options = Object.keys(QUESTIONS).map((name) => make("option", { value: name, "data-text": `sweep_${name}` }));
     this.question = make("select", { id: "sweep-question", onchange: () => this.#offer() }, ...options);
     this.#rows = FIRST.map((first, k) => this.#row(k, first));
@@ -41,7 +45,7 @@ export class SweepForm {
     this.#offer();
   }
 
-  #row(k, [name, from, to, count]) {
+  #row(k, /** @type {(string | number)[]} */ [name, from, to, count]) {
     const number = (key, value, more = {}) => make("input", { id: `sweep-${key}-${k}`, type: "number", step: "any", required: true, value, "data-label": key, ...more });
     const row = {
       k,

@@ -18,7 +18,9 @@ export class Table {
 
   /** choose(step): called to choose a row some steps further; chosen(handle): called to choose a row */
   constructor(box, { choose, chosen }) {
-    Object.assign(this, { box, body: box.querySelector("tbody"), table: box.querySelector("table") });
+    this.box = box;
+    this.body = box.querySelector("tbody");
+    this.table = box.querySelector("table");
     box.addEventListener("scroll", () => this.#queue());
     box.addEventListener("keydown", (event) => {
       if (!(event.key in KEYS)) return;

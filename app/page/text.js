@@ -1,5 +1,6 @@
 /** Texts of the page: its words in the chosen language, and the service's refusals. */
 
+import { $$ } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { claimInChinese } from "./proofs.js";
 import { refusalIn } from "./refusals.js";
@@ -15,8 +16,8 @@ export function setLanguage(choice) {
   column = language === "zh" ? 1 : 0;
   document.documentElement.lang = language === "zh" ? "zh-Hans" : "en";
   document.title = say("title");
-  for (const element of document.querySelectorAll("[data-text]")) element.textContent = say(element.dataset.text);
-  for (const element of document.querySelectorAll("[data-label]")) {
+  for (const element of $$("[data-text]")) element.textContent = say(element.dataset.text);
+  for (const element of $$("[data-label]")) {
     element.setAttribute("aria-label", say(element.dataset.label));
     if (element.tagName === "BUTTON") element.title = say(element.dataset.label);
   }
@@ -34,6 +35,7 @@ export function say(key, values = {}) {
 /**
  * The text of this key for a question: with a margin benches in contact may be apart, and with a stray they only may
  * touch. {touch} and {meet} in a text are the words for a contact. request: {margin, stray, hole, pin}, [m]
+ * @param {any} request
  */
 export function sayOf(key, request, values = {}) {
   const [near, strays] = [Number(request.margin) > 0, strayOf(request) > 0];

@@ -31,7 +31,10 @@ export class Track {
    * ready() is called when a chunk has arrived
    */
   constructor(ask, span, handles, headSpeed, ready) {
-    Object.assign(this, { ask, span, handles, ready });
+    this.ask = ask;
+    this.span = span;
+    this.handles = handles;
+    this.ready = ready;
     this.samples = Math.max(3, Math.ceil(((span[1] - span[0]) * headSpeed) / SAMPLE_TRAVEL));
     this.step = (span[1] - span[0]) / this.samples;
     this.size = Math.max(CHUNK_SAMPLES_MIN, Math.floor(CHUNK_CELLS / handles));
@@ -90,6 +93,6 @@ function cubic(u) {
   return [(-b * c * d) / 6, (a * c * d) / 2, (-a * b * d) / 2, (a * b * c) / 6];
 }
 
-function mixed([a, b, c, d], [p, q, r, s]) {
+function mixed(/** @type {number[][]} */ [a, b, c, d], /** @type {number[]} */ [p, q, r, s]) {
   return Float64Array.from(b, (_, k) => p * a[k] + q * b[k] + r * c[k] + s * d[k]);
 }

@@ -23,7 +23,7 @@ function drawThing(pen, colours, thing) {
     return;
   }
   const path = new Path2D();
-  if (kind === "circle") path.arc(...points[0], radius, 0, 2 * Math.PI);
+  if (kind === "circle") path.arc(points[0][0], points[0][1], radius, 0, 2 * Math.PI);
   else [points, ...holes].forEach((ring) => trace(ring, path));
   context.fillStyle = kind === "area" ? colours.ground : colours.thing;
   context.fill(path, "evenodd");
@@ -34,7 +34,7 @@ function drawThing(pen, colours, thing) {
  * A name beside its place. It must not overlap the names so far, whose boxes are taken: without room it is left out until
  * the picture is enlarged, unless its colour marks it.
  */
-function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
+function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours, taken, away = 8) {
   const { context } = pen;
   const [atX, atY] = view.toScreen(x, y);
   context.save();
@@ -43,13 +43,13 @@ function label(pen, view, text, [x, y], colour, colours, taken, away = 8) {
   Object.assign(context, { font: FONT, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
   const places = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
-  const isInside = ([dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
-  const isFree = ([dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
+  const isInside = (/** @type {number[]} */ [dx]) => atX + dx >= 0 && atX + dx + width <= view.width;
+  const isFree = (/** @type {number[]} */ [dx, dy]) => taken.every(([left, bottom, wide]) => Math.abs(atY + dy - bottom) >= NAME_HEIGHT || atX + dx > left + wide || left > atX + dx + width);
   const place = places.find((one) => isInside(one) && isFree(one)) ?? (colour === colours.text ? null : (places.find(isInside) ?? places[0]));
   if (place) {
     taken.push([atX + place[0], atY + place[1], width]);
-    context.strokeText(text, ...place);
-    context.fillText(text, ...place);
+    context.strokeText(text, place[0], place[1]);
+    context.fillText(text, place[0], place[1]);
   }
   context.restore();
 }
@@ -67,7 +67,7 @@ export function layers(dance, get) {
     const drawn = get();
     if (!drawn) return;
     const { things } = drawn.drawing;
-    const order = [...things.keys()].sort((a, b) => (things[b].kind === "area") - (things[a].kind === "area"));
+    const order = [...things.keys()].sort((a, b) => Number(things[b].kind === "area") - Number(things[a].kind === "area"));
     for (const k of order) if (isWhole(things[k])) drawThing(pen, colours, things[k]);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };

@@ -16,7 +16,13 @@ export class View {
 
   /** moved(panned): called after a change of the view; clicked(x, y): in pixels of the canvas */
   constructor(canvas, { moved, clicked }) {
-    Object.assign(this, { canvas, moved, clicked, x: 0, y: 0, scale: 20, fitted: true });
+    this.canvas = canvas;
+    this.moved = moved;
+    this.clicked = clicked;
+    this.x = 0;
+    this.y = 0;
+    this.scale = 20;
+    this.fitted = true;
     new ResizeObserver(() => this.measure()).observe(canvas);
     this.measure();
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
@@ -28,7 +34,8 @@ export class View {
   /** Read and keep the size of the canvas, because reading it during a change costs a layout of the whole page. */
   measure() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    Object.assign(this, { width, height });
+    this.width = width;
+    this.height = height;
   }
 
   toScreen(x, y) {
@@ -59,7 +66,10 @@ export class View {
   }
 
   set(x, y, scale = this.scale, fitted = false) {
-    Object.assign(this, { x, y, scale: within(scale), fitted });
+    this.x = x;
+    this.y = y;
+    this.scale = within(scale);
+    this.fitted = fitted;
   }
 
   /** Move the view to a point that is outside. */

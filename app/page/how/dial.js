@@ -14,7 +14,9 @@ export class Dial {
 
   /** plan: {value, min, max, step, decimals, unit(value) -> text after the number}; changed() after each change */
   constructor(plan, changed) {
-    Object.assign(this, { plan, changed, value: plan.value });
+    this.plan = plan;
+    this.changed = changed;
+    this.value = plan.value;
     const listen = (...pairs) => pairs.forEach(([name, act]) => this.element.addEventListener(name, (event) => act(event)));
     listen(["keydown", (event) => this.#key(event)], ["pointerdown", (event) => this.#grab(event)]);
     listen(["pointermove", (event) => this.#move(event)], ["lostpointercapture", () => (this.#drag = null)]);

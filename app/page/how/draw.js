@@ -14,9 +14,17 @@ const joined = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2
 
 /** Common part of pictures and charts: a part of a drawing, with shapes at the places that `at` gives. */
 class Sheet {
+  /** Place in the picture [px]; other coordinates in what extends this. */
+  at(x, y) {
+    return [x, y];
+  }
+
   /** box: {left, top, width, height} in the drawing [px] */
   constructor(svg, { left = 0, top = 0, width, height }) {
-    Object.assign(this, { left, top, width, height });
+    this.left = left;
+    this.top = top;
+    this.width = width;
+    this.height = height;
     this.layer = svg;
     this.layer = this.part([left, top, width, height], [0, 0]);
   }
@@ -61,7 +69,9 @@ export class Picture extends Sheet {
   /** x, y: the middle [m]; span: visible length of the narrower side [m] */
   constructor(svg, box, { x, y, span }) {
     super(svg, box);
-    Object.assign(this, { x, y, scale: Math.min(this.width, this.height) / span });
+    this.x = x;
+    this.y = y;
+    this.scale = Math.min(this.width, this.height) / span;
   }
 
   at(x, y) {
@@ -130,7 +140,8 @@ export class Chart extends Sheet {
   /** x, y: ranges; labels: words of both axes */
   constructor(svg, box, { x, y, labels }) {
     super(svg, box);
-    Object.assign(this, { x, y });
+    this.x = x;
+    this.y = y;
     const [right, bottom] = [this.width - RIGHT, this.height - BOTTOM];
     for (const tick of marksOf(y, (bottom - TOP) / TICKS.y)) {
       const [, py] = this.at(x[0], Number(tick));

@@ -21,11 +21,15 @@ export class Figure {
   #outputs = new Map();
 
   /**
-   * plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data, say) -> sheet, outputs(data, say)}, perhaps refine(ask), refused: key of what a refusal means, and,
+   * * plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data, say) -> sheet, outputs(data, say)}, perhaps refine(ask), refused: key of what a refusal means, and,
    * where the drawing is dragged, pull(place, data) -> {name of a dial: value}; word(key, values): a text
+   * @param {Service} service
    */
   constructor(section, plan, service, word) {
-    Object.assign(this, { section, plan, service, word });
+    this.section = section;
+    this.plan = plan;
+    this.service = service;
+    this.word = word;
     const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => word(one.unit) }, () => this.change())];
     this.dials = Object.fromEntries(Object.entries(plan.dials).map(dial));
     this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
@@ -122,7 +126,7 @@ export class Figure {
     if (!data || svg.clientWidth < NARROWEST) return;
     const width = svg.clientWidth;
     const height = Math.round(Math.min(Math.max(TALL * width, LOWEST), HIGHEST));
-    svg.setAttribute("height", height);
+    svg.setAttribute("height", String(height));
     svg.replaceChildren();
     this.sheet = plan.draw(svg, { width, height }, data, word);
     // On paper the drawing is scaled.
@@ -145,7 +149,7 @@ export class Figure {
       for (const [name, value] of Object.entries(plan.pull(place, this.data))) this.dials[name].set(value);
     };
     svg.addEventListener("pointerdown", (event) => {
-      if (!this.sheet || event.button || (plan.knob && !event.target.classList.contains("knob"))) return;
+      if (!this.sheet || event.button || (plan.knob && !(event.target instanceof Element && event.target.classList.contains("knob")))) return;
       svg.setPointerCapture(event.pointerId);
       held = true;
       go(event);
