@@ -40,6 +40,7 @@ core
 core.proof
 app
 app.extras app.logs app.settings app.start
+app.processes
 app.wire
 app.files
 app.grade

@@ -37,6 +37,7 @@ TOGETHER = {
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
     " maps/lines maps/marks maps/places questions/maps",
     "plan/test_plan.py": "files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
+    "processes/test_pool.py": "processes/child processes/messages processes/parent",
     "questions/test_envelope.py": "command/envelope files/outlines",
     "questions/test_paper.py": "grade/paper",
     "questions/test_registry.py": "questions/clearance questions/course questions/maximum_head_speed questions/overlaps"

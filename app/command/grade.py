@@ -15,7 +15,6 @@ from rich.text import Text
 from app.command import show
 from app.command.options import Json
 from app.files.disk import checked_output, write_whole
-from app.files.memory import READING_MAX, reading
 from app.files.tables import Language
 from app.grade.layout import SHEETS, TableKind
 from app.grade.reading import FILE_MAX
@@ -30,6 +29,7 @@ from app.grade.report import (
     unreadable,
 )
 from app.grade.words import note, say
+from app.processes.limits import READING_MAX, reading
 from app.wire.texts import text_to_cell
 from core import Budget, InvalidValue, TooMuchWork
 

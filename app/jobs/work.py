@@ -24,27 +24,17 @@ from queue import SimpleQueue
 from threading import Thread
 
 from app.files.flush import new_file
-from app.files.memory import limit_memory, peak_memory
 from app.jobs.job import SWEEP
 from app.jobs.reports import Reports
 from app.jobs.runner import end_group
 from app.jobs.store import Store
 from app.jobs.task import Task
 from app.logs import log_to_stderr
+from app.processes.limits import is_small, limit_memory, lower_priority
 from app.settings import Settings
 from app.wire.problem import Problem, problem_of
 
 logger = logging.getLogger("app.jobs")
-
-# Lower priority of jobs, so that direct answers come first (man 2 nice).
-NICENESS = 10
-# Largest peak of the resident memory of a process that does another job [bytes]; a new one needs 90 MB.
-SMALL = 256_000_000
-
-
-def is_small() -> bool:
-    """True if this process never needed much memory, so that the next job finds what it would find in a new one."""
-    return 0 < peak_memory() < SMALL
 
 
 def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> bytes | Path | Problem:
@@ -110,8 +100,7 @@ def jobs() -> Iterator[str]:
 
 
 def main() -> None:
-    if hasattr(os, "nice"):
-        os.nice(NICENESS)
+    lower_priority()
     settings, folder = Settings(), Path(sys.argv[1])
     log_to_stderr(settings.log_json)
     limit_memory(settings.job_memory_max)

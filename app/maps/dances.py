@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from app.files.disk import ending_of, read_json, shown_name, standard_input
-from app.files.memory import reading
 from app.files.tables import Language
 from app.files.words import Say
+from app.processes.limits import reading
 from app.wire.texts import Unreadable, is_workbook, table_of, toml_of
 from core import Budget, InvalidValue
 from core.errors import Parameter

@@ -14,7 +14,6 @@ import orjson
 from pydantic import Field
 
 from app.files.markup import states_encoding
-from app.files.memory import reading
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps import dxf, geojson, kml
@@ -22,6 +21,7 @@ from app.maps.benches import benches_of
 from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, features_of
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
+from app.processes.limits import reading
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
 from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, toml_of

@@ -6,55 +6,48 @@ The process is killed at the deadline, or when the client is gone; otherwise it 
 space has a limit, BYTES, and it is the first that the system ends when memory runs out: whatever a file holds, it costs
 no more than one process.
 
-input   functions, each with its arguments except the budget; the input ends when the parent process ends
-output  for each function: None, when it has been received; then an Outcome
+task    a function, and its arguments except the budget
+answer  an Outcome
 """
 
 from __future__ import annotations
 
-import contextlib
 import logging
-import os
 import pickle
-import subprocess
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from threading import Event, Thread
-from typing import BinaryIO, TypeVar, cast
+from functools import partial
+from typing import TypeVar, cast
 
-from app.files.memory import READING_MAX, end_first, limit_memory, peak_memory, too_much_memory
-from app.jobs.keeper import start
-from app.jobs.work import NICENESS, is_small
 from app.logs import log_to_stderr
+from app.processes.child import ProcessEnded
+from app.processes.limits import READING_MAX, end_first, limit_memory, lower_priority, peak_memory, too_much_memory
+from app.processes.parent import Report, answer_tasks
+from app.processes.pool import Pool
 from app.settings import Settings
-from app.sweeps.worker import end, receive, send
 from core import BenchDragonError, Budget, InvalidValue
-from core.kernels import Halted
 
 logger = logging.getLogger("app.service")
 
 Answer = TypeVar("Answer")
-# Largest number of processes that wait for a file, of 60 to 90 MB each; and number of processes that are tried, because
-# one may have been killed while it waited [1].
-WAITING, TRIES = 1, 3
-# Time between two looks at a budget [s].
-LOOK_SECONDS = 0.05
+# Largest number of processes that wait for a file, of 60 to 90 MB each [1].
+WAITING = 1
+# Threads and heaps reserve address space: OpenBLAS 40 MB for each core, glibc 64 MB for each thread with a heap.
+ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1"}
 
 
 @dataclass(frozen=True)
 class Outcome:
     """What became of a file.
 
-    value: of the function, None if it raised `error`; peak: memory of the process so far [bytes]; again: True if it
-    reads another file
+    value: of the function, None if it raised `error`; peak: memory of the process so far [bytes]
     """
 
     value: object = None
     error: BenchDragonError | None = None
     peak: int = 0
-    again: bool = True
 
 
 class Graders:
@@ -65,96 +58,51 @@ class Graders:
 
         seen: called after each file with the memory of its process so far [bytes]; None: the file ended it
         """
-        self._waiting: list[subprocess.Popen[bytes]] = []
-        self._memory_max, self._seen = memory_max, seen
+        self._pool = Pool("app.service.graders", str(memory_max), waiting=WAITING, environment=ENVIRONMENT)
+        self._seen = seen
 
-    def asked(self, budget: Budget, read: Callable[..., Answer], *given: object) -> Answer:
+    def read(self, budget: Budget, reader: Callable[..., Answer], *arguments: object) -> Answer:
         """The value that a function of a module returns for a file; its last argument is a budget.
 
         A file that ended a process is not tried again.
         raises: Halted when the budget is stopped; the error that the function raised; InvalidValue at the field `file`
             for a file that ended the process, or at which the function failed; TooMuchWork for one that needs too much
-            memory; EOFError when no process starts
+            memory; ProcessEnded when no process starts
         """
-        for _ in range(TRIES):
-            process, received = self._taken(), False
-            try:
-                with _ended_with(process, budget):
-                    send(cast(BinaryIO, process.stdin), (read, given))
-                    receive(cast(BinaryIO, process.stdout))
-                    received = True
-                    outcome: Outcome = pickle.loads(receive(cast(BinaryIO, process.stdout)))
-            except (EOFError, OSError):
-                end(process)
-                if budget.stopped:
-                    raise Halted(budget) from None
-                if not received:
-                    continue
-                self._seen(None)
-                words = "the file must be simpler: reading it ended the process that read it"
-                raise InvalidValue.in_words("file", words) from None
-            self._keep(process, outcome.again)
-            self._seen(outcome.peak)
-            if outcome.error is not None:
-                raise outcome.error
-            return cast(Answer, outcome.value)
-        raise EOFError(f"{TRIES} processes that read files could not be started")
-
-    def _taken(self) -> subprocess.Popen[bytes]:
-        with contextlib.suppress(IndexError):
-            return self._waiting.pop()
-        # Without threads, each of which reserves 40 MB of address space, one for each core of the machine.
-        one = {"OPENBLAS_NUM_THREADS": "1"}
-        return start("app.service.graders", str(self._memory_max), stdout=subprocess.PIPE, **one)
-
-    def _keep(self, process: subprocess.Popen[bytes], again: bool) -> None:
-        if not again:
-            end(process)
-            return
-        self._waiting.append(process)
-        with contextlib.suppress(IndexError):  # Other threads take some at the same time.
-            if len(self._waiting) > WAITING:
-                end(self._waiting.pop())
+        try:
+            outcome: Outcome = pickle.loads(self._pool.answer(pickle.dumps((reader, arguments)), budget))
+        except ProcessEnded as end:
+            if not end.received:
+                raise
+            self._seen(None)
+            words = "the file must be simpler: reading it ended the process that read it"
+            raise InvalidValue.in_words("file", words) from None
+        self._seen(outcome.peak)
+        if outcome.error is not None:
+            raise outcome.error
+        return cast(Answer, outcome.value)
 
     def close(self) -> None:
-        """End the processes that wait."""
-        while self._waiting:
-            end(self._waiting.pop())
+        """End the processes."""
+        self._pool.close()
 
 
-@contextlib.contextmanager
-def _ended_with(process: subprocess.Popen[bytes], budget: Budget) -> Iterator[None]:
-    """A context in which the process is killed as soon as the budget is stopped."""
-    done = Event()
-
-    def watch() -> None:
-        while not done.wait(LOOK_SECONDS):
-            if budget.stopped:
-                process.kill()
-                break
-
-    watcher = Thread(target=watch, daemon=True)
-    watcher.start()
+def outcome_of(task: bytearray, report: Report, *, memory_max: int) -> bytes:
+    """The Outcome of a file, pickled. Whatever the function raises is an answer."""
     try:
-        yield
-    finally:
-        done.set()
-        watcher.join()
-
-
-def outcome_of(read: Callable[..., object], given: tuple[object, ...], memory_max: int) -> Outcome:
-    """What became of a file. Whatever the function raises is an answer."""
-    value: object = None
-    error: BenchDragonError | None = None
-    try:
-        value = read(*given, Budget())
-    except BenchDragonError as refused:
-        error = refused
+        return pickle.dumps(Outcome(_read(task), peak=peak_memory()))
+    except BenchDragonError as refusal:
+        error = refusal
     except MemoryError:
         error = too_much_memory(memory_max)
     except Exception as fault:
         error = _unexpected(fault)
-    return Outcome(value, error, peak_memory(), is_small())
+    return pickle.dumps(Outcome(error=error, peak=peak_memory()))
+
+
+def _read(task: bytearray) -> object:
+    reader, arguments = pickle.loads(task)
+    return reader(*arguments, Budget())
 
 
 def _unexpected(fault: Exception) -> InvalidValue:
@@ -167,28 +115,10 @@ def _unexpected(fault: Exception) -> InvalidValue:
 
 
 def main() -> None:
-    """Answer inputs until they end."""
-    if hasattr(os, "nice"):
-        os.nice(NICENESS)
+    """Read files until the parent ends."""
+    lower_priority()
     memory_max = int(sys.argv[1])
     end_first()
     limit_memory(memory_max)
     log_to_stderr(Settings().log_json)
-    sink = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # The output of libraries must not mix with the answers.
-    with contextlib.suppress(EOFError, BrokenPipeError):
-        while True:
-            data = receive(sys.stdin.buffer)
-            send(sink, None)
-            _answer(sink, data, memory_max)
-            del data
-
-
-def _answer(sink: BinaryIO, data: bytes, memory_max: int) -> None:
-    try:
-        read, given = pickle.loads(data)
-        outcome = outcome_of(read, given, memory_max)
-        del read, given
-        send(sink, outcome)
-    except MemoryError:  # of the pickles
-        send(sink, Outcome(error=too_much_memory(memory_max), peak=peak_memory(), again=False))
+    answer_tasks(partial(outcome_of, memory_max=memory_max))

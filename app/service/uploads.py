@@ -156,7 +156,7 @@ def grade(
     with in_lane(request):
         answers = [typed(name, text, wanted.language) for name, text in given.items()]
         try:
-            files = [graders.asked(budget, graded, wanted.name, data, wanted.language)] if data else []
+            files = [graders.read(budget, graded, wanted.name, data, wanted.language)] if data else []
         except Halted:
             raise too_long(data, budget) from None
         except BenchDragonError as error:
@@ -179,7 +179,7 @@ def places(
     budget = request.state.budget
     with in_lane(request):
         try:
-            found = graders.asked(budget, read_places, data, wanted.units, wanted.language)
+            found = graders.read(budget, read_places, data, wanted.units, wanted.language)
         except Halted:
             raise too_much(
                 budget, "file", "must be smaller: it was not read {then}", Quantity(len(data), "bytes")

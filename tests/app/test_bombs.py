@@ -135,32 +135,24 @@ def test_a_file_that_ended_its_reader_is_not_tried_again(
     graders: Graders, seen: list[int | None], tmp_path: Path
 ) -> None:
     with pytest.raises(InvalidValue, match="the file must be simpler: reading it ended the process"):
-        graders.asked(Budget(), end, tmp_path / "log")
+        graders.read(Budget(), end, tmp_path / "log")
     assert (tmp_path / "log").read_text() == "ended\n"
     assert seen == [None]
 
 
 def test_a_file_that_needs_too_much_memory_is_refused_and_the_next_is_read(graders: Graders) -> None:
     with pytest.raises(TooMuchWork, match="must be simpler: reading it takes more than 600 MB of memory"):
-        graders.asked(Budget(), take_memory, b"x" * 100_000)
-    assert graders.asked(Budget(), take_memory, b"x") == 10_000
+        graders.read(Budget(), take_memory, b"x" * 100_000)
+    assert graders.read(Budget(), take_memory, b"x") == 10_000
 
 
 def test_any_fault_of_a_reader_is_an_answer_that_tells_nothing_of_the_file(
     graders: Graders, capfd: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(BenchDragonError, match=r"the file could not be read \(ZeroDivisionError\)"):
-        graders.asked(Budget(), fail, b"secret")
+        graders.read(Budget(), fail, b"secret")
     log = capfd.readouterr().err
     assert "ZeroDivisionError" in log
     assert "bombs.py" in log
     assert "secret" not in log
-    assert graders.asked(Budget(), take_memory, b"x") == 10_000
-
-
-def test_a_reader_that_was_killed_while_it_waited_costs_no_file(graders: Graders) -> None:
-    for _ in range(3):
-        assert graders.asked(Budget(), take_memory, b"x") == 10_000
-        for reader in readers(psutil.Process().pid):
-            reader.kill()
-            reader.wait()
+    assert graders.read(Budget(), take_memory, b"x") == 10_000

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import closing
 from pathlib import Path
 
 import httpx
 import numpy as np
-import psutil
 import pytest
 
-from app.files.tables import Language
-from app.grade.report import graded as graded_here
-from app.service.graders import Graders
-from core import Budget
 from tests.support.serving import Service, serving
 from tests.support.students import CONTACT, SPIRAL_TIMES, contact_workbook, spiral, workbook
 
@@ -89,22 +83,6 @@ def test_nothing_of_the_file_is_logged(strict: Service) -> None:
     log = strict.log.read_text()
     assert "POST /grade" in log
     assert "words" not in log
-
-
-def test_a_process_that_is_killed_costs_no_answer_and_none_is_left() -> None:
-    def processes() -> list[psutil.Process]:
-        return [child for child in psutil.Process().children() if "app.service.graders" in child.cmdline()]
-
-    with closing(Graders()) as graders:
-        graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
-        [process] = processes()
-        process.kill()
-        process.wait()
-        answer = graders.asked(Budget(), graded_here, "result1.csv", b"a,b", Language.ENGLISH)
-        assert answer.verdict == "unreadable"
-        [other] = processes()
-        assert other != process
-    assert processes() == []
 
 
 @pytest.mark.parametrize(

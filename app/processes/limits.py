@@ -1,4 +1,4 @@
-"""Memory of a process that reads files of strangers: a limit, and the first place when the system has none left."""
+"""Limits of a process: its memory, its priority, and the first place to end when the system has no memory left."""
 
 from __future__ import annotations
 
@@ -18,8 +18,18 @@ from core.errors import Quantity
 # reserved. A new process takes 240 MB of it (measured 2026-11-26).
 READING_MAX = 1_000_000_000
 # Linux ends the process with the largest value first when memory runs out; 1,000 is the largest.
-STATUS, PEAK = Path("/proc/self/status"), re.compile(rb"VmHWM:\s*(\d+) kB")
 OOM_SCORE, OOM_SCORE_MAX = Path("/proc/self/oom_score_adj"), 1_000
+STATUS, PEAK = Path("/proc/self/status"), re.compile(rb"VmHWM:\s*(\d+) kB")
+# Largest peak of the resident memory of a process that takes another task [bytes]; a new one needs 60 to 110 MB.
+SMALL = 256_000_000
+# Lower priority of jobs and of files that are read, so that other answers come first (man 2 nice).
+NICENESS = 10
+
+
+def lower_priority() -> None:
+    """Let other answers come before those of this process."""
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
 
 
 def limit_memory(most: int) -> None:
@@ -39,6 +49,11 @@ def peak_memory() -> int:
     resource = import_module("resource")
     peak: int = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak * (1 if sys.platform == "darwin" else 1024)
+
+
+def is_small() -> bool:
+    """True if this process never needed much memory, so that the next task finds what it would find in a new one."""
+    return 0 < peak_memory() < SMALL
 
 
 def end_first() -> None:

@@ -10,22 +10,22 @@ from tests.conftest import ROOT
 
 READ = """
 import resource
-from app.files import memory
-memory.READING_MAX = 300_000_000
+from app.processes import limits
+limits.READING_MAX = 300_000_000
 before = resource.getrlimit(resource.RLIMIT_AS)
-with memory.reading():
+with limits.reading():
     assert len(b"x" * 200_000_000) == 200_000_000
 assert resource.getrlimit(resource.RLIMIT_AS) == before
-assert 2e8 < memory.peak_memory() < 4e8
+assert 2e8 < limits.peak_memory() < 4e8
 print(open("/proc/self/oom_score_adj").read().strip())
 try:
-    with memory.reading():
+    with limits.reading():
         bytes(400_000_000)
-except memory.TooMuchWork as error:
+except limits.TooMuchWork as error:
     print(error)
 assert len(bytes(400_000_000)) == 400_000_000
 try:
-    with memory.reading():
+    with limits.reading():
         raise KeyError
 except KeyError:
     assert resource.getrlimit(resource.RLIMIT_AS) == before
@@ -51,8 +51,8 @@ GRADE = """
 import sys
 import openpyxl
 from app.command.main import app
-from app.files import memory
-memory.READING_MAX = 8_000_000
+from app.processes import limits
+limits.READING_MAX = 8_000_000
 sys.argv = ["bench-dragon", "grade", *sys.argv[1:]]
 app()
 """

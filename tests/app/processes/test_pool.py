@@ -1,0 +1,169 @@
+"""Pools of real processes: tasks, reports, deaths of processes and of their parent, budgets."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from pathlib import Path
+
+import psutil
+import pytest
+
+from app.processes.child import ProcessEnded
+from app.processes.pool import STARTS, Pool
+from core import Budget
+from core.kernels import Halted
+from tests.conftest import ROOT
+from tests.support.job_service import LINGER, wait_for
+
+MODULE = "tests.support.tasks"
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Pool]:
+    with closing(Pool(MODULE, waiting=2)) as pool:
+        yield pool
+
+
+def answered(pool: Pool, task: bytes, budget: Budget | None = None) -> tuple[int, int]:
+    """Process that answered, and the length of the task."""
+    pid, length = map(int, pool.answer(task, budget).split())
+    return pid, length
+
+
+def is_gone(pid: int) -> bool:
+    """True if the process has ended, whether or not its parent has noticed."""
+    try:
+        return psutil.Process(pid).status() == psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return True
+
+
+def test_one_process_answers_one_task_after_another(pool: Pool) -> None:
+    assert answered(pool, b"a") == (pool.pids[0], 1)
+    assert answered(pool, b"", Budget()) == (pool.pids[0], 0)
+    assert answered(pool, bytes(30_000_000)) == (pool.pids[0], 30_000_000)
+    assert len(pool.pids) == 1
+
+
+def test_tasks_at_the_same_time_have_processes_of_their_own_and_few_wait_afterwards(pool: Pool) -> None:
+    reports: list[int] = []
+    budget = Budget()
+
+    def sleep() -> None:
+        with pytest.raises(Halted):
+            pool.answer(b"sleep", budget, lambda report: reports.append(int(report)))
+
+    with ThreadPoolExecutor() as threads:
+        for _ in range(3):
+            threads.submit(sleep)
+        wait_for(lambda: len(reports) == 3)
+        assert len(pool.pids) >= 3
+        budget.stop()
+    wait_for(lambda: all(map(is_gone, reports)))  # The children of the processes end with them.
+    with ThreadPoolExecutor() as threads:
+        assert len(list(threads.map(lambda _: answered(pool, b"a"), range(9)))) == 9
+    assert len(pool.pids) <= 2
+
+
+def test_reports_come_in_order_before_the_answer(pool: Pool) -> None:
+    reports: list[bytes] = []
+    pool.answer(b"report a b c", report=lambda report: reports.append(bytes(report)))
+    assert reports == [b"a", b"b", b"c"]
+
+
+def test_what_a_task_prints_is_no_answer(pool: Pool, capfd: pytest.CaptureFixture[str]) -> None:
+    with closing(Pool(MODULE, waiting=1)) as fresh:  # its standard error is the one that is captured here
+        assert answered(fresh, b"print")[1] == 5
+    assert capfd.readouterr().err == "straight to the file descriptor\nby Python\n"
+
+
+def test_a_task_that_ends_its_process_is_not_given_to_another(pool: Pool) -> None:
+    with pytest.raises(ProcessEnded, match="exit code 11 during its task") as caught:
+        pool.answer(b"die")
+    assert caught.value.received
+    assert answered(pool, b"a")[1] == 1
+
+
+def test_a_process_that_is_killed_while_it_waits_costs_no_answer(pool: Pool) -> None:
+    for _ in range(3):
+        pid, _ = answered(pool, b"a")
+        os.kill(pid, signal.SIGKILL)
+        assert answered(pool, b"a")[0] != pid
+
+
+def test_a_process_that_needed_much_memory_takes_no_other_task(pool: Pool) -> None:
+    pid, _ = answered(pool, b"memory")
+    assert is_gone(pid)
+    assert answered(pool, b"a")[0] != pid
+
+
+def test_processes_that_do_not_start_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "broken.py").write_text(f"open({str(tmp_path / 'log')!r}, 'a').write('started ')\nraise SystemExit(3)")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with closing(Pool("broken", waiting=1)) as broken, pytest.raises(ProcessEnded, match="exit code 3 before its task"):
+        broken.answer(b"a")
+    assert (tmp_path / "log").read_text().split() == ["started"] * STARTS
+
+
+def test_a_pool_that_closes_ends_its_processes_and_starts_none() -> None:
+    pool, ends, reports = Pool(MODULE, waiting=1), list[ProcessEnded](), list[bytearray]()
+
+    def sleep() -> None:
+        with pytest.raises(ProcessEnded) as caught:
+            pool.answer(b"sleep", report=reports.append)
+        ends.append(caught.value)
+
+    thread = threading.Thread(target=sleep)
+    thread.start()
+    wait_for(lambda: reports)
+    [pid] = pool.pids
+    pool.close()
+    assert is_gone(pid)
+    thread.join()
+    assert [end.how for end in ends] == ["signal 9"]
+    with pytest.raises(ProcessEnded):
+        pool.answer(b"a")
+    assert pool.pids == []
+
+
+PARENT = f"""
+from app.processes.pool import Pool
+Pool({MODULE!r}, waiting=1).answer(b"sleep", report=lambda report: print(report.decode(), flush=True))
+"""
+
+
+def test_a_process_ends_with_its_parent_even_during_a_task() -> None:
+    with subprocess.Popen([sys.executable, "-c", PARENT], cwd=ROOT, stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        grandchild = int(parent.stdout.readline())
+        [child] = psutil.Process(parent.pid).children()
+        parent.kill()
+    wait_for(lambda: is_gone(child.pid) and is_gone(grandchild), LINGER)
+
+
+def test_a_process_has_a_session_of_its_own_and_none_of_the_counts_of_the_service(
+    pool: Pool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PROMETHEUS_MULTIPROC_DIR", "/counts")
+    with closing(Pool(MODULE, waiting=1, environment={"OWN": "variable"})) as fresh:
+        pid, _ = answered(fresh, b"a")
+        assert os.getsid(pid) == pid
+        environment = Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
+        assert b"OWN=variable" in environment
+        assert b"PROMETHEUS_MULTIPROC_DIR=/counts" not in environment
+
+
+def test_a_stopped_budget_ends_a_task_at_once(pool: Pool) -> None:
+    budget, begun = Budget(), time.monotonic()
+    budget.stop()
+    with pytest.raises(Halted):
+        pool.answer(b"sleep", budget)
+    assert time.monotonic() - begun < LINGER

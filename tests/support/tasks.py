@@ -1,0 +1,34 @@
+"""A module of child processes for tests of pools: python -m app.start tests.support.tasks"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+
+from app.processes.parent import Report, answer_tasks
+
+
+def answer(task: bytearray, report: Report) -> bytes:
+    """What a task asks for: its own length, reports, a print, a death, a long time, or memory."""
+    word, _, rest = bytes(task).partition(b" ")
+    if word == b"report":
+        for part in rest.split():
+            report(part)
+    elif word == b"print":
+        os.write(1, b"straight to the file descriptor\n")
+        print("by Python", flush=True)
+    elif word == b"die":
+        os._exit(11)
+    elif word == b"sleep":
+        child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
+        report(b"%d" % child.pid)
+        time.sleep(600.0)
+    elif word == b"memory":
+        len(b"x" * 300_000_000)
+    return b"%d %d" % (os.getpid(), len(task))
+
+
+def main() -> None:
+    answer_tasks(answer)
