@@ -149,6 +149,7 @@ class Dragon(Readable):
     def named(self, names: Sequence[str]) -> Dragon:
         """The same benches with names: one for each, empty for a bench without; or none at all.
 
+        returns: this dragon itself if it has these names already
         raises: InvalidValue
 
         >>> Dragon(2).named(["Zhou", ""]).called(0)
@@ -161,6 +162,8 @@ class Dragon(Readable):
             raise InvalidValue("dragon.names", rule, got=len(names), count=self.benches)
         for k, name in enumerate(names):
             checked_name(f"dragon.names.{k}", name)
+        if tuple(names) == self.names:
+            return self
         return self._made(self.lengths, self.widths, self.overhangs, tuple(names))
 
     def called(self, bench: int) -> str:

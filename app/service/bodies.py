@@ -12,13 +12,14 @@ from typing import Annotated, Any
 from anyio import CapacityLimiter, to_thread
 from fastapi import Depends, Request, Response
 from fastapi.exceptions import RequestValidationError
-from fastapi.routing import APIRoute
 from starlette.types import Message
 
-from app.service.lanes import Lanes, client_of, watched
-from app.service.middleware import LARGE, Handler
+from app.service.clients import client_of
+from app.service.deadlines import Handler, WatchedRoute
+from app.service.lanes import Lanes
 from app.service.problems import Refused, unreadable, validation_problem
 from app.service.reply import Reply
+from app.service.request_limits import LARGE
 from app.settings import Settings
 from app.wire.problem import ERRORS_MAX
 from app.wire.question import JSON, shown
@@ -43,30 +44,6 @@ class JsonRequest(Request):
         if not self._read:
             self._read.append(json_of(await self.body()))
         return self._read[0]
-
-
-class WatchedRoute(APIRoute):
-    """A call whose computation ends at the deadline, and when its client is gone."""
-
-    def get_route_handler(self) -> Handler:
-        answer = self.unwatched()
-
-        async def handled(request: Request) -> Response:
-            self.refuse_head(request)
-            async with watched(request, self.seconds(request.app.state.settings)):
-                return await answer(request)
-
-        return handled
-
-    def seconds(self, settings: Settings) -> float:
-        """Longest time of the computation [s]."""
-        return settings.deadline_seconds
-
-    def refuse_head(self, request: Request) -> None:
-        """Refuse a request before its body is read. raises: Refused"""
-
-    def unwatched(self) -> Handler:
-        return super().get_route_handler()
 
 
 class BodyRoute(WatchedRoute):

@@ -38,6 +38,7 @@ from app.jobs.task import Task, cost_of
 from app.questions.registry import CALLS, QUESTIONS
 from app.service import routes
 from app.service.bodies import BodyRoute, refuse_query, reply_body
+from app.service.clients import client_of
 from app.service.job_bodies import (
     EVENTS_TYPE,
     SWEEP_EXAMPLE,
@@ -49,9 +50,9 @@ from app.service.job_bodies import (
     pointer_in_sweep,
     status,
 )
-from app.service.lanes import client_of, limit
+from app.service.lanes import limit
+from app.service.negotiation import RESPOND_ASYNC, form_of
 from app.service.problems import Refused, answer_of, problem
-from app.service.reply import RESPOND_ASYNC, form_of
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec

@@ -2,63 +2,29 @@
 
 There are lanes for cheap calls, heavy calls, workbooks, files and large bodies. No call waits in a lane: a full lane
 answers 503 with the time at which the first of its computations should be done, so that a heavy call never delays a
-cheap one. A client that has its part of the places gets 429. A computation ends at its deadline or when its client is
-gone.
+cheap one. A client that has its part of the places gets 429.
 """
 
 from __future__ import annotations
 
-import asyncio
 import math
 import time
-from collections.abc import AsyncIterator, Iterable, Iterator
-from contextlib import asynccontextmanager, contextmanager
-from functools import lru_cache
-from ipaddress import IPv4Address, ip_address, ip_network
-from threading import Lock
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from threading import Lock, Timer
 
-from fastapi import Request
 from prometheus_client import CollectorRegistry, Counter, Gauge
 
 from app.files.tables import XLSX_TYPE
 from app.service.problems import Refused
 from app.settings import Settings, part
-from core import Budget
+from app.wire.question import UNKNOWN_COST
+from core import Budget, TooMuchWork
 from core.display import format_count
 from core.errors import Quantity
 
-# Number of first bits of an IPv6 address that a network of one client has.
-IPV6_BITS = 64
 # Longest estimated time of a cheap answer [s].
 CHEAP = 0.1
-
-
-def client_of(request: Request) -> str:
-    """Address of the client, for its limits; a proxy on this machine gives it in X-Forwarded-For."""
-    return one_client(request.client.host) if request.client else ""
-
-
-@lru_cache(maxsize=1024)
-def one_client(address: str) -> str:
-    """The client at an address: of IPv6 the first 64 bits, because one machine has all addresses that follow.
-
-    >>> one_client("192.0.2.7"), one_client("::ffff:192.0.2.7"), one_client("2001:db8::7:1")
-    ('192.0.2.7', '192.0.2.7', '2001:db8::/64')
-    """
-    try:
-        known = ip_address(address.partition("%")[0])
-    except ValueError:  # a proxy gave a name
-        return address
-    if isinstance(known, IPv4Address):
-        return str(known)
-    return str(known.ipv4_mapped or ip_network((known, IPV6_BITS), strict=False))
-
-
-class Deadline(Quantity):
-    """The longest time of an answer, as the end of an error's sentence."""
-
-    def __str__(self) -> str:
-        return f"within {super().__str__()}, the time that one answer may take here"
 
 
 def limit(most: int, thing: str) -> Quantity:
@@ -128,34 +94,41 @@ class Lanes:
         self.files = lane("file", settings.readers_max, part(settings.readers_max, settings.readers_client_max))
         self.large_bodies = lane("large body", settings.large_bodies_max, part(settings.large_bodies_max, None))
 
-    def of(self, cost: float, media_type: str) -> Lane:
-        """The lane of a computation. cost: its estimated time [s]"""
+    def place(self, cost: float, media_type: str, client: str) -> AbstractContextManager[None]:
+        """A place in the lane of a computation. cost: its estimated time [s]"""
         if media_type == XLSX_TYPE:
-            return self._workbook
-        return self._cheap if cost <= CHEAP else self._heavy
+            return self._workbook.taken(cost, client)
+        return (self._cheap if cost <= CHEAP else self._heavy).taken(cost, client)
 
+    @contextmanager
+    def movable_place(self, cost: float, client: str, budget: Budget) -> Iterator[None]:
+        """A place among the cheap computations, and after CHEAP seconds one among the heavy ones instead.
 
-@asynccontextmanager
-async def watched(request: Request, seconds: float) -> AsyncIterator[None]:
-    """Context in which the request has a budget, which is stopped after `seconds` and when the client is gone."""
-    await request.body()  # After the body, the only message is the end of the connection.
-    request.state.budget = Budget()
-    task = asyncio.create_task(_watch(request, seconds, request.state.budget))
-    try:
-        yield
-    finally:
-        task.cancel()
+        The computation goes on in its new place; without a free one its budget is stopped.
+        cost: its estimated time [s]
+        raises: Refused (429, 503)
+        """
+        refusals: list[Refused] = []
+        with ExitStack() as heavy, ExitStack() as cheap:
+            cheap.enter_context(self._cheap.taken(cost, client))
 
+            def move() -> None:
+                try:
+                    heavy.enter_context(self._heavy.taken(UNKNOWN_COST, client))
+                except Refused as refusal:
+                    refusals.append(refusal)
+                    budget.stop("before a place among the heavy computations was free")
+                else:
+                    cheap.close()
 
-async def _watch(request: Request, seconds: float, budget: Budget) -> None:
-    lanes: Lanes = request.app.state.lanes
-    try:
-        async with asyncio.timeout(seconds):
-            while (await request.receive())["type"] != "http.disconnect":
-                pass
-    except TimeoutError:
-        lanes.stopped.labels("deadline").inc()
-        budget.stop(Deadline(seconds, "s", 6))
-    else:
-        lanes.stopped.labels("client gone").inc()
-        budget.stop("before its client was gone")
+            timer = Timer(CHEAP, move)
+            timer.start()
+            try:
+                yield
+            except TooMuchWork as error:
+                if refusals:
+                    raise refusals[0] from error
+                raise
+            finally:
+                timer.cancel()
+                timer.join()  # It may be moving the computation now.

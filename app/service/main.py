@@ -31,10 +31,14 @@ from app.service import problems, routes, uploads
 from app.service.bodies import refuse_query
 from app.service.examples import EXAMPLES
 from app.service.graders import Graders
+from app.service.hosts import Hosts, OriginForm
+from app.service.job_calls import JobCalls
 from app.service.job_metrics import JobMetrics
+from app.service.kept_answers import KeptAnswers
 from app.service.lanes import Lanes
 from app.service.pages import add_pages
-from app.service.reply import Glances, KeptAnswers
+from app.service.request_limits import RequestLimits
+from app.service.short_tries import ShortTries
 from app.service.version import VERSION, build
 from app.settings import SHARED_COUNTS, Settings
 from app.wire.question import JSON, Answer
@@ -150,19 +154,19 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         redirect_slashes=False,
         lifespan=_lifespan,
         middleware=[
-            *map(Middleware, (layers.OriginForm, layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
+            *map(Middleware, (OriginForm, layers.RequestId, layers.SafetyHeaders, layers.HeadAsGet)),
             Middleware(layers.Metrics, registry=registry),
             Middleware(layers.Mistakes),
-            Middleware(layers.Hosts, settings=settings),
-            Middleware(layers.RequestLimits, settings=settings),
-            Middleware(layers.JobCalls, settings=settings),
+            Middleware(Hosts, settings=settings),
+            Middleware(RequestLimits, settings=settings),
+            Middleware(JobCalls, settings=settings),
         ],
     )
     app.state.settings = settings
     app.state.fault = "it has not run"
     app.state.jobs, app.state.later = "it has not started", jobs.later
     app.state.lanes = Lanes(settings, registry)
-    app.state.glances = Glances()
+    app.state.short_tries = ShortTries()
     app.state.answers = KeptAnswers(settings.kept_bytes_max, registry)
     sys.setswitchinterval(SWITCH_SECONDS)
     return_memory()

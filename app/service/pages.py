@@ -22,7 +22,7 @@ from starlette.requests import Request
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from app.service.reply import GZIPPED, accepted, tags_in
+from app.service.negotiation import GZIPPED, accepted, tags_in
 from app.wire.question import JSON
 
 PAGE = Path(__file__).parent.parent / "page"

@@ -21,6 +21,7 @@ from core.errors import Parameter, Value
 
 # Advice to a client whose answer takes too much work.
 A_JOB = "Ask for it as a job, which may take longer: POST /jobs, or this request with the header Prefer: respond-async."
+CLOSE = {"Connection": "close"}
 METHODS = ("DELETE", "GET", "PATCH", "POST", "PUT")
 
 

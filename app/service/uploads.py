@@ -19,11 +19,12 @@ from app.grade.report import GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.places import Places, read_places
 from app.questions.maps import FORMS
-from app.service.bodies import WatchedRoute, content_type, has_body, refuse_coded
+from app.service.bodies import content_type, has_body, refuse_coded
+from app.service.clients import client_of
+from app.service.deadlines import WatchedRoute
 from app.service.graders import Graders
-from app.service.lanes import Lanes, client_of
-from app.service.middleware import CLOSE
-from app.service.problems import Refused
+from app.service.lanes import Lanes
+from app.service.problems import CLOSE, Refused
 from app.service.routes import FILE, refusals
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings

@@ -15,7 +15,7 @@ import core
 from app.questions.collision_time import CollisionQuery
 from app.questions.trajectory import TrajectoryRequest
 from app.service.main import create_app
-from app.service.reply import accepted
+from app.service.negotiation import accepted
 from app.settings import Settings
 from app.wire.faults import pointer
 from app.wire.messages import fault_of

@@ -5,8 +5,8 @@ from __future__ import annotations
 import httpx
 from prometheus_client import CollectorRegistry
 
-from app.service.reply import KeptAnswers
-from tests.app.test_deadline import sample
+from app.service.kept_answers import KeptAnswers
+from tests.app.service.test_deadlines import sample
 
 REPEATED = "bench_dragon_repeated_total"
 

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import http.client
 import json
-import os
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import closing
@@ -16,27 +13,11 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.conftest import STOP_TIMEOUT, wait_until_live
-from tests.support.serving import free_port, serving
+from tests.support.serving import serving
 
 # Minutes of work.
 HEAVY = {"benches": 6308, "head_length": 0.001, "body_length": 0.001, "overhang": 0}
 HEAVY_BODY = {"dragon": HEAVY}
-# The service on a machine so busy that no computation ends at a glance.
-BUSY = """
-from contextlib import nullcontext
-from app.command.entry import main
-from app.service import reply
-from core import Budget
-
-def stopped(glances):
-    budget = Budget(brief=True)
-    budget.stop("at a glance")
-    return nullcontext(budget)
-
-reply.Glances.budget = stopped
-main()
-"""
 # At this pitch two benches graze to 1e-10 m, which takes exact decimals.
 GRAZE = {"pitch": 0.45033739302602777}
 # More than a small body: the service reads it in a thread of its own.
@@ -169,28 +150,6 @@ def test_what_takes_longer_than_expected_is_answered_all_the_same(patient: str) 
         asked = client.get("/collision-time", params=GRAZE | {"cross_check": "none"}).raise_for_status().json()
         told = client.post("/collision-time", json={"path": {"kind": "spiral"} | GRAZE, "cross_check": "none"})
     assert asked == told.raise_for_status().json()
-
-
-def test_on_a_busy_machine_short_questions_need_no_place_among_long_ones(tmp_path: Path) -> None:
-    port, log = free_port(), tmp_path / "server.log"
-    command = [sys.executable, "-c", BUSY, "serve", "--port", str(port), "--workers", "1"]
-    settings = {"BENCH_DRAGON_HEAVY_MAX": "1", "BENCH_DRAGON_GRACE_SECONDS": "0"}
-    with log.open("wb") as output:
-        process = subprocess.Popen(command, env=os.environ | settings, stdout=output, stderr=output)
-    try:
-        wait_until_live(process, port, log)
-        url = f"http://127.0.0.1:{port}"
-        with closing(http.client.HTTPConnection("127.0.0.1", port, timeout=SOON)) as other:
-            other.request("POST", "/minimum-pitch", json.dumps(HEAVY_BODY), {"Content-Type": "application/json"})
-            end = time.monotonic() + SOON
-            while sample(url, 'bench_dragon_computations{lane="heavy"}') != 1.0:
-                assert time.monotonic() < end
-            for asked, status in [({}, 200), ({"benches": 40}, 200), (GRAZE, 503)]:
-                answer = httpx.get(f"{url}/collision-time", params=asked | {"cross_check": "none"})
-                assert answer.status_code == status
-    finally:
-        process.terminate()
-        process.wait(STOP_TIMEOUT)
 
 
 def test_the_deadline_ends_a_plan_that_is_being_drawn(tmp_path: Path) -> None:

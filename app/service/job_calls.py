@@ -1,0 +1,58 @@
+"""How many calls about jobs may use the threads that all calls share."""
+
+from __future__ import annotations
+
+import asyncio
+
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from app.service.lanes import limit
+from app.service.middleware import Layer
+from app.service.problems import Refused
+from app.settings import Settings
+from core.errors import Quantity
+
+# Calls about jobs that wait for the disk at once in one process, and those that wait for their turn: more are refused.
+JOB_CALLS, JOB_CALLS_WAITING = 4, 200
+
+
+class JobCalls(Layer):
+    """Lets few calls about jobs at a time into the threads that all calls share, because each waits for the disk.
+
+    The others wait for their turn outside, so that a thousand removals at once delay no page. A call keeps its place
+    until its answer begins; calls with a body have limits of their own.
+    """
+
+    def __init__(self, app: ASGIApp, settings: Settings) -> None:
+        super().__init__(app)
+        self._places, self._waiting, self._retry_after = asyncio.Semaphore(JOB_CALLS), 0, settings.retry_after
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if not scope["path"].startswith("/jobs") or scope["method"] not in ("GET", "DELETE"):
+            return await self.app(scope, receive, send)
+        if self._waiting >= JOB_CALLS_WAITING:
+            told = {"most": limit(JOB_CALLS_WAITING, "waiting call"), "seconds": Quantity(self._retry_after, "s")}
+            words, after = "The limit of {most} about jobs is reached", {"Retry-After": str(self._retry_after)}
+            refused = Refused(503, words, None, after, reason="try again in {seconds}.", **told)
+            return await self.refuse(refused, scope, receive, send)
+        self._waiting += 1
+        try:
+            await self._places.acquire()
+        finally:
+            self._waiting -= 1
+        has_place = True
+
+        def leave() -> None:
+            nonlocal has_place
+            if has_place:
+                self._places.release()
+            has_place = False
+
+        async def leaving(message: Message) -> None:
+            leave()
+            await send(message)
+
+        try:
+            await self.app(scope, receive, leaving)
+        finally:
+            leave()

@@ -1,0 +1,162 @@
+"""The time of an answer is estimated once, and what the event loop gives up is computed once more."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import httpx
+import pytest
+from fastapi import FastAPI
+from prometheus_client import CollectorRegistry
+
+from app.service import routes
+from app.service.lanes import Lanes
+from app.service.main import create_app
+from app.service.short_tries import SHORT
+from app.settings import Settings
+from app.wire.question import JSON, UNKNOWN_COST, Answer, Question, Terms, Wire, calls_of
+from core import TooMuchWork
+from core.kernels import Halted
+from tests.app.service.test_problems import ask
+
+# No computation here goes on for longer [s].
+SOON = 10.0
+
+# What a question does before it answers, from its terms and the number of its computation.
+Work = Callable[[Terms, int], None]
+
+
+class Count(Wire):
+    """A request without values."""
+
+
+class Counted(Answer):
+    """How often this answer was computed."""
+
+    computed: int
+
+
+class Counting:
+    """A question that counts how often its time is estimated and its answer computed."""
+
+    def __init__(self, cost: float, work: Work) -> None:
+        """cost: estimated time [s]"""
+        self.estimated = self.computed = 0
+        self.cost, self.work = cost, work
+
+    def estimate(self, request: Count) -> float:
+        self.estimated += 1
+        return self.cost
+
+    def question(self) -> Question:
+        def counting(request: Count, terms: Terms) -> Counted:
+            """How often this answer was computed."""
+            self.computed += 1
+            try:
+                self.work(terms, self.computed)
+            except Halted as halted:
+                raise TooMuchWork("", "must be less") from halted
+            return Counted(computed=self.computed)
+
+        return Question(counting, Counted, flat=Count, body=Count, cost=self.estimate)
+
+
+def quick(terms: Terms, number: int) -> None:
+    """No work."""
+
+
+def slow_at_first(terms: Terms, number: int) -> None:
+    """The first time more than the event loop may do, as on a busy machine."""
+    if number == 1:
+        until_stopped(terms, number)
+
+
+def long(terms: Terms, number: int) -> None:
+    """Work that its search announces as long."""
+    terms.budget.take_time()
+
+
+def until_stopped(terms: Terms, number: int) -> None:
+    """Work that only its budget ends."""
+    end = time.monotonic() + SOON
+    while time.monotonic() < end:
+        terms.budget.look()
+
+
+@pytest.fixture
+def app() -> FastAPI:
+    return create_app(Settings(heavy_max=1))
+
+
+def answer_of(app: FastAPI, counting: Counting, method: str = "GET") -> httpx.Response:
+    routes.add_calls(app.router, calls_of(counting.question()))
+    return ask(app, "/counting", method)
+
+
+@contextmanager
+def heavy_lane_full(app: FastAPI) -> Iterator[None]:
+    lanes: Lanes = app.state.lanes
+    with lanes.place(UNKNOWN_COST, JSON, "another client"):
+        yield
+
+
+@pytest.mark.parametrize(
+    ("method", "cost", "work", "computed"),
+    [
+        ("GET", SHORT, quick, 1),
+        ("GET", SHORT, slow_at_first, 2),
+        ("GET", SHORT, long, 2),
+        ("GET", 2 * SHORT, quick, 1),
+        ("GET", UNKNOWN_COST, long, 1),
+        ("POST", SHORT, long, 1),
+        ("POST", UNKNOWN_COST, long, 1),
+    ],
+)
+def test_an_answer_is_estimated_once_and_computed_once_more_at_most(
+    app: FastAPI, method: str, cost: float, work: Work, computed: int
+) -> None:
+    counting = Counting(cost, work)
+    assert answer_of(app, counting, method).json() == {"computed": computed}
+    assert (counting.estimated, counting.computed) == (1, computed)
+
+
+def test_what_the_loop_gives_up_needs_no_place_among_long_computations(app: FastAPI) -> None:
+    counting = Counting(SHORT, slow_at_first)
+    with heavy_lane_full(app):
+        assert answer_of(app, counting).json() == {"computed": 2}
+
+
+def test_what_goes_on_for_longer_moves_to_a_place_among_long_computations(app: FastAPI) -> None:
+    def slow(terms: Terms, number: int) -> None:
+        if number == 1:
+            until_stopped(terms, number)
+        wait_until(lambda: (running(app, "cheap"), running(app, "heavy")) == (0.0, 1.0))
+
+    counting = Counting(SHORT, slow)
+    assert answer_of(app, counting).json() == {"computed": 2}
+    assert counting.estimated == 1
+    assert running(app, "cheap") == running(app, "heavy") == 0.0
+
+
+def test_what_goes_on_for_longer_ends_where_no_place_is_free(app: FastAPI) -> None:
+    counting = Counting(SHORT, until_stopped)
+    with heavy_lane_full(app):
+        answer = answer_of(app, counting)
+        assert (answer.status_code, running(app, "cheap"), running(app, "heavy")) == (503, 0.0, 1.0)
+    assert "limit of 1 heavy computation at once" in answer.json()["detail"]
+    assert (counting.estimated, counting.computed) == (1, 2)
+
+
+def running(app: FastAPI, lane: str) -> float:
+    """Number of computations in a lane, by the metric of operators."""
+    registry: CollectorRegistry = app.state.registry
+    return registry.get_sample_value("bench_dragon_computations", {"lane": lane}) or 0.0
+
+
+def wait_until(holds: Callable[[], bool]) -> None:
+    end = time.monotonic() + SOON
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.01)
