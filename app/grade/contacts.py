@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from core import Dance, Dragon, Spiral, bench_outlines, bench_poses, clearance_profile, separation
 from core import trajectory as trajectory_of
-from core.sampling import bisected
+from core.sampling import bisect
 from core.shapes.rectangles import angle_sum_overlap, angle_sums
 from core.values import Floats
 
@@ -65,7 +65,7 @@ def angle_sum_time(outline: Outline, angle: float) -> float:
 
     times = np.arange(0.0, Dance(Dragon(), Spiral()).end.time, TIME_STEP)
     high = float(times[reached(times).index(True)])
-    return bisected(lambda time: reached(np.array([time]))[0], high - TIME_STEP, high, width=RESOLUTION)[1]
+    return bisect(lambda time: reached(np.array([time]))[0], high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
 class Sampled(StrEnum):
@@ -94,7 +94,7 @@ def sampled_pitch(sampled: Sampled, step: float, right: float) -> float:
 
     steps = range(1, math.ceil((right - PITCH_RANGE[0]) / PITCH_STEP))
     low = next(pitch for k in steps if not clear(pitch := right - k * PITCH_STEP))
-    return bisected(clear, low, min(low + PITCH_STEP, right), width=RESOLUTION)[1]
+    return bisect(clear, low, min(low + PITCH_STEP, right), width=RESOLUTION)[1]
 
 
 def longest_overlap(pitch: float) -> tuple[float, float] | None:
@@ -114,7 +114,7 @@ def longest_overlap(pitch: float) -> tuple[float, float] | None:
         def is_past(share: float) -> bool:
             return bool(overlap(np.array([clear + share * (touching - clear)]))[0])
 
-        return clear + bisected(is_past, 0.0, 1.0, width=OVERLAP_SHARE)[1] * (touching - clear)
+        return clear + bisect(is_past, 0.0, 1.0, width=OVERLAP_SHARE)[1] * (touching - clear)
 
     radii: Floats = np.arange(WAY_RADIUS, TURNING_RADIUS, -OVERLAP_STEP, dtype=np.float64)
     touching = overlap(radii)
@@ -177,5 +177,5 @@ def circle_pitch(touches: Callable[[Spiral], bool]) -> float:
 
     pitches = np.arange(*PITCH_RANGE, PITCH_STEP).tolist()
     last = max(k for k, pitch in enumerate(pitches) if touching(pitch))
-    apart = bisected(lambda pitch: not touching(pitch), pitches[last], pitches[last + 1], width=RESOLUTION)
+    apart = bisect(lambda pitch: not touching(pitch), pitches[last], pitches[last + 1], width=RESOLUTION)
     return apart[0]

@@ -31,7 +31,7 @@ from app.wire.question import Answer, Question, Terms, Wire
 from core import Dance, Dragon, FirstContact, Spiral, clearance_profile, first_contact, minimum_pitch
 from core import trajectory as trajectory_of
 from core.design.pitch_scan import Stops
-from core.sampling import bisected
+from core.sampling import bisect
 from core.shapes.rectangles import corners, literal_corners
 
 PAPER_LENGTH = 442.590256  # [m], eq. 2
@@ -183,7 +183,7 @@ def _collision_radius(found: FirstContact) -> _Number:
 def _minimum_pitch() -> _Number:
     found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     # The bisection of section 3.3, for a head that stops at the circle.
-    just_below, jump = bisected(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
+    just_below, jump = bisect(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
     below, above = _contact_radius(just_below), _contact_radius(jump)
     head = first_contact(Dance(Dragon(), Spiral(PAPER_PITCH))).head
     reached = head.radius if head else 0.0

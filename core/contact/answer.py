@@ -124,7 +124,7 @@ class FirstContact(Readable):
         """
         axes = plots.wanted_axes(ax, "FirstContact.plot()")
         dance, benches = self.dance, self.benches
-        handles = trajectory(dance, self._shown_time()).position
+        handles = trajectory(dance, self._plot_time()).position
         outlines = bench_outlines(dance.dragon, handles)
         if enlarged:
             if benches is None or self.point is None:
@@ -160,7 +160,7 @@ class FirstContact(Readable):
             return f"{none}: the run ends clear at the {self.end.reason.value}, {self.end.time:.6f} s"
         return f"Undecided: clear up to {self.time_bracket[0]:.6f} s" if self.time_bracket else "Undecided"
 
-    def _shown_time(self) -> float:
+    def _plot_time(self) -> float:
         if self.time is not None:
             return self.time
         if self.time_bracket is not None:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from core import plots
 from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES
-from core.contact.search import NEAR_WORK_BUDGET, Search, before_fold
+from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, before_fold
 from core.dance import Clock, Dance
 from core.display import Readable, WithArrays, display, format_count
 from core.dragon import Stray, checked_stray
@@ -30,12 +30,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Step of the samples of a clearance, as a part of the shortest chord [1], longer if that is too much work
-# (Search.samples()); and width to which a dip is refined [m of head travel], in a profile [s].
+# (ContactSearch.samples()); and width to which a dip is refined [m of head travel], in a profile [s].
 PROFILE_STEP = 0.2
 GRAZE_WIDTH = 1e-11
 # Width to which the least distance is proven [m]; the second one is used if the first needs too many steps.
 PROOF_WIDTHS = (1e-5, 1e-3)
-# Distances ahead at which a search that gave up looks for a certain contact [m of head travel].
+# Distances beyond the place where a search gave up at which it looks for a certain contact [m of head travel].
 BEYOND = (1e-3, 1e-1)
 # Number of lowest samples to refine before the proof begins.
 DIPS_REFINED = 5
@@ -137,35 +137,35 @@ def clearance_profile(dance: Dance, times: ArrayLike, *, budget: Budget | None =
     if dragon.benches < 3:
         raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=dragon.benches)
     time = dance.times(times)
-    search = Search(dragon, dance.path, 0.0, budget=budget)
+    search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     clearance, benches = _at(search, time, clock)
     return ClearanceProfile(time, clearance, benches, _grazes(search, time, clock))
 
 
-def _at(search: Search, time: Floats, clock: Clock) -> tuple[Floats, NDArray[np.int64]]:
+def _at(search: ContactSearch, time: Floats, clock: Clock) -> tuple[Floats, NDArray[np.int64]]:
     clearance, benches = np.empty(time.size), np.empty((time.size, 2), dtype=np.int64)
     for k, instant in enumerate(time.flat):
         clearance[k], benches[k] = _affordable(search, clock.travel(float(instant)))
     return clearance.reshape(time.shape), benches.reshape(*time.shape, 2)
 
 
-def _grid(search: Search, begin: float, until: float) -> list[float]:
+def _grid(search: ContactSearch, begin: float, until: float) -> list[float]:
     """Travels between two at which clearances are sampled [m]."""
     count = search.samples(until - begin, PROFILE_STEP * search.rings.all_shortest)
     grid: list[float] = np.linspace(begin, until, count).tolist()
     return grid
 
 
-def _affordable(search: Search, travel: float, leaders: int | None = None) -> tuple[float, Pair]:
-    """Search.clearance(), whose work counts in the budget of the whole question."""
+def _affordable(search: ContactSearch, travel: float, leaders: int | None = None) -> tuple[float, Pair]:
+    """ContactSearch.clearance(), whose work counts in the budget of the whole question."""
     search.budget.afford(search.room)
     return search.clearance(travel, leaders)
 
 
 # Where the nearest pair changes, the clearance has a kink that points up. So each local minimum is one of a single
 # pair: the nearest pair at one end of a step, if it approaches at the beginning of the step and parts at its end.
-def _grazes(search: Search, time: Floats, clock: Clock) -> tuple[Graze, ...]:
+def _grazes(search: ContactSearch, time: Floats, clock: Clock) -> tuple[Graze, ...]:
     if time.size < 2:
         return ()
     first, last = clock.travel(float(time.min())), clock.travel(float(time.max()))
@@ -204,7 +204,7 @@ def least_clearance(
         return None
     to_fold = dance.nears_fold(until)
     strayed = checked_stray(stray, dance.dragon)
-    search = Search(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
+    search = ContactSearch(dance.dragon, dance.path, 0.0, work=NEAR_WORK_BUDGET, budget=budget, stray=strayed)
     last = before_fold(clock.travel(until)) if to_fold else clock.travel(until)
     fold = end.theta if to_fold else None
     (distance, travel, pair), at_least = least_over(search, clock.travel(begin), last, clock.slowest, fold)
@@ -215,13 +215,13 @@ def least_clearance(
     return LeastClearance(distance, at_least, max(clock.time(travel), begin), pair)
 
 
-# The least gap of the samples is an upper bound of the least gap of all. The march gets this gap less a width as its
-# margin. Either it reaches the end, which proves that nothing comes nearer, or it meets a smaller gap. Then that one is
-# refined, and the march continues from there with a smaller margin: the part behind it keeps the larger margin, and so
-# the smaller one. A dip whose bottom is between the margin and the gap is crossed in steps far shorter than its width,
-# so the march refines it.
+# The least gap of the samples is an upper bound of the least gap of all. The margin of the march is this gap less a
+# width. Either the march reaches the end, which proves that nothing comes nearer than the margin, or it meets a smaller
+# gap. Then this gap is refined, and the march goes on from there with a smaller margin; the way that it has passed is
+# clear by the larger margin, and so by the smaller one too. Where the bottom of a dip is between the margin and the
+# gap, steps are far shorter than the dip is wide, so the march refines it.
 def least_over(
-    search: Search, begin: float, until: float, head_speed: float, fold: float | None = None
+    search: ContactSearch, begin: float, until: float, head_speed: float, fold: float | None = None
 ) -> tuple[Dip, float | None]:
     """The least gap of the search's pairs between two travels of the head, and its proven lower bound [m].
 
@@ -237,34 +237,35 @@ def least_over(
                 return _first_touch(search, proven_to, until, head_speed, best)
             search.use(search.path, max(best.gap - width, 0.0))
             margin = search.margin
-            state, found = search.march(until, NO_BRACKET, start=proven_to, dips=True)
+            state, result = search.march(until, NO_BRACKET, start=proven_to, dips=True)
             search.budget.afford()
-            if found.graze is not None and found.graze.gap < best.gap:
-                best = found.graze
+            if result.graze is not None and result.graze.gap < best.gap:
+                best = result.graze
             if state in (Ended.REACHED, Ended.STUCK):
                 left = margin if state is Ended.REACHED else None
                 if fold is not None:
-                    left = least_to_fold(search, min(found.proven, until), fold)
+                    left = least_to_fold(search, min(result.proven, until), fold)
                 if left is not None and left >= margin:
                     return best, margin
                 proven = max(proven or 0.0, left or 0.0) or None
                 break
-            proven_to = max(proven_to, found.proven)
+            proven_to = max(proven_to, result.proven)
             reach = PROFILE_STEP * search.rings.all_shortest
-            touching = found.touching
+            touching = result.touching
             assert touching is not None
             best = min(best, refined_dip(search, max(begin, touching - reach), touching, min(until, touching + reach)))
     return best, proven
 
 
-# A search gives up where rounding hides whether two touch. A little further on they may be apart again, or surely
-# overlap: a march from there meets a certain contact. Where they stay at the margin for long, samples look for one.
-def overlap_beyond(search: Search, proven: float, until: float, head_speed: float) -> Marched | None:
+# A search gives up where rounding hides whether two benches touch. A little further on they may be apart again, or
+# certainly overlap, so a march from there may meet a certain contact. Where they stay at the margin for long, samples
+# look for one.
+def overlap_beyond(search: ContactSearch, proven: float, until: float, head_speed: float) -> Marched | None:
     """A certain contact after a travel at which a search gave up [m], perhaps not the first; None if none is known."""
     for beyond in BEYOND:
-        state, found, _ = search.approach(min(proven + beyond, until), until, head_speed)
-        if state in TOUCHES and found.touching is not None:
-            return found
+        state, result, _ = search.approach(min(proven + beyond, until), until, head_speed)
+        if state in TOUCHES and result.touching is not None:
+            return result
         if state is Ended.REACHED:
             return None
     for travel in _grid(search, proven, until):
@@ -278,18 +279,18 @@ def overlap_beyond(search: Search, proven: float, until: float, head_speed: floa
 
 
 def _first_touch(
-    search: Search, begin: float, until: float, head_speed: float, touching: Dip
+    search: ContactSearch, begin: float, until: float, head_speed: float, touching: Dip
 ) -> tuple[Dip, float | None]:
     """The first touch, before which nothing touches; if that is not decided, a certain or else a computed touch."""
     search.use(search.path, 0.0)
-    state, found, half_bracket = search.approach(begin, until, head_speed)
-    if state not in TOUCHES or found.touching is None:
-        met = overlap_beyond(search, found.proven, until, head_speed) if state is Ended.STUCK else None
-        if met is not None and met.touching is not None:
-            touching = Dip(0.0, met.touching, met.benches)
+    state, result, half_bracket = search.approach(begin, until, head_speed)
+    if state not in TOUCHES or result.touching is None:
+        certain = overlap_beyond(search, result.proven, until, head_speed) if state is Ended.STUCK else None
+        if certain is not None and certain.touching is not None:
+            touching = Dip(0.0, certain.touching, certain.benches)
         return touching._replace(gap=0.0), None
-    travel = found.touching - (half_bracket if state is Ended.TOUCHED else 0.0)
-    return Dip(0.0, travel, found.benches), 0.0
+    travel = result.touching - (half_bracket if state is Ended.TOUCHED else 0.0)
+    return Dip(0.0, travel, result.benches), 0.0
 
 
 class ClearanceSamples(NamedTuple):
@@ -299,30 +300,30 @@ class ClearanceSamples(NamedTuple):
     gaps: Floats
 
 
-def samples_between(search: Search, begin: float, until: float) -> ClearanceSamples:
+def samples_between(search: ContactSearch, begin: float, until: float) -> ClearanceSamples:
     """The clearance in even steps between two travels."""
     grid = _grid(search, begin, until)
     return ClearanceSamples(grid, np.array([_sampled(search, travel) for travel in grid]))
 
 
-def samples_where(search: Search, known: ClearanceSamples, within: float) -> ClearanceSamples:
+def samples_where(search: ContactSearch, known: ClearanceSamples, within: float) -> ClearanceSamples:
     """The samples, computed again by this search where the known gap is at most `within` [m]."""
     again = [_sampled(search, travel) if gap <= within else gap for travel, gap in zip(*known, strict=True)]
     return ClearanceSamples(known.travels, np.array(again))
 
 
-def _sampled(search: Search, travel: float) -> float:
+def _sampled(search: ContactSearch, travel: float) -> float:
     return _affordable(search, travel, min(search.dragon.uniform_from + 1, search.dragon.benches))[0]
 
 
-def sampled_least(search: Search, samples: ClearanceSamples) -> Dip:
+def sampled_least(search: ContactSearch, samples: ClearanceSamples) -> Dip:
     """The least clearance at the ends and in the dips of the samples."""
     grid = samples.travels
     ends = [Dip(gap, travel, pair) for travel in (grid[0], grid[-1]) for gap, pair in (search.clearance(travel),)]
     return min(ends + [refined_dip(search, *grid[k - 1 : k + 2]) for k in dips(samples.gaps, DIPS_REFINED).tolist()])
 
 
-def refined_dip(search: Search, low: float, middle: float, high: float) -> Dip:
+def refined_dip(search: ContactSearch, low: float, middle: float, high: float) -> Dip:
     """The bottom of the dip around the middle travel; searched again if another pair is nearer there."""
     gap, pair = search.clearance(middle)
     best = Dip(gap, middle, pair)

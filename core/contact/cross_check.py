@@ -34,7 +34,7 @@ CHECK_TRAVEL = 1e-6
 CHECK_DIGITS = 64
 # Largest depth of a second pair that counts as meeting together with the reported one [m]. The two poses are 2e-6 m
 # apart, in which two benches approach by at most twice the highest handle speed over the head's, or by the turns
-# between them for each metre of pitch. Near a fold speeds are higher; such a pair counts as a different finding there.
+# between them for each metre of pitch. Near a fold speeds are higher; such a pair counts as a different contact there.
 TOGETHER_DEPTH = 1e-5
 # Longest dragon that is judged as a whole [benches], and largest number of meeting pairs of cubes around its benches
 # [1]: FCL takes about 1 microsecond for each, 3 if the benches touch, and 30 if they touch with a margin.
@@ -69,9 +69,9 @@ class ContactCheck(Readable):
         return f"{len(self.engines)} engines {'agree' if self.agree else 'disagree'} on {len(self.judged)} benches"
 
     def _rows(self) -> list[tuple[str, str]]:
-        said = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
+        verdicts = [(engine.value, repr(verdict)) for engine, verdict in self.engines.items()]
         rest = [("together", display(self.together)), ("left out", display(self.left_out))]
-        return [("agree", display(self.agree)), ("judged", display(self.judged)), *said, *rest]
+        return [("agree", display(self.agree)), ("judged", display(self.judged)), *verdicts, *rest]
 
 
 @question_about("contact", FirstContact, "the engines' verdict on the contact was not found")
@@ -146,25 +146,25 @@ def judged_contact(
     judged = judged_benches(poses[1], sizes, pair, margin) if whole else np.array(pair)
     two, size = poses[:, list(pair)], sizes[list(pair)]
     together: set[Pair] = set()
-    words = {}
+    verdicts = {}
     if len(judged) == len(pair):
-        words = {engine: _word(JUDGES[engine](two, size, margin), at_start) for engine in able(margin)}
+        verdicts = {engine: _verdict(JUDGES[engine](two, size, margin), at_start) for engine in able(margin)}
     else:
         near, own = poses[:, judged], sizes[judged]
-        found = {engine: _found(engine, near, own, margin, judged, budget) for engine in able(margin)}
+        pairs_of = {engine: _pairs_of(engine, near, own, margin, judged, budget) for engine in able(margin)}
         if not at_start:
-            together = _meeting_together(sorted(found[Engine.SEPARATING_AXIS][1] - {pair}), poses, sizes, margin)
-        for engine, (before, after) in found.items():
+            together = _meeting_together(sorted(pairs_of[Engine.SEPARATING_AXIS][1] - {pair}), poses, sizes, margin)
+        for engine, (before, after) in pairs_of.items():
             if at_start:
-                words[engine] = _word([pair in before, pair in after], at_start)
+                verdicts[engine] = _verdict([pair in before, pair in after], at_start)
             else:
-                words[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
+                verdicts[engine] = Verdict(bool(before), pair in after and after <= together | {pair})
     if at_start:
-        _leave_out_blind(words, two, size)
-    return _told(words, judged, tuple(sorted(together)))
+        _leave_out_blind(verdicts, two, size)
+    return _check(verdicts, judged, tuple(sorted(together)))
 
 
-def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats) -> None:
+def _leave_out_blind(verdicts: dict[Engine, Verdict], poses: Floats, sizes: Floats) -> None:
     """Leave the angle sum out if no corner of either bench is inside the other, because it cannot see them cross.
 
     poses: (2, 2, 3) of the reported pair at both instants; sizes: (2, 2) length and width [m]
@@ -177,7 +177,7 @@ def _leave_out_blind(words: dict[Engine, Verdict], poses: Floats, sizes: Floats)
         inside = (np.abs(along) <= half[own, 0]) & (np.abs(left) <= half[own, 1])
         if inside.any():
             return
-    words.pop(Engine.ANGLE_SUM, None)
+    verdicts.pop(Engine.ANGLE_SUM, None)
 
 
 def judged_grounds(
@@ -200,11 +200,11 @@ def judged_grounds(
     before, after = (
         _grounds_met(pose, ground, within, near)
         for pose, within in zip(poses, (margin, margin * (1.0 + SHORT)), strict=True)
-        for near in _found(Engine.SHAPELY, pose[None, judged], sizes[judged], within, judged, budget)
+        for near in _pairs_of(Engine.SHAPELY, pose[None, judged], sizes[judged], within, judged, budget)
     )
     together = set() if at_start else after - before - {pair}
-    word = _word([pair in before, pair in after], at_start) if at_start else Verdict(bool(before), pair in after)
-    return _told({Engine.SHAPELY: word}, judged, tuple(sorted(together)))
+    verdict = _verdict([pair in before, pair in after], at_start) if at_start else Verdict(bool(before), pair in after)
+    return _check({Engine.SHAPELY: verdict}, judged, tuple(sorted(together)))
 
 
 def _grounds_met(pose: Floats, ground: Reach, margin: float, near: set[Pair]) -> set[Pair]:
@@ -221,29 +221,29 @@ def _grounds_met(pose: Floats, ground: Reach, margin: float, near: set[Pair]) ->
     return {pair for pair, meets in zip(sorted(near), meet.tolist(), strict=True) if meets}
 
 
-def _word(found: list[bool], at_start: bool) -> Verdict:
-    return Verdict(None, any(found)) if at_start else Verdict(*found)
+def _verdict(within: list[bool], at_start: bool) -> Verdict:
+    return Verdict(None, any(within)) if at_start else Verdict(*within)
 
 
-def _told(words: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...]) -> ContactCheck:
-    agree = all(word.after and not word.before for word in words.values())
-    left_out = tuple(engine for engine in Engine if engine not in words)
-    return ContactCheck(agree, tuple(judged.tolist()), words, together, left_out)
+def _check(verdicts: dict[Engine, Verdict], judged: Indices, together: tuple[Pair, ...]) -> ContactCheck:
+    agree = all(verdict.after and not verdict.before for verdict in verdicts.values())
+    left_out = tuple(engine for engine in Engine if engine not in verdicts)
+    return ContactCheck(agree, tuple(judged.tolist()), verdicts, together, left_out)
 
 
 # The judged benches need not be consecutive, so the engines search among all of them, and neighbours are removed by
 # their numbers.
-def _found(
+def _pairs_of(
     engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices, budget: Budget | None
 ) -> list[set[Pair]]:
     """Pairs that an engine finds at each instant, by their numbers in the dragon."""
     chained = len(judged) == int(judged[-1] - judged[0]) + 1
-    found = []
-    for pairs in engine_pairs(engine, poses, sizes, margin, chained=chained, budget=budget):
-        a, b = judged[pairs].reshape(-1, 2).T
+    pairs_at = []
+    for indices in engine_pairs(engine, poses, sizes, margin, chained=chained, budget=budget):
+        a, b = judged[indices].reshape(-1, 2).T
         apart = b - a != 1
-        found.append(set(zip(a[apart].tolist(), b[apart].tolist(), strict=True)))
-    return found
+        pairs_at.append(set(zip(a[apart].tolist(), b[apart].tolist(), strict=True)))
+    return pairs_at
 
 
 def _meeting_together(others: list[Pair], poses: Floats, sizes: Floats, margin: float) -> set[Pair]:

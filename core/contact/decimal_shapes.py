@@ -117,14 +117,14 @@ def corner_of(bench: Bench, corner: tuple[int, int]) -> Vector:
 
 def _nearest_corner(owner: int, own: Bench, other: Bench) -> tuple[Decimal, BenchAxis]:
     """Least distance from a corner of the other bench to this one [m], and its direction."""
-    found = []
+    gaps = []
     for corner in CORNERS:
         x, y = _local(own, corner_of(other, corner))
         dx = (abs(x) - own.half_length).max(_NONE).copy_sign(x)
         dy = (abs(y) - own.half_width).max(_NONE).copy_sign(y)
         gap = (dx * dx + dy * dy).sqrt()
-        found.append((gap, BenchAxis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
-    return min(found)
+        gaps.append((gap, BenchAxis(owner, dx / gap, dy / gap) if gap else _FACES[0]))
+    return min(gaps)
 
 
 def _local(bench: Bench, point: Vector) -> Vector:

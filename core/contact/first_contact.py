@@ -1,12 +1,12 @@
-"""First contact, with a certificate.
+"""First contact, the "time of impact" of two benches, with a certificate.
 
-The proof is written above its loops: `core/kernels/bounds.py`, `gap_curvature.py`, `pairs.py`, `rings.py`, `repeats.py`
-and `marching.py`. In short: the head advances from L to R only if, for every pair that can be near, one axis fixed in
-one of the two benches separates them by more than the margin over all of [L, R]: the gap along that axis is known at
-both ends, and its second derivative is bounded in between. Benches further out than a radius in closed form cannot
-touch. In a dragon with equal body benches, pair (i, j) repeats, in the same place, the meeting of pair (m, m + j - i)
-when handle m was where handle i is now (m: the first of the equal benches). So once every bench has passed the start of
-the one before it, only the pairs of the first m + 1 benches need a search.
+The method is conservative advancement, see core/kernels/marching.py; its proof is written above the loops there and in
+bounds.py, gap_curvature.py, pairs.py, rings.py and repeats.py. In short: the head advances from L to R only if, for
+every pair that can be near, one axis fixed in one of the two benches separates them by more than the margin over all of
+[L, R]: the gap along that axis is known at both ends, and its second derivative is bounded in between. Benches further
+out than a radius in closed form cannot touch. In a dragon with equal body benches, pair (i, j) repeats, in the same
+place, the meeting of pair (m, m + j - i) when handle m was where handle i is now (m: the first of the equal benches).
+So once every bench has passed the start of the one before it, only the pairs of the first m + 1 benches need a search.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from core.contact.answer import Evidence, Feature, FirstContact, Outcome
 from core.contact.clearance import Graze, overlap_beyond
 from core.contact.fold import approach_fold
 from core.contact.march import TOUCHES
-from core.contact.near_graze import narrowed
-from core.contact.search import MARGIN_MAX, Search
+from core.contact.near_graze import narrow_bracket
+from core.contact.search import MARGIN_MAX, ContactSearch
 from core.dance import Clock, Dance, EndReason, RunEnd
 from core.dragon import Stray, checked_stray
 from core.errors import checked_number, question_about
@@ -98,7 +98,7 @@ def contact_within(
     strayed = 0.0 if none else checked_stray(stray, dance.dragon)
     begin, until = dance.span(start, stop)
     clock, head_speed, end = dance.clock, dance.clock.slowest, dance.end
-    search = Search(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
+    search = ContactSearch(dance.dragon, dance.path, margin, budget=budget, stray=strayed)
     search.timing = clock.rounding(until)
     first, last = clock.travel(begin), clock.travel(until)
     to_fold = dance.nears_fold(until)
@@ -108,25 +108,25 @@ def contact_within(
         state, march, half_bracket = approach_fold(search, first, stops, head_speed, end, (state, march, half_bracket))
     narrow = search.narrow_half((state, march, half_bracket), head_speed)
     if narrow is not None:
-        known = narrowed(search, march, narrow, None if dance.passages else head_speed)
+        known = narrow_bracket(search, march, narrow, None if dance.passages else head_speed)
         march, half_bracket = (march, half_bracket) if known is None else (known, narrow)
     if stop is not None and state is Ended.REACHED:
         end = RunEnd(EndReason.STOP, until, None, None)
     if state is Ended.STUCK:
-        met = overlap_beyond(search, march.proven, stops[-1][0], head_speed)
-        return _undecided(dance, search, march, met, (begin, until))
+        certain = overlap_beyond(search, march.proven, stops[-1][0], head_speed)
+        return _undecided(dance, search, march, certain, (begin, until))
     return _result(dance, search, state, march, end, (begin, until), half_bracket)
 
 
 def _undecided(
-    dance: Dance, search: Search, march: Marched, met: Marched | None, span: tuple[float, float]
+    dance: Dance, search: ContactSearch, march: Marched, certain: Marched | None, span: tuple[float, float]
 ) -> FirstContact:
-    """The answer of a search that gave up. met: overlap_beyond(); span: of the search [s]"""
+    """The answer of a search that gave up. certain: overlap_beyond(); span: of the search [s]"""
     clock, (begin, until) = dance.clock, span
     proven, overlapping, overlap_time = max(clock.time(march.proven), begin), None, None
-    if met is not None and met.touching is not None:
-        until = overlap_time = clock.time(met.touching)
-        overlapping = met.benches
+    if certain is not None and certain.touching is not None:
+        until = overlap_time = clock.time(certain.touching)
+        overlapping = certain.benches
     clear_until = proven if proven > begin else None
     claim = ContactClaim(
         ClaimKind.UNDECIDED, DanceSummary.of(dance), search.margin, search.stray, begin, clear_until,
@@ -153,7 +153,7 @@ def _graze(march: Marched, clock: Clock, begin: float) -> Graze | None:
 
 def _result(
     dance: Dance,
-    search: Search,
+    search: ContactSearch,
     state: Ended,
     march: Marched,
     end: RunEnd,
@@ -187,7 +187,7 @@ def _result(
 
 
 def _claim(
-    dance: Dance, search: Search, outcome: Outcome, march: Marched, end: RunEnd, span: tuple[float, float]
+    dance: Dance, search: ContactSearch, outcome: Outcome, march: Marched, end: RunEnd, span: tuple[float, float]
 ) -> ContactClaim:
     """What a decided search claims. span: of the search, up to the time until which it is proven to be clear [s]"""
     begin, proven = span
@@ -202,7 +202,7 @@ def _claim(
 
 
 def _touching_features(
-    search: Search, travel: float, pair: tuple[int, int]
+    search: ContactSearch, travel: float, pair: tuple[int, int]
 ) -> tuple[Feature | None, Feature | None, tuple[float, float], float]:
     """The corner and the edge that meet, the corner's place in the world frame [m], and the separation [m]."""
     search.place_leaders(travel, pair[1] + 1)

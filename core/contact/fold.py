@@ -1,7 +1,7 @@
 """The last part of a run before a fold: a bound on the remaining motion of benches, and so on their clearance.
 
-Steps of the march shrink to nothing before a fold, because handle speeds grow without bound: each tenth of the
-remaining way needs about forty of them. This bound replaces them.
+Before a fold handle speeds grow without bound, so the steps of a march shrink to nothing: each tenth of the remaining
+way needs about forty of them. This bound replaces them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.march import TOUCHES
-from core.contact.search import Approached, Search, joined
+from core.contact.search import Approached, ContactSearch, joined
 from core.dance import RunEnd
 from core.kernels import Ended
 from core.kernels.constants import CHORD, EDGES_PER_WORK, ERROR, FREE, HALF_LENGTH, HALF_WIDTH, NO_BOUND, NO_ROOT, THETA
@@ -30,60 +30,67 @@ THETA_ROUNDING = 1e-12
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 
 
-# A march that continues begins at twice that distance before the fold, so that it also sees a graze at the seam. If the
-# run begins where the ring bound clears all pairs (`rings_reach`), that march need not follow all pairs again, because
-# everything before it is clear.
+# fold_stops() gives the travels at which the march may end, and their distances from the fold. If the bound is not
+# enough at one of them, a new march goes on to the next. It starts at twice the distance of the last stop, so that it
+# also sees a graze there. Everything before it is clear. So it need not follow all pairs again, if the run begins where
+# the ring bound clears all of them (`rings_reach`). Otherwise the march is repeated from its own start to the last
+# stop.
 def approach_fold(
-    search: Search, begin: float, stops: list[tuple[float, float]], head_speed: float, end: RunEnd, marched: Approached
+    search: ContactSearch,
+    begin: float,
+    stops: list[tuple[float, float]],
+    head_speed: float,
+    end: RunEnd,
+    first: Approached,
 ) -> Approached:
-    """Search.approach() from a travel to a fold [m]; REACHED: clear up to the fold.
+    """How a march from a travel [m] to a fold ends, as ContactSearch.approach(); REACHED: clear up to the fold.
 
-    stops: Search.fold_stops(); marched: Search.approach() to the first of them
-    The march continues beyond a stop if the bound is not enough there, or if a narrower graze than those before may lie
-    ahead.
+    stops: ContactSearch.fold_stops(); first: ContactSearch.approach() to the first of them
+    The march goes on beyond a stop if the bound is not enough there, or if a narrower graze may lie ahead than those
+    before it.
     """
     assert end.theta is not None
     start, opening, passed = begin, True, Marched(begin)
-    state, found, half_bracket = marched
+    state, result, half_bracket = first
     (stop, way), *further = stops
     last = stops[-1][0]
     rings_reach = search.travel_at(search.clear_radius / search.growth) > begin
     while further:
-        found = joined(passed, found)
-        if state in TOUCHES or (state is Ended.REACHED and _leaves(search, stop, last, found, end.theta)):
-            return state, found, half_bracket
+        result = joined(passed, result)
+        if state in TOUCHES or (state is Ended.REACHED and _may_end_at(search, stop, last, result, end.theta)):
+            return state, result, half_bracket
         if state is Ended.REACHED and rings_reach:
-            start, opening, passed = stop - way, False, found
+            start, opening, passed = stop - way, False, result
         else:
             further = further[-1:]
         (stop, way), *further = further
-        state, found, half_bracket = search.approach(start, stop, head_speed, opening=opening)
-    found = joined(passed, found)
-    if state is Ended.REACHED or (state is Ended.STUCK and found.touching is None):
-        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end.theta) else Ended.STUCK
-    return state, found, half_bracket
+        state, result, half_bracket = search.approach(start, stop, head_speed, opening=opening)
+    result = joined(passed, result)
+    if state is Ended.REACHED or (state is Ended.STUCK and result.touching is None):
+        state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), end.theta) else Ended.STUCK
+    return state, result, half_bracket
 
 
-def _leaves(search: Search, early: float, last: float, found: Marched, theta: float) -> bool:
+def _may_end_at(search: ContactSearch, early: float, last: float, result: Marched, theta: float) -> bool:
     """True if a march may end at a travel [m]: the way to the fold is clear, and samples show no narrower graze."""
     if search.pairs:
         least = least_left(search, early - search.travel_rounding(early), theta)
-        return least > search.margin and not _dips_ahead(search, early, last, found)
+        return least > search.margin and not _dips_ahead(search, early, last, result)
     return True
 
 
-def _dips_ahead(search: Search, early: float, last: float, found: Marched) -> bool:
-    """True if samples between two travels [m] show a graze that is narrower than the one found before."""
+def _dips_ahead(search: ContactSearch, early: float, last: float, result: Marched) -> bool:
+    """True if samples between two travels [m] show a graze that is narrower than the one of the march before."""
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
     left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2  # evenly spaced for handles, which move as its root
     gaps = [search.clearance(travel, leaders)[0] for travel in (last - left).tolist()]
-    known = found.graze.gap if found.graze is not None else FREE
+    known = result.graze.gap if result.graze is not None else FREE
     return any(
         before > gap <= after and gap < known for before, gap, after in zip(gaps, gaps[1:], gaps[2:], strict=False)
     )
 
 
-def clear_to_fold(search: Search, travel: float, fold: float) -> bool:
+def clear_to_fold(search: ContactSearch, travel: float, fold: float) -> bool:
     """True if all pairs stay further apart than the margin from a travel [m] to the fold, at theta `fold` [rad]."""
     least = least_to_fold(search, travel, fold)
     return least is not None and least > search.margin
@@ -91,7 +98,7 @@ def clear_to_fold(search: Search, travel: float, fold: float) -> bool:
 
 # Towards the fold handles move as the square root of the remaining travel. So a part whose bound is too low is divided
 # where a quarter of it remains: each side has about half of the motion. Its bound holds for both.
-def least_to_fold(search: Search, travel: float, fold: float) -> float | None:
+def least_to_fold(search: ContactSearch, travel: float, fold: float) -> float | None:
     """Lower bound of all gaps from a travel to the fold, or the margin if they exceed it [m]; None if unknown.
 
     fold: theta of the head there [rad]
@@ -129,17 +136,17 @@ def least_to_fold(search: Search, travel: float, fold: float) -> float | None:
 # Edges at rest do not move: a gap to one of them loses only the motion of the bench.
 # Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
 #
-# Rounding. Stretches meet at the same computed theta, so that nothing is left out; the first one begins before its
-# travel by what that may be off by, and every interval is wider at both ends by w = THETA_ROUNDING of theta. That
-# covers delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u f (rounding.py).
-# Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta (theta +
-# delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and from
-# there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
-# f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w
-# theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. Gaps are good to
-# gap_rounding(): that grows with a gap by far less than the gap itself, so it need only reach as far as any pair
-# that can be the least.
-def least_left(search: Search, travel: float, theta: float) -> float:
+# Rounding. Stretches meet at the same computed theta, so that nothing is left out. The first one begins earlier than
+# its travel by the largest error of that travel. Every interval is wider at both ends by w = THETA_ROUNDING of theta,
+# which covers the error of delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u
+# f (rounding.py). Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta
+# (theta + delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and
+# from there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
+# f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w theta
+# sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. The largest error of a gap is
+# gap_rounding(). It grows far less than the gap itself, so it is computed for the largest gap that any pair which may
+# be the nearest can have.
+def least_left(search: ContactSearch, travel: float, theta: float) -> float:
     """Lower bound of all gaps from a travel until the head is at theta, or the margin if they exceed it [m].
 
     It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
@@ -166,7 +173,7 @@ def least_left(search: Search, travel: float, theta: float) -> float:
     return float(least) - rounding
 
 
-def moved_until(search: Search, theta: float) -> tuple[Floats, Floats]:
+def moved_until(search: ContactSearch, theta: float) -> tuple[Floats, Floats]:
     """Bounds on the motion of each handle in `placed`, and any point of each bench, until the head is at theta [m]."""
     growth, benches = search.growth, search.room
     chords = search.sizes[:benches, CHORD]
@@ -202,7 +209,7 @@ def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float
     return inner, outer
 
 
-def gap_rounding(search: Search, travel: float, within: float) -> float:
+def gap_rounding(search: ContactSearch, travel: float, within: float) -> float:
     """Largest error of gaps up to `within` [m] after a travel, see core/kernels/pairs.py [m]."""
     search.place_leaders(travel, search.room)
     kernels.chain_rounding(search.curve, search.room, search.sizes, search.placed)

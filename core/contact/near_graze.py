@@ -1,8 +1,8 @@
 """Two benches to 30 digits, for contacts so near a graze that the rounding of doubles hides their beginning.
 
-The model is that of the kernels: their doubles (chords, the table of a route) are taken as exact, and the chain
-is solved again in decimal arithmetic, starting from the kernels' result. Curves through waypoints are not covered,
-because their arc length is itself a quadrature.
+The model is that of the kernels. It takes their doubles (chords, the table of a route) as exact, and solves the chain
+again in decimal arithmetic from the kernels' result. Curves through waypoints are not covered, because their arc length
+is itself a quadrature.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from core.contact.decimal_shapes import (
     exact_gap,
     exact_separation,
 )
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.constants import (
     ARC,
@@ -56,7 +56,7 @@ from core.kernels.constants import (
     UX,
 )
 from core.kernels.results import Marched
-from core.sampling import falls_to_zero
+from core.sampling import fall_to_zero
 
 # Allowed error of a chord [m], and most steps towards it, of which three are enough except near a fold.
 NEGLIGIBLE = Decimal("1e-34")
@@ -82,20 +82,20 @@ class Unsolved(ArithmeticError):
 
 
 # Decimals hold Python's lock: several threads would not be faster together, and would make all others wait.
-_ALONE = Lock()
+_LOCK = Lock()
 # Time between two checks of the budget while another thread computes [s].
 LOOK_SECONDS = 0.01
 
 
 @contextmanager
-def _alone(budget: Budget) -> Iterator[None]:
+def _one_at_a_time(budget: Budget) -> Iterator[None]:
     """A context for one thread at a time. raises: Halted"""
-    while not _ALONE.acquire(timeout=LOOK_SECONDS):
+    while not _LOCK.acquire(timeout=LOOK_SECONDS):
         budget.look()
     try:
         yield
     finally:
-        _ALONE.release()
+        _LOCK.release()
 
 
 class ExactPair:
@@ -104,7 +104,7 @@ class ExactPair:
     can_follow: True if the path has no curve through waypoints, and the pair is not further back than LAST_BENCH
     """
 
-    def __init__(self, search: Search, pair: tuple[int, int]) -> None:
+    def __init__(self, search: ContactSearch, pair: tuple[int, int]) -> None:
         self.search, self.pair = search, pair
         self.edge = pair[1] - search.room - 1 if len(search.edges) else -1  # -1: the second one is a bench
         self.last = pair[0] if self.edge >= 0 else pair[1]
@@ -227,48 +227,51 @@ class ExactPair:
         return row[CENTRE_X] + radius * cos, row[CENTRE_Y] + radius * sin
 
 
-# From `proven` on the gap of the pair falls until it touches. The first instant t within the margin is found, by the
-# false position, between an instant apart and one within. The interval before t is proven as in the kernels: along an
-# axis fixed in one of the benches, with its sign, the gap is below its chord by at most K x (h - x) / 2, with the
-# kernels' K, in as many intervals as necessary. All other pairs are marched over the same interval in doubles.
+# From `proven` on the gap of the pair falls until the two touch. False position finds the first instant t within the
+# margin, between an instant at which they are apart and one at which they are within it. The interval before t is
+# proven clear as in the kernels, in as many steps as necessary: along an axis fixed in one of the benches, with its
+# sign, the gap is below its chord by at most K x (h - x) / 2, with the kernels' K. A march in doubles covers all other
+# pairs over the same interval.
 #
 # The claims are about times, which are travels divided by the head speed in doubles: the pair is within the margin at
 # the true travel of the later time, and apart until a little beyond that of the earlier one. With passages the true
 # travels are not known exactly, only within travel_rounding() of the computed ones.
-def narrowed(search: Search, found: Marched, half: float, head_speed: float | None = 1.0) -> Marched | None:
-    """The wide bracket of a contact, narrowed to half width `half` [m]; None if that is not proven.
+def narrow_bracket(
+    search: ContactSearch, march: Marched, half: float, head_speed: float | None = 1.0
+) -> Marched | None:
+    """A march with the bracket of its contact narrowed to half width `half` [m]; None if that is not proven.
 
-    found: result of Search.march() with `proven`, `touching` and the pair; so is the returned value, and its contact is
-        at `touching` - `half`
+    march: result of ContactSearch.march() with `proven`, `touching` and the pair
+    returns: the same with a narrower bracket; the contact is at `touching` - `half`
     head_speed: speed that turns travels into times [m/s]; None with passages, where several do
     """
-    pair = ExactPair(search, found.benches)
-    if found.touching is None or not pair.can_follow:
+    pair = ExactPair(search, march.benches)
+    if march.touching is None or not pair.can_follow:
         return None
-    if not others_clear(search, pair.pair, found.proven, found.touching):
+    if not others_clear(search, pair.pair, march.proven, march.touching):
         return None
     search.budget.take_time()
-    with _alone(search.budget), localcontext() as context, suppress(Unsolved):
+    with _one_at_a_time(search.budget), localcontext() as context, suppress(Unsolved):
         context.prec = DIGITS
-        low, high = Decimal(found.proven), Decimal(found.touching)
+        low, high = Decimal(march.proven), Decimal(march.touching)
         above, below = pair.gap(low), pair.gap(high)
         if not above > GAP_ROUNDING or not below < -GAP_ROUNDING:
             return None
-        contact = float(falls_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
+        contact = float(fall_to_zero(pair.gap, low, high, above, below, Decimal(half) / 1000))
         clear, touching = contact - half, contact + half
         if head_speed is None:
             slack = search.travel_rounding(clear, touching)
             sure = pair.stays_within(touching - slack, touching + slack)
-            apart = sure and pair.stays_apart(found.proven, clear + slack)
-            return found._replace(proven=clear, touching=touching) if apart else None
+            apart = sure and pair.stays_apart(march.proven, clear + slack)
+            return march._replace(proven=clear, touching=touching) if apart else None
         later = Decimal(touching / head_speed) * Decimal(head_speed)
         beyond = clear + abs(clear) * CLEAR_ROUNDING
-        if pair.gap(later) <= -GAP_ROUNDING and pair.stays_apart(found.proven, beyond):
-            return found._replace(proven=clear, touching=touching)
+        if pair.gap(later) <= -GAP_ROUNDING and pair.stays_apart(march.proven, beyond):
+            return march._replace(proven=clear, touching=touching)
     return None
 
 
-def others_clear(search: Search, pair: tuple[int, int], start: float, stop: float) -> bool:
+def others_clear(search: ContactSearch, pair: tuple[int, int], start: float, stop: float) -> bool:
     """True if all pairs except one are proven clear between two travels [m]."""
     search.scene.left_out, search.scene.left_out_too = pair
     state, _ = search.march(stop, NO_BRACKET, start=start)

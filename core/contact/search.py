@@ -1,7 +1,7 @@
-"""Search: one dragon on one path, in the form that the certified march of the kernels needs.
+"""One dragon on one path, in the form that the march of the kernels needs.
 
-The proof of a march is written above its loops: `core/kernels/bounds.py`, `gap_curvature.py`, `pairs.py`
-and `rings.py`.
+The march is written, with its proof, above its loops: core/kernels/marching.py, bounds.py, gap_curvature.py, pairs.py
+and rings.py.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ SAMPLES = 20_000
 SAMPLED_SHARE = 0.1
 
 
-class Search:
+class ContactSearch:
     """The kernels' arrays for one dragon, with the current path and margin.
 
     dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
@@ -190,13 +190,13 @@ class Search:
     ) -> tuple[Ended, Marched]:
         """March from start, or from the end of the ring bound, to stop [m of travel]; returns its end and its result.
 
-        half_bracket: half the width of the bracket around a contact [m], NO_BRACKET: any instant of it is enough; dips:
-            True finds grazes also then
+        half_bracket: half the width of the bracket around a contact [m]; NO_BRACKET: any instant of the contact is
+            enough; dips: True finds grazes then too
         opening: True if nothing before the start is proven clear, so all pairs are followed until the body repeats
         The march begins earlier and ends later by the rounding of travels, so that its claims on computed travels and
         times hold for the true ones.
         """
-        rounding, asked = self.travel_rounding(start, stop), (start, stop)
+        rounding, span = self.travel_rounding(start, stop), (start, stop)
         start -= rounding
         stop = min(stop + rounding, max(stop, self.path.limit))
         clear_until = self.travel_at(self.clear_radius / self.growth) if self.clear_radius < kernels.FREE else start
@@ -204,7 +204,7 @@ class Search:
             opening = False
             start = max(start, clear_until - rounding)
         if not self.pairs or (start >= stop and not opening):
-            return Ended.REACHED, Marched(asked[1])
+            return Ended.REACHED, Marched(span[1])
         leaders = min(self.dragon.uniform_from + 1, self.dragon.benches)
         grazes = dips or half_bracket != kernels.NO_BRACKET
         while True:
@@ -215,39 +215,39 @@ class Search:
             if ended is not Ended.CAPACITY:
                 break
             self.resize(min(4 * self.room, self.dragon.benches))
-        found = self._march.result()
-        proven = asked[1] if ended is Ended.REACHED else max(found.proven - rounding, asked[0])
-        touching = found.touching
+        result = self._march.result()
+        proven = span[1] if ended is Ended.REACHED else max(result.proven - rounding, span[0])
+        touching = result.touching
         if ended is Ended.TOUCHED_AT_START:
-            touching = asked[0]
-        return ended, found._replace(proven=proven, touching=touching)
+            touching = span[0]
+        return ended, result._replace(proven=proven, touching=touching)
 
     def approach(self, begin: float, until: float, head_speed: float, *, opening: bool = True) -> Approached:
-        """march() between two travels [m] with a bracketed contact; the third value is the half width of it [m]."""
+        """march() between two travels [m], and the half width of the bracket around its contact [m]."""
         half_bracket = max(BRACKET * min(1.0, head_speed), BRACKET_MIN, 2.0 * self.travel_rounding(begin, until))
-        state, found = self.march(until, half_bracket, start=begin, opening=opening)
-        if state is not Ended.STUCK or found.touching is None:
-            return state, found, half_bracket
+        state, result = self.march(until, half_bracket, start=begin, opening=opening)
+        if state is not Ended.STUCK or result.touching is None:
+            return state, result, half_bracket
         for wider in sorted({*BRACKETS_GRAZING, *(wider * min(1.0, head_speed) for wider in BRACKETS_GRAZING)}):
-            if state is not Ended.STUCK or found.touching is None:
+            if state is not Ended.STUCK or result.touching is None:
                 break
             if wider > half_bracket:
                 half_bracket = wider
                 if self.kinds.some:  # one step of hulls costs more than laying out all benches anew
-                    state, further = self.march(until, half_bracket, start=found.proven)
-                    found = joined(found, further)
+                    state, further = self.march(until, half_bracket, start=result.proven)
+                    result = joined(result, further)
                 else:
-                    proven = found.proven
-                    state, found = self.march(until, half_bracket, start=begin, opening=opening)
-                    found = found._replace(proven=max(proven, found.proven))
-        return state, found, half_bracket
+                    proven = result.proven
+                    state, result = self.march(until, half_bracket, start=begin, opening=opening)
+                    result = result._replace(proven=max(proven, result.proven))
+        return state, result, half_bracket
 
-    def narrow_half(self, met: Approached, head_speed: float) -> float | None:
+    def narrow_half(self, approached: Approached, head_speed: float) -> float | None:
         """Half width to which core/contact/near_graze.py may narrow a wide bracket [m]; None if it is narrow enough, or
         rounding of travels does not allow it."""
-        state, found, half_bracket = met
+        state, result, half_bracket = approached
         narrow = BRACKETS_GRAZING[0] * min(1.0, head_speed)
-        wide = state is Ended.TOUCHED and half_bracket > narrow >= 2.0 * self.travel_rounding(found.touching or 0.0)
+        wide = state is Ended.TOUCHED and half_bracket > narrow >= 2.0 * self.travel_rounding(result.touching or 0.0)
         return narrow if wide and not self.stray else None
 
     def fold_stops(self, begin: float, until: float, end: RunEnd) -> list[tuple[float, float]]:

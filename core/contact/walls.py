@@ -12,8 +12,8 @@ from core.contact.answer import Outcome
 from core.contact.clearance import Pair, least_over, overlap_beyond
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
-from core.contact.near_graze import narrowed
-from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, Search, before_fold
+from core.contact.near_graze import narrow_bracket
+from core.contact.search import MARGIN_MAX, NEAR_WORK_BUDGET, ContactSearch, before_fold
 from core.dance import Dance
 from core.display import Readable, display
 from core.dragon import Stray, checked_stray
@@ -132,11 +132,11 @@ def venue_clearance(
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     begin, until = dance.span(start, stop)
     frame, strayed = dance.path.frame, checked_stray(stray, dance.dragon)
-    share = NEAR_WORK_BUDGET / len(venue.areas)  # an area has a Search of its own: its edges, and its share of work
+    share = NEAR_WORK_BUDGET / len(venue.areas)  # each area has its own search: its edges, and its share of work
     areas = []
     for area in venue.areas:
         edges = own_edges(area, frame)
-        search = Search(dance.dragon, dance.path, margin, edges, work=share, budget=budget, stray=strayed)
+        search = ContactSearch(dance.dragon, dance.path, margin, edges, work=share, budget=budget, stray=strayed)
         areas.append(_area_clearance(search, area.name, dance, (begin, until), nearest))
     return VenueClearance(_misplaced(dance, venue, begin), tuple(areas))
 
@@ -147,41 +147,41 @@ def own_edges(area: Area, frame: Frame) -> Floats:
 
 
 def _area_clearance(
-    search: Search, name: str, dance: Dance, span: tuple[float, float], with_nearest: bool
+    search: ContactSearch, name: str, dance: Dance, span: tuple[float, float], with_nearest: bool
 ) -> AreaClearance:
     """The benches and one area between two times [s]."""
     (begin, until), clock = span, dance.clock
     first, last, search.timing = clock.travel(begin), clock.travel(until), clock.rounding(until)
     fold = dance.end.theta if dance.nears_fold(until) else None
     last = last if fold is None else before_fold(last)
-    state, found, half_bracket = search.approach(first, last, clock.slowest)
-    narrow = search.narrow_half((state, found, half_bracket), clock.slowest)
+    state, result, half_bracket = search.approach(first, last, clock.slowest)
+    narrow = search.narrow_half((state, result, half_bracket), clock.slowest)
     if narrow is not None:
-        known = narrowed(search, found, narrow, None if dance.passages else clock.slowest)
-        found, half_bracket = (found, half_bracket) if known is None else (known, narrow)
-    if fold is not None and state not in TOUCHES and found.touching is None:
-        state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
+        known = narrow_bracket(search, result, narrow, None if dance.passages else clock.slowest)
+        result, half_bracket = (result, half_bracket) if known is None else (known, narrow)
+    if fold is not None and state not in TOUCHES and result.touching is None:
+        state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), fold) else Ended.STUCK
     outcome, time, bracket, bench, point, gap = Outcome.CLEAR, None, None, None, None, None
     overlapping = None
     if state is Ended.STUCK:
-        met = overlap_beyond(search, found.proven, last, clock.slowest)
-        if met is not None and met.touching is not None:
-            until, overlapping = clock.time(met.touching), met.benches[0]
-        outcome, bracket = Outcome.UNDECIDED, (max(clock.time(found.proven), begin), until)
+        certain = overlap_beyond(search, result.proven, last, clock.slowest)
+        if certain is not None and certain.touching is not None:
+            until, overlapping = clock.time(certain.touching), certain.benches[0]
+        outcome, bracket = Outcome.UNDECIDED, (max(clock.time(result.proven), begin), until)
     elif state is not Ended.REACHED:
         at_start = state is Ended.TOUCHED_AT_START
-        assert found.touching is not None
-        travel = found.touching - (0.0 if at_start else half_bracket)
+        assert result.touching is not None
+        travel = result.touching - (0.0 if at_start else half_bracket)
         outcome = Outcome.CONTACT_AT_START if at_start else Outcome.CONTACT
         time = begin if at_start else max(clock.time(travel), begin)
-        bracket = None if at_start else (max(clock.time(found.proven), begin), clock.time(found.touching))
-        pair = found.benches
+        bracket = None if at_start else (max(clock.time(result.proven), begin), clock.time(result.touching))
+        pair = result.benches
         bench, (point, _, gap) = pair[0], _witnesses(search, travel, pair, dance.path.frame)
     nearest = _nearest(search, dance, (begin, first, last), fold) if with_nearest else None
     return AreaClearance(name, outcome, time, bracket, bench, point, nearest, gap, overlapping)
 
 
-def _nearest(search: Search, dance: Dance, span: tuple[float, float, float], fold: float | None) -> Nearest:
+def _nearest(search: ContactSearch, dance: Dance, span: tuple[float, float, float], fold: float | None) -> Nearest:
     """Smallest distance of a search between two travels [m]. span: time [s] and travel of the first, the last one"""
     clock, (begin, first, last) = dance.clock, span
     (distance, travel, pair), at_least = least_over(search, first, last, clock.slowest, fold)
@@ -189,7 +189,7 @@ def _nearest(search: Search, dance: Dance, span: tuple[float, float, float], fol
     return Nearest(distance, at_least, max(clock.time(travel), begin), pair[0], *witnesses[:2])
 
 
-def _witnesses(search: Search, travel: float, pair: Pair, frame: Frame) -> tuple[Point, Point, float]:
+def _witnesses(search: ContactSearch, travel: float, pair: Pair, frame: Frame) -> tuple[Point, Point, float]:
     """The points of a bench and an edge that are nearest to each other, and their separation [m]."""
     search.clearance(travel)
     kernels.meet(search.scene, *pair, search.placed)

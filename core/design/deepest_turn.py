@@ -40,7 +40,7 @@ from core.kernels import Budget, Halted
 from core.paths.following import follows
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
-from core.sampling import bisected
+from core.sampling import bisect
 from core.shapes.reach import reach
 
 # Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
@@ -212,7 +212,7 @@ class _Entries:
             return touch.outcome is Outcome.CLEAR
 
         assert self.feasible is not None
-        low, high = bisected(is_clear, refused, self.feasible, width=ENTRY_WIDTH)
+        low, high = bisect(is_clear, refused, self.feasible, width=ENTRY_WIDTH)
         below = ENTRY_WIDTH
         while not self.refuted and below <= LOOKED_BELOW and low - below > floor and self.budget.left > 0.0:
             if self.tried(low - below).outcome is Outcome.CLEAR:
@@ -260,7 +260,7 @@ def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: flo
     low, high = min(max(ENTRY_STEP * radius, ENTRY_MIN), radius), radius
     if follows(dragon, turn_at(low)):
         return None, low
-    return bisected(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
+    return bisect(lambda entry: follows(dragon, turn_at(entry)), low, high, width=ENTRY_WIDTH)
 
 
 def refuse_bend(dragon: Dragon, danced: Turn) -> None:

@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from core.contact.march import TOUCHES
-from core.contact.search import MARGIN_MAX, Search
+from core.contact.search import MARGIN_MAX, ContactSearch
 from core.design.pitch_bands import BORDER_WIDTH, Descent
 from core.design.straight import Straight, too_near
 from core.design.ways import CONTACT_WIDTH, Ways
@@ -18,7 +18,7 @@ from core.dragon import Dragon, Stray, checked_stray
 from core.errors import SIZE_MAX, InvalidValue, Quantity, checked_number, checked_size, quantities, question_about
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import START_TURNS_MAX, Spiral, end_theta
-from core.sampling import bisected
+from core.sampling import bisect
 
 # Distance below the proven bands at which an infeasible pitch is tried: the largest error of the answer [m of pitch].
 PASSED_OVER = 1e-9
@@ -148,7 +148,7 @@ class _PitchSearch:
                 told = quantities("m", got=self.radius) | quantities("m", 6, most=SIZE_MAX)
                 raise InvalidValue("turning_radius", rule, **told)
             return SIZE_MAX, SIZE_MAX
-        _, growth = bisected(clears, 0.5 * lowest, growth, relative=TOP_WIDTH, middle=lambda a, b: math.sqrt(a * b))
+        _, growth = bisect(clears, 0.5 * lowest, growth, relative=TOP_WIDTH, middle=lambda a, b: math.sqrt(a * b))
         for factor in RANGES:
             while growth > lowest and self.bands.clears(factor * growth, growth, self.radius):
                 growth *= factor
@@ -207,8 +207,8 @@ class _PitchSearch:
             refuted = pitch if clear is False else refuted
             return undecided if clear is None else clear
 
-        below, feasible = bisected(lambda pitch: asked(pitch, False), infeasible, feasible, width=PITCH_WIDTH)
-        infeasible, _ = bisected(lambda pitch: asked(pitch, True), refuted, below, width=PITCH_WIDTH)
+        below, feasible = bisect(lambda pitch: asked(pitch, False), infeasible, feasible, width=PITCH_WIDTH)
+        infeasible, _ = bisect(lambda pitch: asked(pitch, True), refuted, below, width=PITCH_WIDTH)
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
@@ -227,7 +227,7 @@ class _PitchSearch:
                     radius = self.search.theta_at(result.touching) * self.search.growth
                     touching = (radius, *result.benches)
             if feasible and not end:
-                end, _ = bisected(lambda pitch: not self.is_clear(pitch), sample, grid[k - 1], width=PITCH_WIDTH)
+                end, _ = bisect(lambda pitch: not self.is_clear(pitch), sample, grid[k - 1], width=PITCH_WIDTH)
             elif end and not feasible:
                 found.insert(0, (self.bisect(sample, grid[k - 1])[1], end))
                 end = 0.0
@@ -312,7 +312,7 @@ def minimum_pitch(
         raise ways.too_much() from halted
 
 
-def _too_near(search: Search, a: int, margin: float) -> InvalidValue:
+def _too_near(search: ContactSearch, a: int, margin: float) -> InvalidValue:
     """The error for benches a and a + 2 that no pitch keeps apart; it names the stray if that is the only cause."""
     straight = Straight(search.nominal)
     if straight.gap <= margin:

@@ -13,7 +13,7 @@ import numpy as np
 
 from core import kernels
 from core.contact.march import TRAVEL_ROUNDING
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.design.straight import Straight
 from core.kernels import Ended
 from core.kernels.results import Marched
@@ -74,7 +74,7 @@ class Bands:
         the head then [m], if it was found
     """
 
-    def __init__(self, search: Search, radius: float, start_turns: float, margin: float) -> None:
+    def __init__(self, search: ContactSearch, radius: float, start_turns: float, margin: float) -> None:
         self.search, self.radius, self.start_turns, self.margin = search, radius, start_turns, margin
         self.work, self.marches = 0.0, 0
         self.graze: tuple[tuple[int, int], float] | None = None

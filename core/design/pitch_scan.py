@@ -11,7 +11,7 @@ import numpy as np
 
 from core import plots
 from core.contact.fold import clear_to_fold
-from core.contact.search import MARGIN_MAX, WORK_BUDGET, Search, before_fold
+from core.contact.search import MARGIN_MAX, WORK_BUDGET, ContactSearch, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
 from core.display import WithArrays, format_count, format_range
@@ -109,7 +109,7 @@ class Stops:
     def __init__(self, dragon: Dragon, margin: float, budget: Budget | None = None) -> None:
         self.dragon, self.budget = dragon, budget or Budget()
         self.margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-        self.search: Search | None = None
+        self.search: ContactSearch | None = None
 
     def radius(self, path: Spiral) -> float | None:
         """The radius [m], None if nothing touches. raises: InvalidValue as Dance
@@ -120,7 +120,7 @@ class Stops:
         """
         end = Dance(self.dragon, path).end
         if self.search is None:
-            self.search = Search(self.dragon, path, self.margin, budget=self.budget)
+            self.search = ContactSearch(self.dragon, path, self.margin, budget=self.budget)
         else:
             self.search.use(path, self.margin)
             self.search.work = WORK_BUDGET

@@ -143,7 +143,7 @@ def shortest_turn(
     circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin, any_ratio=True)
     stray = checked_stray(stray, dragon)
     work = (budget or Budget()).within(RATIOS_WORK if ratio is None else SHORTEST_WORK)
-    search = Search(dragon, circle, stray, work)
+    search = TurnSearch(dragon, circle, stray, work)
     try:
         return search.answer()
     except Halted as halted:
@@ -152,7 +152,7 @@ def shortest_turn(
         raise too_much(work, "turning_radius", rule, Quantity(circle.radius, "m"), **chord_values(dragon)) from halted
 
 
-class Search:
+class TurnSearch:
     """Branch and bound over boxes.
 
     mirrored: whether a turn stands for the same danced backwards too; best, shortest: the shortest turn that was danced

@@ -13,7 +13,7 @@ from core.design.spans import Span, mean_value
 from core.design.turn_boxes import JUST, ROUNDING, Turns, sizes_of
 from core.design.turn_moves import coil_bend
 from core.paths.turn import RATIO_MAX, RATIO_MIN
-from core.sampling import bisected
+from core.sampling import bisect
 from core.values import Floats
 
 # Half widths of the first boxes: of the entry radius, as a part of the circle's [1], of v [rad], of the log ratio [1].
@@ -53,7 +53,7 @@ def least_entry(growth: float, radius: float, least: float) -> float:
     if not fits(radius):
         return radius
     low = 1e-3 * radius
-    return low if fits(low) else bisected(fits, low, radius, width=1e-9)[0]
+    return low if fits(low) else bisect(fits, low, radius, width=1e-9)[0]
 
 
 def first_boxes(growth: float, inner: float, radius: float, ratio: float | None) -> Boxes:

@@ -8,7 +8,7 @@ lower than the shortest turn, never higher.
 from __future__ import annotations
 
 from core import kernels
-from core.design.shortest_turn import RATIOS_WORK, SHORTEST_WORK, Search
+from core.design.shortest_turn import RATIOS_WORK, SHORTEST_WORK, TurnSearch
 from core.design.turn_bounds import least_entry
 from core.design.turn_circle import TurnCircle, checked_circle
 from core.design.turn_moves import apart_from_circle
@@ -54,7 +54,7 @@ def turn_length_bounds(
     return min(low, longest), longest
 
 
-class _Lengths(Search):
+class _Lengths(TurnSearch):
     """Search for a length below which no turn is justifiable."""
 
     def __init__(self, dragon: Dragon, circle: TurnCircle, stray: float, budget: Budget) -> None:

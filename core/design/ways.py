@@ -6,7 +6,7 @@ import math
 
 from core import kernels
 from core.contact.fold import THETA_ROUNDING, clear_to_fold
-from core.contact.search import Search, before_fold
+from core.contact.search import ContactSearch, before_fold
 from core.design.pitch_bands import Bands
 from core.dragon import Dragon
 from core.errors import SIZE_MIN, Quantity, TooMuchWork, quantities, too_much
@@ -44,7 +44,7 @@ class Ways:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
         path, budget = Spiral(self.lowest, start_turns), (budget or Budget()).within(PITCH_WORK)
-        self.search = Search(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
+        self.search = ContactSearch(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core import kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.dance import Dance
 from core.display import Readable
 from core.errors import InvalidValue, Quantity, bound, checked_number, question_about
 from core.kernels import Budget, Judged
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN, TIME_MAX, Period
-from core.sampling import bisected
+from core.sampling import bisect
 
 # Width of the proof: every handle stays below the highest rate found plus this [1]; the rate itself is good to 1e-12,
 # except in the last moments before a fold, where rates grow without bound and lose digits.
@@ -115,7 +115,7 @@ def highest_speed(
         rule = f"must be {when} and speeds grow without bound"
         raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **told)
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    search = Search(dragon, dance.path, 0.0, budget=budget)
+    search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     peaks = [_peak_of(search, period) for period in clock.periods(begin, until)]
     highest = max(peaks, key=lambda peak: peak.speed)
@@ -124,7 +124,7 @@ def highest_speed(
     return replace(highest, speed_bracket=(highest.speed, upper))
 
 
-def _peak_of(search: Search, period: Period) -> HighestSpeed:
+def _peak_of(search: ContactSearch, period: Period) -> HighestSpeed:
     """The highest speed in a part of the dance with one head speed; 0 in a pause."""
     speed = period.speed
     if speed == 0.0:
@@ -138,7 +138,7 @@ def _peak_of(search: Search, period: Period) -> HighestSpeed:
     return HighestSpeed(rate * speed, (rate * speed, proven), period.time(travel), tied, period.passage)
 
 
-def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
+def peak_over(search: ContactSearch, begin: float, until: float) -> kernels.Peak:
     """The highest rate between two travels of the head [m], sampled and proven: see core/kernels/speed.py."""
     benches, alike = search.dragon.benches, search.dragon.uniform_from
     rounding = search.travel_rounding(begin, until)
@@ -152,7 +152,7 @@ def peak_over(search: Search, begin: float, until: float) -> kernels.Peak:
     return peak
 
 
-def _calm(search: Search) -> float:
+def _calm(search: ContactSearch) -> float:
     """Lag from which backwards handles are no faster than those before them, and are left out."""
     return search.path.calm(2.0 * kernels.SINE_LIMIT / search.rings.all_chord)
 
@@ -201,7 +201,7 @@ def first_excess(
     limit = checked_limit(speed_limit)
     dragon = dance.dragon
     begin, until = dance.span(dance.begin if start is None else start, stop)
-    search = Search(dragon, dance.path, 0.0, budget=budget)
+    search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
     search.timing, given_up = dance.clock.rounding(until), None
     for period in dance.clock.periods(begin, until):
@@ -217,7 +217,7 @@ def first_excess(
     return None if given_up is None else replace(given_up, time_bracket=(given_up.time_bracket[0], until))
 
 
-def _excess_in(search: Search, period: Period, limit: float) -> FirstExcess | None:
+def _excess_in(search: ContactSearch, period: Period, limit: float) -> FirstExcess | None:
     """The first excess in a part of the dance with one head speed."""
     ratio = limit / period.speed
     outcome, excess = _excess(search, period.first, period.last, period.speed, ratio)
@@ -228,7 +228,7 @@ def _excess_in(search: Search, period: Period, limit: float) -> FirstExcess | No
 
 
 def _excess(
-    search: Search, first: float, last: float, head_speed: float, ratio: float
+    search: ContactSearch, first: float, last: float, head_speed: float, ratio: float
 ) -> tuple[Judged, kernels.Excess]:
     """The search for the first excess over a rate between two travels of the head [m], and its outcome."""
     rounding = search.travel_rounding(first, last)
@@ -241,7 +241,7 @@ def _excess(
     return outcome, excess
 
 
-def _late_excess(search: Search, ratio: float, period: Period, proven: float) -> FirstExcess:
+def _late_excess(search: ContactSearch, ratio: float, period: Period, proven: float) -> FirstExcess:
     """An excess after the time at which a proof was given up [s], tried at instants that approach the end."""
 
     def faster(time: float) -> int | None:
@@ -256,7 +256,7 @@ def _late_excess(search: Search, ratio: float, period: Period, proven: float) ->
     if high is None:
         return FirstExcess(None, (proven, until), None)
     low = max([proven, *(time for time in times if time < high)])
-    low, high = bisected(lambda time: faster(time) is not None, low, high)
+    low, high = bisect(lambda time: faster(time) is not None, low, high)
     return FirstExcess(high, (proven, high), faster(high))
 
 

@@ -6,7 +6,7 @@ locals, and it refuses Python objects inside loops. `setup.py` compiles all modu
 
 Bisections share halved() of fold.py. clear_radius(), Peak.refine(), crossing() and seek_rear() halve in loops of their
 own, because their tests take more than two numbers and keep a state between the halvings: clear_radius() through
-bisected() of core/sampling.py takes 3.8 us instead of 0.7 us (measured 2026-11-23).
+bisect() of core/sampling.py takes 3.8 us instead of 0.7 us (measured 2026-11-23).
 
 Some functions take seven or eight parameters, because arrays go to them one by one. Scene and Interval, which hold
 these arrays, import the modules up to hulls, which therefore cannot take them; and records are structs in C, which

@@ -17,7 +17,12 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.rings import drift
     from core.kernels.scene import Found
 
-# March.
+# March: conservative advancement (Mirtich, Impulse-based dynamic simulation of rigid body systems, PhD thesis, Berkeley
+# 1996; for links in a row Zhang, Redon, Lee and Kim, Continuous collision detection for articulated models using Taylor
+# models and temporal culling, SIGGRAPH 2007). A step is as long as a bound on the motion proves that nothing touches,
+# and the steps end at the first contact, which the field calls the time of impact. The classical step is the gap over a
+# bound on the speed at which it closes. Here the gap is known at both ends of a step, and its second derivative is
+# bounded in between, so a step is about as long as the root of the gap.
 #
 # Input. A scene: a chain for every head travel, the margin, the bounds on rings; start and stop; the pairs that must be
 # followed (leaders, at_start); and half the width of the bracket around a contact (half_bracket).

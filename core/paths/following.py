@@ -11,7 +11,7 @@ from core.dragon import Dragon
 from core.errors import InvalidValue, quantities
 from core.paths.path import Path
 from core.paths.route import Route
-from core.sampling import bisected
+from core.sampling import bisect
 
 # Width of the bracket around the earliest travel of the head: absolute [m], and relative to it [1].
 ROOM_WIDTH = 1e-9
@@ -66,4 +66,4 @@ def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
         rule = "is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last}"
         told = quantities("m", 9, got=path.end - path.begin, least=straight)
         raise InvalidValue("path", f"{rule} (more along bends)", last=dragon.benches, **told)
-    return min(bisected(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)
+    return min(bisect(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)

@@ -20,7 +20,7 @@ from core.paths.frame import WORLD, Frame
 from core.paths.path import Columns, HeadState, PathSummary
 from core.paths.pieces import Coil
 from core.paths.route import Route
-from core.sampling import bisected
+from core.sampling import bisect
 from core.values import Floats, Point
 
 START_TURNS_MAX = 1e5
@@ -180,7 +180,7 @@ class Spiral(Readable):
         def is_gentle(theta: float) -> bool:
             return bool(kernels.spiral_curvature(theta) <= curvature * self.growth)
 
-        return bisected(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
+        return bisect(is_gentle, 0.0, 2.0 / (self.growth * curvature), relative=GENTLE_WIDTH)[1]
 
     def sharpest_before(self, s: float) -> float:
         """Upper bound of the |curvature| at arc length s and before it [1/m]."""

@@ -20,7 +20,7 @@ from core.proof.fold import verify_fold
 from core.proof.pairs import Unfinished, Unproven, above, below
 from core.proof.sweeps import AnyChain, OverlapFound, found, swept
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
-from core.sampling import bisected
+from core.sampling import bisect
 from core.values import Progress
 
 # Half the bracket around a collision time [s], and the step below a minimum pitch [m]: exact decimals, in balls.
@@ -261,7 +261,7 @@ def head_theta(chain: Chain, handle: int, theta: float, low: float, high: float)
             theta_handle += delta_guess(theta_handle, float(needed))
         return theta_handle > theta
 
-    return bisected(is_beyond, low, high)[1] if handle else theta
+    return bisect(is_beyond, low, high)[1] if handle else theta
 
 
 @contextmanager

@@ -23,7 +23,7 @@ from core.contact import clearance
 from core.contact.clearance import PROFILE_STEP, refined_dip
 from core.contact.fold import clear_to_fold
 from core.contact.march import TOUCHES
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.dance import Dance
 from core.dragon import Dragon
 from core.kernels import NO_BRACKET, Budget, Ended
@@ -62,10 +62,10 @@ class Field:
     budget: Budget
     between: int = 1
 
-    def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> Search:
+    def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> ContactSearch:
         """A search for contacts of the ground that benches may cover."""
         where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
-        found = Search(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
+        found = ContactSearch(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
         found.between = found.scene.between = self.between
         return found
 

@@ -23,12 +23,12 @@ from functools import partial
 import numpy as np
 
 from core import kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.dragon import Dragon
 from core.errors import checked_number, checked_size, question_about
 from core.kernels import Budget
 from core.paths.spiral import Spiral
-from core.sampling import bisected
+from core.sampling import bisect
 from core.shapes.reach import SUPPORT_ROUNDING, Reach, reach, ring_bounds
 
 # Width to which the largest stray is bisected, relative to half a chord [1].
@@ -64,14 +64,14 @@ def uncertain_tolerance(
 
     def touches(stray: float) -> bool:
         budget.afford(float(kernels.DIRECTIONS * min(dragon.uniform_from + 1, dragon.benches)))
-        search = Search(longer, spiral, 0.0, stray=stray, covered=partial(_longer_reach, shorter))
+        search = ContactSearch(longer, spiral, 0.0, stray=stray, covered=partial(_longer_reach, shorter))
         search.rings.between_shortest -= 2.0 * error
         return not kernels.ring_clears(low, high, radius, 0.0, search.rings)
 
     most = 0.5 * float(shorter.chords.min())
     if not touches(most):
         return most
-    return bisected(touches, 0.0, most, width=WIDTH * most)[0]
+    return bisect(touches, 0.0, most, width=WIDTH * most)[0]
 
 
 def _longer_reach(shorter: Dragon, longer: Dragon, stray: float) -> Reach:

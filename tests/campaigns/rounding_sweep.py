@@ -16,7 +16,7 @@ import numpy as np
 from flint import arb
 
 from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
 from tests.support.exact_chain import ExactRoute, Floats, Point, separation, spiral_handles
@@ -58,7 +58,7 @@ def links_of(rng: np.random.Generator) -> int:
     return LINKS if rng.random() < 0.01 * LONG else int(rng.integers(3, MODERATE))
 
 
-def random_spiral(rng: np.random.Generator) -> tuple[Search, float]:
+def random_spiral(rng: np.random.Generator) -> tuple[ContactSearch, float]:
     """A search, and a theta of the head: anywhere, far out, or near where the run ends."""
     while True:
         links = links_of(rng)
@@ -71,10 +71,10 @@ def random_spiral(rng: np.random.Generator) -> tuple[Search, float]:
             continue
         theta = end + 10 ** rng.uniform(-6.0, 0.0) if rng.random() < 0.3 else rng.uniform(end, spiral.start_theta)
         if theta > 0.0 and (dragon.chords / growth / (1.0 + theta)).max() < 3.0:
-            return Search(dragon, spiral, 0.0), float(theta)
+            return ContactSearch(dragon, spiral, 0.0), float(theta)
 
 
-def random_route(rng: np.random.Generator) -> tuple[Search, float]:
+def random_route(rng: np.random.Generator) -> tuple[ContactSearch, float]:
     """A search, and an s of the head with the whole dragon on the route."""
     while True:
         links = links_of(rng) if rng.random() < 0.5 else int(rng.integers(3, 20))
@@ -88,7 +88,7 @@ def random_route(rng: np.random.Generator) -> tuple[Search, float]:
         except InvalidValue:
             continue
         if begin < end:
-            return Search(dragon, path, 0.0), float(rng.uniform(begin, end))
+            return ContactSearch(dragon, path, 0.0), float(rng.uniform(begin, end))
 
 
 def _lines_and_arcs(rng: np.random.Generator) -> Route:
@@ -123,7 +123,7 @@ def _waypoints(rng: np.random.Generator) -> Route:
 ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints)
 
 
-def compare(errors: Errors, search: Search, head: float, rng: np.random.Generator) -> None:
+def compare(errors: Errors, search: ContactSearch, head: float, rng: np.random.Generator) -> None:
     """Adds the errors of one chain, its head at theta on a spiral, at s on a route."""
     dragon, growth = search.dragon, search.growth
     search.resize(dragon.benches)

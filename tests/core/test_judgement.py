@@ -42,7 +42,7 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 BEND_LIMIT = 0.999  # half a chord over the radius of the tightest bend that a route may have [1]
 REFERENCE = Path(__file__).parents[1] / "reference"
@@ -271,13 +271,13 @@ def test_a_time_that_the_path_does_not_have_is_an_error(words: dict) -> None:
 
 def test_a_check_lays_out_one_search_for_each_question_and_area(monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[int] = []
-    lay_out = Search.__init__
+    lay_out = ContactSearch.__init__
 
-    def counted(search: Search, *args: Any, **kwargs: Any) -> None:
+    def counted(search: ContactSearch, *args: Any, **kwargs: Any) -> None:
         lay_out(search, *args, **kwargs)
         made.append(len(search.edges))
 
-    monkeypatch.setattr(Search, "__init__", counted)
+    monkeypatch.setattr(ContactSearch, "__init__", counted)
     route = Route([Line((0, 0), (100, 0))])
     square = venue(box("square", -10, -10, 110, 10), box("well", 40, 4, 44, 8), box("tree", 60, 4, 61, 5))
     check(Dance(Dragon(benches=5), route), venue=square, margin=0.5, speed_limit=2.0)

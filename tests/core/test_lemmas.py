@@ -9,7 +9,7 @@ import pytest
 
 from core import Dance, Dragon, Outcome, Turn, first_contact
 from core.contact.march import BRACKET
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels import FREE, Ended
 from tests.core.contact.test_first_contact import ACCURACY
 from tests.support.depth import some
@@ -98,8 +98,8 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
         dragon = Dragon.of(dragon.lengths, widths, dragon.overhangs)
     path = Turn(rng.uniform(0.9, 2.0), 5.0, rng.uniform(0.8, 1.5), start_turns=8.0)
     margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
-    found = Search(dragon, path, margin).approach(start, path.end, 1.0)
-    every = Search(dragon, path, margin)
+    found = ContactSearch(dragon, path, margin).approach(start, path.end, 1.0)
+    every = ContactSearch(dragon, path, margin)
     assert every.rings.clear_place < FREE
     every.rings.clear_place, every.rings.end_place = FREE, -FREE
     every.resize(benches)

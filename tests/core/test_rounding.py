@@ -26,7 +26,7 @@ from core import (
     trajectory,
 )
 from core.contact.fold import gap_rounding
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.design.ways import Ways
 from core.extremes.speed import SPEED_ROUNDING, first_excess
 from core.kernels.constants import CLIMB, CLIMB_ERROR, ERROR, RATE, RATE_ERROR
@@ -62,7 +62,7 @@ def test_two_thousand_benches_of_two_lengths_stand_where_they_are_said_to(path: 
     lengths = np.where(np.arange(2_000) % 3 == 0, 1.2, 0.9)
     dragon = Dragon.of(lengths, np.full(2_000, 0.2), np.full(2_000, 0.1))
     errors = Errors()
-    compare(errors, Search(dragon, path, 0.0), head, np.random.default_rng(0))
+    compare(errors, ContactSearch(dragon, path, 0.0), head, np.random.default_rng(0))
     for ratios in (errors.gaps, errors.points, errors.directions):
         assert max(ratios) <= 1.0
 
@@ -70,7 +70,7 @@ def test_two_thousand_benches_of_two_lengths_stand_where_they_are_said_to(path: 
 def test_towards_the_fold_the_bound_grows_with_the_error_until_nothing_is_claimed() -> None:
     dragon, spiral = Dragon(12), Spiral()
     fold, bounds = Dance(dragon, spiral).end.theta, []
-    search = Search(dragon, spiral, 0.0)
+    search = ContactSearch(dragon, spiral, 0.0)
     for beyond in (1.0, 1e-3, 1e-6, 1e-9):
         theta = fold * (1.0 + beyond)
         errors = Errors()
@@ -120,7 +120,7 @@ def test_a_margin_within_rounding_of_the_clearance_at_the_start_is_undecided(ben
     assert found.time_bracket is not None
     assert found.time_bracket[0] == 0.0
     apart = exact_gap(dragon, spiral, 0.0, 1.0, tuple(profile.benches[0].tolist()))
-    search = Search(dragon, spiral, margin)
+    search = ContactSearch(dragon, spiral, margin)
     assert abs(apart - margin) <= gap_rounding(search, 0.0, margin)
     certain = margin + 2.0 * gap_rounding(search, 0.0, margin) + 4.0 * search.travel_rounding(0.0)
     assert first_contact(Dance(dragon, spiral), margin=certain).outcome is Outcome.CONTACT_AT_START
@@ -152,14 +152,14 @@ def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns: float, marg
     clear, within = found.time_bracket
     assert exact_gap(dragon, spiral, clear, 1.0, found.benches) > margin
     assert exact_gap(dragon, spiral, within, 1.0, found.benches) <= margin
-    assert within - clear <= 1e-9 + 8.0 * Search(dragon, spiral, margin).travel_rounding(found.time)
+    assert within - clear <= 1e-9 + 8.0 * ContactSearch(dragon, spiral, margin).travel_rounding(found.time)
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_what_is_within_a_margin_for_certain_stays_so_over_the_interval(seed: int) -> None:
     rng = np.random.default_rng(seed)
     dragon = Dragon(9, 2.0, 1.5, rng.uniform(0.1, 0.5), rng.uniform(0.0, 0.4))
-    search = Search(dragon, Spiral(0.5, 3.0), 0.0)
+    search = ContactSearch(dragon, Spiral(0.5, 3.0), 0.0)
     a = int(rng.integers(0, 3))
     b = int(rng.integers(a + 2, 9))
     h, place = 10 ** rng.uniform(-12.0, -2.0), search.place - rng.uniform(0.0, 6.0)
@@ -181,7 +181,7 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
     x, y = joined(0.0)
     assert route.table[0, kernels.LOOSE] >= 2.0 * abs(y)
     assert route.slide >= abs(x)
-    search = Search(Dragon(3), route, 0.0)
+    search = ContactSearch(Dragon(3), route, 0.0)
     search.clearance(30.5)
     kernels.chain_rounding(search.curve, 3, search.sizes, search.placed)
     assert search.placed[0, ERROR] >= abs(y)
@@ -192,7 +192,7 @@ def test_what_a_chain_does_not_write_is_never_read(path: Spiral | Route) -> None
     """The same march from rows that hold no numbers, and from rows of zeros."""
     found = []
     for value in (math.nan, 0.0):
-        search = Search(Dragon(40), path, 0.05)
+        search = ContactSearch(Dragon(40), path, 0.05)
         search.chains[:, 2:] = value
         found.append(search.march(90.0 if isinstance(path, Route) else 400.0, 1e-10, start=-20.0))
     assert found[0] == found[1]
@@ -232,7 +232,7 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
     dragon = Dragon.of(rng.uniform(1.0, 3.0, 9), np.full(9, 0.3), np.full(9, 0.1))
     spiral = Spiral(rng.uniform(0.5, 1.2), 4.0)
     theta = (Dance(dragon, spiral).end.theta or 0.0) + beyond
-    search = Search(dragon, spiral, 0.0)
+    search = ContactSearch(dragon, spiral, 0.0)
     chain, growth = search.placed, spiral.growth
     kernels.start_chain(theta, chain)
     assert kernels.extend_chain(growth, 0, 9, kernels.FREE, search.sizes, chain) == 9

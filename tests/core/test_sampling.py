@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.sampling import bisected, dips, falls_to_zero
+from core.sampling import bisect, dips, fall_to_zero
 
 pytestmark = pytest.mark.uncompiled
 
@@ -19,13 +19,13 @@ FINITE = st.floats(-1e6, 1e6)
 
 @given(st.floats(-1e3, 1e3), st.floats(0.0, 10.0), st.floats(0.0, 0.1))
 def test_a_border_lies_in_its_bracket(border: float, width: float, relative: float) -> None:
-    low, high = bisected(lambda x: x >= border, -1e3 - 1.0, 1e3, width=width, relative=relative)
+    low, high = bisect(lambda x: x >= border, -1e3 - 1.0, 1e3, width=width, relative=relative)
     assert low < border <= high
     assert high - low <= width + relative * abs(high) or math.nextafter(low, math.inf) == high
 
 
 def test_without_a_width_the_ends_are_neighbouring_numbers() -> None:
-    low, high = bisected(lambda x: x * x >= 2.0, 0.0, 2.0)
+    low, high = bisect(lambda x: x * x >= 2.0, 0.0, 2.0)
     assert math.nextafter(low, 2.0) == high
     assert low * low < 2.0 <= high * high
 
@@ -37,13 +37,13 @@ def test_a_search_that_is_given_up_keeps_the_bracket_so_far() -> None:
         asked.append(x)
         return None if len(asked) == 3 else x >= 1.0
 
-    assert bisected(holds, 0.0, 8.0) == (0.0, 2.0)
+    assert bisect(holds, 0.0, 8.0) == (0.0, 2.0)
     assert asked == [4.0, 2.0, 1.0]
 
 
 def test_another_middle_is_where_the_claim_is_asked() -> None:
     asked: list[float] = []
-    bisected(lambda x: bool(asked.append(x)), 1.0, 16.0, width=5.0, middle=lambda a, b: math.sqrt(a * b))
+    bisect(lambda x: bool(asked.append(x)), 1.0, 16.0, width=5.0, middle=lambda a, b: math.sqrt(a * b))
     assert asked == [4.0, 8.0, math.sqrt(8.0 * 16.0)]
 
 
@@ -56,7 +56,7 @@ def test_a_function_is_followed_to_where_it_is_0(zero: str, accuracy: str) -> No
         return (where - x) * (1 + x * x)
 
     low, high = Decimal(0), Decimal(1)
-    found = falls_to_zero(value, low, high, value(low), value(high), width)
+    found = fall_to_zero(value, low, high, value(low), value(high), width)
     assert value(found) <= 0
     assert value(found - width) > 0
 

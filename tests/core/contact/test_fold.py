@@ -7,7 +7,7 @@ import pytest
 
 from core import Dance, Dragon, EndReason, Outcome, Spiral, first_contact
 from core.contact.fold import least_left, least_to_fold
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from tests.core.contact.test_first_contact import TIED, random_dance
 from tests.support.slow_search import SlowDance
 
@@ -48,7 +48,7 @@ def test_no_instant_before_a_fold_has_benches_nearer_than_the_bound_on_the_motio
     dragon, spiral = random_dance(seed, True)
     end = Dance(dragon, spiral).end
     assert end.reason is EndReason.FOLD
-    search = Search(dragon, spiral, 0.0)
+    search = ContactSearch(dragon, spiral, 0.0)
     for left in LEFT:
         travel = (1.0 - left) * end.time
         least = least_to_fold(search, travel, end.theta)

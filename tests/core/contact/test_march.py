@@ -8,7 +8,7 @@ from flint import arb
 
 from core import Dragon, Spiral
 from core.contact.march import BRACKET, BRACKETS_GRAZING, TRAVEL_ROUNDING
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from tests.support.exact_chain import spiral_place
 
 
@@ -20,7 +20,7 @@ def test_wider_brackets_are_tried_one_after_the_other() -> None:
 def test_no_travel_is_off_by_more_than_its_rounding(seed: int) -> None:
     rng = np.random.default_rng(seed)
     spiral = Spiral(10 ** rng.uniform(-1.0, 1.0), 10 ** rng.uniform(0.5, 3.5))
-    search = Search(Dragon(3), spiral, 0.0)
+    search = ContactSearch(Dragon(3), spiral, 0.0)
     whole = spiral.growth * spiral_place(arb(spiral.start_theta))
     for travel in rng.uniform(0.0, spiral.length, 50).tolist():
         exact = whole - spiral.growth * spiral_place(arb(search.theta_at(travel)))

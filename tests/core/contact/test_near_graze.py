@@ -25,8 +25,8 @@ from core import (
 )
 from core.contact.decimal_shapes import DIGITS
 from core.contact.decimal_shapes import exact_separation as precise_separation
-from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrowed
-from core.contact.search import Search
+from core.contact.near_graze import LAST_BENCH, NEGLIGIBLE, ExactPair, narrow_bracket
+from core.contact.search import ContactSearch
 from core.kernels import Ended
 from core.kernels.constants import HALF_LENGTH, HALF_WIDTH, MX, MY, UX, UY
 from core.kernels.results import Marched
@@ -39,7 +39,7 @@ TURN = Turn(1.7)
 
 
 def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
-    search = Search(Dragon(60), path, 0.0)
+    search = ContactSearch(Dragon(60), path, 0.0)
     search.resize(60)
     return ExactPair(search, pair)
 
@@ -117,9 +117,9 @@ def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin: float, b
     assert found.time == pytest.approx(steady.time + 20.0, rel=0, abs=BRACKET)  # 30 m in 50 s instead of 30 s
 
 
-def grazing() -> tuple[Search, Marched]:
+def grazing() -> tuple[ContactSearch, Marched]:
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
-    search = Search(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9), 0.0)
+    search = ContactSearch(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9), 0.0)
     state, found, half = search.approach(0.0, 300.0, 1.0)
     assert (state, half > 0.5 * BRACKET) == (Ended.TOUCHED, True)
     return search, found
@@ -127,16 +127,16 @@ def grazing() -> tuple[Search, Marched]:
 
 def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
     search, found = grazing()
-    assert narrowed(search, found, 0.4 * BRACKET) is not None
-    assert narrowed(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
+    assert narrow_bracket(search, found, 0.4 * BRACKET) is not None
+    assert narrow_bracket(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
 
 
 @pytest.mark.parametrize(("margin", "alone"), [(0.0, True), (1e-3, False)])
 def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin: float, alone: bool) -> None:
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
-    search = Search(Dragon(60), Spiral(), margin)
+    search = ContactSearch(Dragon(60), Spiral(), margin)
     found = Marched(409.0, 412.48, (0, 8))
-    assert (narrowed(search, found, BRACKET) is not None) == alone
+    assert (narrow_bracket(search, found, BRACKET) is not None) == alone
 
 
 def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gaps_at_both() -> None:
@@ -154,19 +154,19 @@ def test_where_the_way_before_a_contact_takes_too_many_intervals_the_bracket_sta
 ) -> None:
     search, found = grazing()
     monkeypatch.setattr(core.contact.near_graze, "INTERVALS_MAX", 2)
-    assert narrowed(search, found._replace(proven=found.proven - 1.0), 0.4 * BRACKET) is None
+    assert narrow_bracket(search, found._replace(proven=found.proven - 1.0), 0.4 * BRACKET) is None
 
 
 def test_where_a_link_is_not_solved_the_bracket_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     search, found = grazing()
     monkeypatch.setattr(core.contact.near_graze, "LINK_STEPS", 2)
-    assert narrowed(search, found, 0.4 * BRACKET) is None
+    assert narrow_bracket(search, found, 0.4 * BRACKET) is None
 
 
 @pytest.mark.parametrize(("half", "within"), [(1e-3, True), (1e-2, False)])
 def test_no_bracket_ends_where_the_benches_are_apart_again(half: float, within: bool) -> None:
     search, found = grazing()
-    assert (narrowed(search, found, half) is not None) == within
+    assert (narrow_bracket(search, found, half) is not None) == within
 
 
 def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:

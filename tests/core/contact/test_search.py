@@ -7,7 +7,7 @@ import pytest
 
 from core import Dragon, Spiral, Turn
 from core.contact.near_graze import others_clear
-from core.contact.search import Search, joined
+from core.contact.search import ContactSearch, joined
 from core.kernels import Ended
 from core.kernels.results import Dip, Marched
 from tests.support.slow_search import SlowDance, arc_length
@@ -24,7 +24,7 @@ FLAT, GAP = 1e-5, 1e-11
 
 @pytest.mark.parametrize("travel", [-20.0, 0.0, 300.0, 432.0])
 def test_the_head_is_where_a_root_of_the_arc_length_is(travel: float) -> None:
-    search = Search(DRAGON, SPIRAL, 0.0)
+    search = ContactSearch(DRAGON, SPIRAL, 0.0)
     assert search.theta_at(travel) == pytest.approx(SLOW.head(travel), abs=ANGLE * 100.0)
     assert search.travel_at(search.theta_at(travel)) == pytest.approx(travel, abs=search.travel_rounding(travel))
 
@@ -32,12 +32,12 @@ def test_the_head_is_where_a_root_of_the_arc_length_is(travel: float) -> None:
 @pytest.mark.parametrize("travel", [100.0, 400.0, 432.0])
 def test_rates_are_difference_quotients_of_arc_lengths(travel: float) -> None:
     before, after = (arc_length(SLOW.thetas([SLOW.head(t)])[0]) for t in (travel - STEP, travel + STEP))
-    rates = Search(DRAGON, SPIRAL, 0.0).rates(travel)
+    rates = ContactSearch(DRAGON, SPIRAL, 0.0).rates(travel)
     np.testing.assert_allclose(rates, SLOW.growth * (before - after) / (2.0 * STEP), rtol=1e-5, atol=QUOTIENT)
 
 
 def test_a_pair_parts_as_fast_as_its_gap_grows_and_turns_at_the_bottom_of_its_dip() -> None:
-    search = Search(DRAGON, SPIRAL, 0.0)
+    search = ContactSearch(DRAGON, SPIRAL, 0.0)
     _, marched = search.march(CONTACT - 0.1, 0.0, start=405.0, dips=True)
     assert marched.graze is not None
     assert marched.graze.benches == GRAZING
@@ -51,7 +51,7 @@ def test_a_pair_parts_as_fast_as_its_gap_grows_and_turns_at_the_bottom_of_its_di
 
 
 def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_afterwards() -> None:
-    search, stop = Search(DRAGON, SPIRAL, 0.0), CONTACT + 1e-3
+    search, stop = ContactSearch(DRAGON, SPIRAL, 0.0), CONTACT + 1e-3
     assert not others_clear(search, GRAZING, 400.0, stop)
     assert others_clear(search, PAIR, 400.0, stop)
     state, found = search.march(stop, 1e-10, start=400.0)
@@ -64,7 +64,7 @@ def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_after
 
 
 def test_a_search_whose_work_is_done_gives_up() -> None:
-    search = Search(Dragon(), Turn(1.7), 0.0, work=2e4)
+    search = ContactSearch(Dragon(), Turn(1.7), 0.0, work=2e4)
     state, found, _ = search.approach(-50.0, 100.0, 1.0)
     assert state is Ended.STUCK
     assert -50.0 < found.proven < 100.0

@@ -29,7 +29,7 @@ from core import (
     trajectory,
     venue_clearance,
 )
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.shapes.rectangles import corners
 from tests.core.test_venue import SQUARE, STAGE, WELL, box, boxed
 from tests.support.depth import examples
@@ -65,7 +65,7 @@ def shapely_distances(dragon: Dragon, path: Spiral | Route, area: Area, times: n
 
 @pytest.mark.parametrize("area", VENUE.areas, ids=lambda area: area.name)
 def test_distances_on_sampled_poses_are_shapelys(area: Area) -> None:
-    search = Search(DRAGON, LAP, 0.0, area.edges)
+    search = ContactSearch(DRAGON, LAP, 0.0, area.edges)
     times = np.linspace(0.0, LAP.end, 60)
     known = shapely_distances(DRAGON, LAP, area, times)
     for time, row in zip(times.tolist(), known, strict=True):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.design.pitch_bands import Bands
 from core.kernels import Ended
 from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_OMEGA, SHIFT_PULL, UX, UY
@@ -27,7 +27,7 @@ ROUNDING = 1e-13
 STEP = 1e-3
 
 
-def chain(search: Search, growth: float, radius: float, benches: int) -> tuple[float, Floats]:
+def chain(search: ContactSearch, growth: float, radius: float, benches: int) -> tuple[float, Floats]:
     """Clearance with the head at a radius, and the rows of the chain, in the frame in which the head is at angle 0."""
     rows = np.zeros((search.room + 1, kernels.CHAIN_COLUMNS))
     leaders = min(search.dragon.uniform_from + 1, benches)
@@ -61,7 +61,7 @@ def random_bands(seed: int) -> tuple[Bands, float, float]:
     radius, turns = chords.max() * rng.uniform(0.7, 4.0), rng.uniform(5.0, 20.0)
     margin = rng.choice([0.0, 0.2 * chord])
     high = min(10 ** rng.uniform(0.1, 0.9) * (width + margin), 3.0 * chords.min())
-    bands = Bands(Search(dragon, Spiral(high, turns), margin), radius, turns, margin)
+    bands = Bands(ContactSearch(dragon, Spiral(high, turns), margin), radius, turns, margin)
     return bands, high / (1.0 + 10 ** rng.uniform(-3.5, -0.5)), high
 
 
@@ -127,7 +127,7 @@ def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed: int) -> None:
 
 def bands_of(case: dict[str, Any]) -> Bands:
     dragon, radius = Dragon(**case["dragon"]), case["turning_diameter"] / 2
-    return Bands(Search(dragon, Spiral(1.0, case["start_turns"]), 0.0), radius, case["start_turns"], 0.0)
+    return Bands(ContactSearch(dragon, Spiral(1.0, case["start_turns"]), 0.0), radius, case["start_turns"], 0.0)
 
 
 @pytest.mark.parametrize("case", GRAZES, ids=[case["name"] for case in GRAZES])
@@ -151,7 +151,7 @@ def test_benches_of_a_short_dragon_are_no_closer_than_the_ring_bound(seed: int) 
     """The dragons go around less than once, also at pitches below the width of a bench."""
     rng = np.random.default_rng(seed)
     dragon = Dragon(int(rng.integers(3, 12)), 2.2, rng.uniform(1.4, 2.2), rng.uniform(0.1, 0.5), rng.uniform(0.0, 0.3))
-    bands = Bands(Search(dragon, Spiral(0.3, 16.0), 0.0), 3.0, 16.0, 0.0)
+    bands = Bands(ContactSearch(dragon, Spiral(0.3, 16.0), 0.0), 3.0, 16.0, 0.0)
     search, bounds = bands.search, 0
     for growth in np.geomspace(0.01, 0.2, 8):
         for radius in np.linspace(1.5, 8.0, 12):

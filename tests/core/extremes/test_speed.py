@@ -31,7 +31,7 @@ from core import (
     maximum_head_speed,
     trajectory,
 )
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.extremes.speed import RATE_TOLERANCE
 
 SPEED = json.loads((Path(__file__).parents[2] / "reference" / "maximum_head_speed.json").read_text())
@@ -143,7 +143,7 @@ UNSEEN = 1e-6
 
 def intervals_of(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> int:
     """Number of intervals in the proof of the highest speed, the head at 1 m/s."""
-    search = Search(dragon, path, 0.0)
+    search = ContactSearch(dragon, path, 0.0)
     search.resize(dragon.benches)
     return core.extremes.speed.peak_over(search, start, stop).intervals
 

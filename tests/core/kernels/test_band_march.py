@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.design.pitch_bands import Bands
 
 LOW, HIGH, CIRCLE, WORK = 0.5, 0.501, 4.5, 1e7
 
 
-def band_march_of(pitch: float, benches: int = 60) -> tuple[Search, kernels.BandMarch]:
-    search = Search(Dragon(benches), Spiral(pitch), 0.0)
+def band_march_of(pitch: float, benches: int = 60) -> tuple[ContactSearch, kernels.BandMarch]:
+    search = ContactSearch(Dragon(benches), Spiral(pitch), 0.0)
     return search, Bands(search, CIRCLE, 16.0, 0.0).march_to((pitch + HIGH - LOW) / (2.0 * math.pi))
 
 

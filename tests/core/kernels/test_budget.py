@@ -8,7 +8,7 @@ import pickle
 import pytest
 
 from core import Dragon, Spiral
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels import Budget, Halted
 
 
@@ -60,7 +60,7 @@ def test_the_signature_of_a_budget_is_known_compiled_too() -> None:
 
 def test_a_scene_has_the_halt_of_its_search_whatever_path_that_takes() -> None:
     budget = Budget(5.0)
-    search = Search(Dragon(5), Spiral(), 0.0, budget=budget)
+    search = ContactSearch(Dragon(5), Spiral(), 0.0, budget=budget)
     search.resize(4)
     search.use(Spiral(0.7), 0.1)
     search.scene.budget.left -= 2.0

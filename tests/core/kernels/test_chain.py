@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Route, Spiral, Turn, kernels, trajectory
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 ROUNDING = 1e-11  # [m], and of rates [1]
 
@@ -14,7 +14,7 @@ ROUNDING = 1e-11  # [m], and of rates [1]
 @pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
 @pytest.mark.parametrize("travel", [0.0, 11.0, 37.5])
 def test_a_chain_stands_and_moves_as_the_trajectory_says(path: Spiral | Route, travel: float) -> None:
-    search = Search(Dragon(30), path, 0.0)
+    search = ContactSearch(Dragon(30), path, 0.0)
     chain = search.placed
     assert kernels.place_chain(search.curve, search.place - travel, 30, search.sizes, chain) == 30
     there = trajectory(Dance(Dragon(30), path), travel)

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, Turn, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 # Step of difference quotients [m], and the error that it leaves in a rate [1].
 STEP, QUOTIENT = 1e-5, 1e-6
 PATHS = {"spiral": (Spiral(), 395.0), "turn": (Turn(1.7), 20.0)}
 
 
-def searched(name: str) -> tuple[Search, float]:
+def searched(name: str) -> tuple[ContactSearch, float]:
     path, travel = PATHS[name]
-    return Search(Dragon(45), path, 0.0), travel
+    return ContactSearch(Dragon(45), path, 0.0), travel
 
 
 @pytest.mark.parametrize("name", PATHS)

@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels.constants import CENTRE_SPEED, FREE, MX, MY
 
 ROUNDING = 1e-12  # [m]
 
 
-def strayed(rng: np.random.Generator) -> tuple[Search, int, int]:
+def strayed(rng: np.random.Generator) -> tuple[ContactSearch, int, int]:
     """A random dragon of nine benches whose people stray, and two of its benches."""
-    search = Search(Dragon(9, 2.0, rng.uniform(1.2, 2.0)), Spiral(0.5, 3.0), 0.0, stray=rng.uniform(0.002, 0.1))
+    search = ContactSearch(Dragon(9, 2.0, rng.uniform(1.2, 2.0)), Spiral(0.5, 3.0), 0.0, stray=rng.uniform(0.002, 0.1))
     a = int(rng.integers(0, 3))
     return search, a, int(rng.integers(a + 2, 9))
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels.constants import (
     CENTRE_PULL,
     CENTRE_SPEED,
@@ -145,7 +145,7 @@ def test_a_bound_has_every_term_of_its_derivation(seed: int) -> None:
 
 
 def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move() -> None:
-    search = Search(Dragon(12), Spiral(), 0.0)
+    search = ContactSearch(Dragon(12), Spiral(), 0.0)
     place, h, (a, b) = search.place - 400.0, 0.25, (0, 9)
     found = kernels.pair_curvatures(search.scene, search.probe, place, h, a, b)
     centres, motion = search.probed[:, [MX, MY]], search.motion

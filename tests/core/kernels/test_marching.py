@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels import Ended
 
 HALF_BRACKET, WORK, ROUNDING = 1e-10, 1e7, 1e-12
@@ -14,7 +14,7 @@ DRAGON, SPIRAL = Dragon(40), Spiral()
 CONTACT = 412.4738376822
 
 
-def march_of(search: Search) -> kernels.March:
+def march_of(search: ContactSearch) -> kernels.March:
     return kernels.March(search.interval, search.probe, search.opening)
 
 
@@ -25,7 +25,7 @@ def ended(
 
 
 def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
-    search = Search(DRAGON, SPIRAL, 0.05)
+    search = ContactSearch(DRAGON, SPIRAL, 0.05)
     march = march_of(search)
     assert ended(march, 300.0, 380.0) is Ended.REACHED
     assert march.result()[:2] == (380.0, None)
@@ -33,7 +33,7 @@ def test_a_way_that_is_proven_is_clear_at_every_sample() -> None:
 
 
 def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
-    search = Search(DRAGON, SPIRAL, 0.0)
+    search = ContactSearch(DRAGON, SPIRAL, 0.0)
     march = march_of(search)
     assert ended(march, 380.0, 420.0) is Ended.TOUCHED
     found = march.result()
@@ -50,7 +50,7 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
 
 
 def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
-    march = march_of(Search(DRAGON, SPIRAL, 0.0))
+    march = march_of(ContactSearch(DRAGON, SPIRAL, 0.0))
     assert ended(march, 413.0, 420.0) is Ended.TOUCHED_AT_START
     found = march.result()
     assert found.proven == found.touching == 413.0
@@ -58,20 +58,20 @@ def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
 
 
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
-    march = march_of(Search(DRAGON, SPIRAL, 0.0))
+    march = march_of(ContactSearch(DRAGON, SPIRAL, 0.0))
     assert ended(march, 380.0, 420.0, budget=200.0) is Ended.STUCK
     assert 380.0 < march.result().proven < CONTACT
     assert march.result().touching is None
 
 
 def test_a_dragon_with_too_few_rows_ends_at_capacity() -> None:
-    search = Search(DRAGON, SPIRAL, 0.0)
+    search = ContactSearch(DRAGON, SPIRAL, 0.0)
     search.resize(3)
     assert ended(march_of(search), 380.0, 420.0) is Ended.CAPACITY
 
 
 def test_a_pair_that_is_left_out_is_not_found() -> None:
-    search = Search(DRAGON, SPIRAL, 0.0)
+    search = ContactSearch(DRAGON, SPIRAL, 0.0)
     search.scene.left_out, search.scene.left_out_too = 0, 8
     march = march_of(search)
     assert ended(march, 380.0, 420.0) is Ended.TOUCHED

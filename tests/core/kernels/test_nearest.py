@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from core import Dance, Dragon, Line, Route, Spiral, Turn, bench_poses, kernels, trajectory
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.design.pitch_bands import Bands
 from core.kernels import Ended
 from core.shapes.rectangles import corners
@@ -33,10 +33,10 @@ def random_dragon(seed: int) -> Dragon:
 def test_a_way_is_proven_for_margins_below_its_least_sample_only(seed: int, path: Spiral | Route) -> None:
     dragon = random_dragon(seed)
     start = float(np.random.default_rng(seed).uniform(0.0, 40.0))
-    search = Search(dragon, path, -1.0)
+    search = ContactSearch(dragon, path, -1.0)
     search.resize(dragon.benches)
     least = min(search.clearance(travel)[0] for travel in np.linspace(start, start + 4.0, SAMPLES))
-    below, above = (Search(dragon, path, least + more) for more in (-BETWEEN, ABOVE))
+    below, above = (ContactSearch(dragon, path, least + more) for more in (-BETWEEN, ABOVE))
     assert below.march(start + 4.0, 0.0, start=start)[0] is Ended.REACHED
     assert above.march(start + 4.0, 0.0, start=start)[0] is not Ended.REACHED
 
@@ -48,14 +48,14 @@ def test_edges_at_rest_are_met_where_shapely_measures_them() -> None:
     poses = bench_poses(trajectory(Dance(dragon, route), times).position)
     shapes = shapely.polygons(corners(poses, np.stack([dragon.lengths, dragon.widths], axis=-1)))
     least = min(shapely.distance(shapes, shapely.LineString(edge.reshape(2, 2))).min() for edge in edges)
-    below, above = (Search(dragon, route, least + more, edges) for more in (-5e-3, ABOVE))
+    below, above = (ContactSearch(dragon, route, least + more, edges) for more in (-5e-3, ABOVE))
     assert below.march(8.0, 0.0)[0] is Ended.REACHED
     assert above.march(8.0, 0.0)[0] is not Ended.REACHED
 
 
 def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and_misses_nothing() -> None:
     """The rings around the head hold some 130 benches: as few rows, and one would be missing from a pair."""
-    search, ended = Search(Dragon(600), Spiral(), 0.0), set()
+    search, ended = ContactSearch(Dragon(600), Spiral(), 0.0), set()
     for rows in (3, 9, 60, 120, 160, 300):
         search.resize(rows)
         march = kernels.March(search.interval, search.probe, search.opening)
@@ -69,7 +69,7 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
 @pytest.mark.parametrize("low", [0.44, 0.5, 0.56])
 def test_a_band_of_pitches_is_proven_for_margins_below_its_least_sample_only(low: float) -> None:
     high, least = low + 1e-3, math.inf
-    search = Search(Dragon(40), Spiral(low), -1.0)
+    search = ContactSearch(Dragon(40), Spiral(low), -1.0)
     for pitch in np.linspace(low, high, 9):
         search.use(Spiral(pitch), -1.0)
         radii = np.linspace(4.5, 6.0, SAMPLES)

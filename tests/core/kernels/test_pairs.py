@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from tests.support.depth import some
 from tests.support.slow_search import SlowDance, rectangles_gap
 
@@ -106,7 +106,7 @@ def test_no_two_benches_outside_a_radius_are_closer_than_the_ring_bound(seed: in
     overhang = rng.choice([0.0, rng.uniform(0.0, 0.3)]) * chord
     spiral = Spiral(max(1.2 * width, chord * 10 ** rng.uniform(-1.0, 0.4)), 200.0)
     dragon = Dragon(int(rng.integers(20, 70)), head + 2 * overhang, chord + 2 * overhang, width, overhang)
-    search, dance = Search(dragon, spiral, 0.0), SlowDance.of(dragon, spiral)
+    search, dance = ContactSearch(dragon, spiral, 0.0), SlowDance.of(dragon, spiral)
     bounds = 0
     for radius in chord * np.geomspace(0.7, 12.0, 8):
         at = search.growth, float(radius), search.rings

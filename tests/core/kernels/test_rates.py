@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 
 from core import Dragon, Turn, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 
 def test_slopes_of_rates_are_their_difference_quotients() -> None:
-    search, step = Search(Dragon(6), Turn(1.7), 0.0), 1e-5
+    search, step = ContactSearch(Dragon(6), Turn(1.7), 0.0), 1e-5
     travel = 12.0
     kernels.place_chain(search.curve, search.place - travel, 6, search.sizes, search.tried)
     kernels.climbs(search.curve, 6, search.sizes, search.tried)

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 ROUNDING = 1e-13  # [m]
 
 
 @pytest.mark.parametrize("travel", [0.0, 400.0, 412.5, 425.0])
 def test_witnesses_lie_the_gap_apart_along_the_normal(travel: float) -> None:
-    search = Search(Dragon(40), Spiral(), 0.0)
+    search = ContactSearch(Dragon(40), Spiral(), 0.0)
     search.clearance(travel)
     for b in range(2, 40):
         met = kernels.bench_separation(0, b, search.sizes, search.placed)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, EndReason, Outcome, Route, Spiral, Turn, first_contact, trajectory
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels.constants import THETA
 from tests.core.contact.test_first_contact import ACCURACY
 from tests.support.depth import some
@@ -24,7 +24,7 @@ def test_a_pair_of_equal_benches_repeats_in_place_what_the_first_of_them_met(pat
     dragon = Dragon.of(lengths, np.full(40, 0.3), np.full(40, 0.275))
     assert dragon.uniform_from == first
     rng = np.random.default_rng(first)
-    search = Search(dragon, path, 0.0)
+    search = ContactSearch(dragon, path, 0.0)
 
     def place(handle: int, time: float) -> float:
         search.place_leaders(time, 40)

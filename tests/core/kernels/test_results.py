@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.kernels.results import Dip, Marched
 from tests.core.kernels.test_band_march import CIRCLE, WORK, band_march_of
 from tests.core.kernels.test_marching import ended, march_of
@@ -14,7 +14,7 @@ GAP = 1e-9  # [m]: the bottom of a dip is found to this by steps of the march
 
 
 def test_a_march_hands_over_numbers_of_python() -> None:
-    search = Search(Dragon(40), Spiral(), 0.0)
+    search = ContactSearch(Dragon(40), Spiral(), 0.0)
     march = march_of(search)
     ended(march, 380.0, 420.0)
     found = march.result()
@@ -28,7 +28,7 @@ def test_a_march_hands_over_numbers_of_python() -> None:
 
 
 def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
-    search = Search(Dragon(40), Spiral(), 0.0)
+    search = ContactSearch(Dragon(40), Spiral(), 0.0)
     march = march_of(search)
     ended(march, 380.0, 420.0)
     graze = march.result().graze

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 from core.shapes.rectangles import corners
 
 
@@ -14,7 +14,7 @@ from core.shapes.rectangles import corners
 def test_benches_led_from_beyond_a_radius_lie_outside_it_and_leaders_within_their_reach(seed: int) -> None:
     rng = np.random.default_rng(seed)
     dragon, spiral = Dragon(40, 3.4, rng.uniform(0.8, 2.2), 0.3, rng.uniform(0.0, 0.3)), Spiral(rng.uniform(0.3, 1.5))
-    search = Search(dragon, spiral, 0.0)
+    search = ContactSearch(dragon, spiral, 0.0)
     search.clearance(rng.uniform(0.0, 100.0))
     rows = search.placed
     poses = np.column_stack(
@@ -47,7 +47,7 @@ SLIM = Dragon(60, 2.2, 2.2, 0.1, 0.24)
     ],
 )
 def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pitch: float, stray: float) -> None:
-    search = Search(dragon, Spiral(pitch), 0.0, stray=stray)
+    search = ContactSearch(dragon, Spiral(pitch), 0.0, stray=stray)
     for travel in np.linspace(0.0, 60.0, 7):
         radius = search.growth * search.theta_at(travel)
         least = kernels.ring_least(search.growth, search.growth, radius, search.rings)
@@ -59,7 +59,7 @@ def test_no_clearance_falls_below_the_ring_bound_further_out(dragon: Dragon, pit
 def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_margin(
     pitch: float, margin: float
 ) -> None:
-    rings, growth = Search(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
+    rings, growth = ContactSearch(Dragon(), Spiral(pitch), margin).rings, Spiral(pitch).growth
     clears = [
         kernels.ring_clears(growth, growth, part * rings.clear_radius, margin, rings)
         for part in (0.998, 1.0, 1.1, 10.0)
@@ -68,4 +68,4 @@ def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_mar
 
 
 def test_no_radius_is_clear_where_rings_are_narrower_than_benches() -> None:
-    assert Search(Dragon(), Spiral(0.29), 0.0).clear_radius == kernels.FREE
+    assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == kernels.FREE

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Route, Spiral, Turn, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 ROUNDING = 1e-10  # of rates [1]
 
@@ -14,7 +14,7 @@ ROUNDING = 1e-10  # of rates [1]
 @pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
 @pytest.mark.parametrize("travel", [-30.0, 5.0, 80.0])
 def test_no_handle_within_an_interval_is_faster_than_its_bound(path: Spiral | Route, travel: float) -> None:
-    search = Search(Dragon(30), path, 0.0)
+    search = ContactSearch(Dragon(30), path, 0.0)
     h, place = 0.05, search.place - travel
     assert search.interval.lay_out(place, h, 30)
     most = search.motion[1:31, kernels.RATE_HIGH]
@@ -31,5 +31,5 @@ def test_a_scene_has_room_for_as_many_benches_as_rows() -> None:
 
 
 def test_an_interval_whose_chain_folds_has_no_bounds() -> None:
-    search = Search(Dragon(5), Spiral(), 0.0)
+    search = ContactSearch(Dragon(5), Spiral(), 0.0)
     assert not search.interval.lay_out(0.1, 0.01, 5)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dragon, Route, Spiral, Turn, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 RUNS = {
     "spiral": (Spiral(1.2, 3.0), 0.0, 30.0),
@@ -19,8 +19,8 @@ ROUNDING = 1e-11
 
 def peak_of(
     path: Spiral | Route, start: float, stop: float, alike: int = 1, benches: int = 6
-) -> tuple[Search, kernels.Peak]:
-    search = Search(Dragon(benches), path, 0.0)  # no handle is left out as calm
+) -> tuple[ContactSearch, kernels.Peak]:
+    search = ContactSearch(Dragon(benches), path, 0.0)  # no handle is left out as calm
     return search, kernels.Peak(search.interval, search.probed, kernels.FREE, alike, start, stop, 1e-12)
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from core import Dragon, Spiral, kernels
-from core.contact.search import Search
+from core.contact.search import ContactSearch
 
 # Arc lengths are good to this part of themselves [1], chords to this [m].
 PART, CHORD_ERROR = 1e-13, 1e-13
@@ -23,7 +23,7 @@ def test_arc_length_is_the_integral_of_the_speed_and_theta_its_inverse(theta: fl
 
 def test_every_bench_of_a_chain_is_as_long_as_its_chord() -> None:
     dragon, spiral = Dragon(60), Spiral()
-    search = Search(dragon, spiral, 0.0)
+    search = ContactSearch(dragon, spiral, 0.0)
     chain = search.placed
     kernels.start_chain(spiral.start_theta, chain)
     assert kernels.extend_chain(spiral.growth, 0, 60, kernels.FREE, search.sizes, chain) == 60

@@ -15,7 +15,7 @@ from core import Dance, Dragon, InvalidValue, Line, Route, Spiral, Tolerance, be
 from core.errors import OutsideRun, ProofRefused
 from core.proof import Certificate, prove_tolerance, verify
 from core.proof.chain import Chain
-from core.sampling import bisected
+from core.sampling import bisect
 from core.tolerance.curve import time_on_circle
 from tests.support.forgeries import FORGERIES, edit, places, put_at, refusal, stretches, through_json
 from tests.support.forgeries import put_at as at
@@ -88,7 +88,7 @@ def test_benches_are_far_only_where_no_strays_of_both_can_bring_them_together(st
         nominal, strayed = (Chain(DANCE.dragon, arb(0.7), 5.0, stray=most) for most in (0.0, stray))
         rear = arb(15.0)
         inner = [
-            bisected(lambda theta, chain=chain: chain.far(0, rear, arb(theta)), 15.0, 60.0)[1] * 0.7 / math.tau
+            bisect(lambda theta, chain=chain: chain.far(0, rear, arb(theta)), 15.0, 60.0)[1] * 0.7 / math.tau
             for chain in (nominal, strayed)
         ]
     first, second = (math.sqrt(radius**2 - 0.25 * DANCE.dragon.chords[0] ** 2) for radius in inner)

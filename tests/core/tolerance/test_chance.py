@@ -28,7 +28,7 @@ from core import (
     separation,
     trajectory,
 )  # fmt: skip
-from core.sampling import bisected
+from core.sampling import bisect
 from core.tolerance.chance import CONFIDENCE, clopper_pearson
 from core.tolerance.union_bound import union_bound
 from core.tolerance.wobble import INSTANTS_PER_TIME
@@ -78,7 +78,7 @@ def test_the_probability_of_a_hairpin_is_that_of_its_quadrature() -> None:
     limits = []
     for places, velocity in zip(placed.position, placed.velocity, strict=True):
         left = np.stack([-velocity[:, 1], velocity[:, 0]], axis=1) / np.hypot(*velocity.T)[:, None]
-        limit = bisected(lambda aside: gap_of_all_alike(places, left, aside) <= 0.0, 0.0, 0.3)[1]  # noqa: B023
+        limit = bisect(lambda aside: gap_of_all_alike(places, left, aside) <= 0.0, 0.0, 0.3)[1]  # noqa: B023
         limits.append(limit / size)
     memory = np.exp(-found.step / 0.625)
     exact = chance_to_exceed(limits, memory)
@@ -102,7 +102,7 @@ def test_the_probability_of_an_error_of_the_pitch_is_that_of_the_pitches_that_to
         dance = Dance(SPIRAL.dragon, spiral)
         return bool(clearance_profile(dance, spiral.travel_to(radius)).clearance > 0.0)
 
-    least = bisected(clear, 0.5, 0.55, width=1e-6)[1]
+    least = bisect(clear, 0.5, 0.55, width=1e-6)[1]
     still = {"start": LATE["start"], "stop": LATE["start"] + 1e-6}
     found = contact_probability(SPIRAL, Wobble(0.0, 0.0, pitch_error=size), 2_000, 1, **still)
     exact = float(ndtr((least - 0.55) / size))

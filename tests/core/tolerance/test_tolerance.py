@@ -20,7 +20,7 @@ from core import (
     Venue,
     tolerance,
 )
-from core.sampling import bisected
+from core.sampling import bisect
 from core.tolerance.tolerance import Limit, Tolerance
 from tests.campaigns.adversaries import seek, to_circle
 
@@ -90,7 +90,7 @@ def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
     square = Area("square", [[(-20.0, -20.0), (60.0, -20.0), (60.0, 20.0), (-20.0, 20.0), (-20.0, -20.0)]])
     line = Route([Line((0.0, 0.0), (30.0, 0.0))])
     found = tolerance(Dance(dragon, line), Venue(square, [wall]), start=5.0, stop=25.0)
-    stray = bisected(lambda stray: corner_reach(stray) >= 0.5, 0.0, 1.0, width=1e-9)[1]
+    stray = bisect(lambda stray: corner_reach(stray) >= 0.5, 0.0, 1.0, width=1e-9)[1]
     assert found.limited_by is Limit.VENUE
     assert found.area == "wall"
     safe, shown = found.stray_bracket
