@@ -3,7 +3,7 @@
  * service's message if it is wrong.
  */
 
-import { $$, button, make, onClick } from "./elements.js";
+import { $$, button, make, onClick, onSlide } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { Pause } from "./pending.js";
 import { refusalWords, say } from "./text.js";
@@ -58,19 +58,20 @@ export class Controls {
   }
 
   #row({ name, slider: [min, max, step] }) {
-    const change = (event) => this.state.set({ [name]: times(typed(event.target.value), 1 / SHOWN[name]) });
+    const change = ({ target }) => this.state.set({ [name]: times(typed(target.value), 1 / SHOWN[name]) });
     const typing = new Pause(name);
     const acts = { oninput: (event) => typing.begin(TYPING, () => change(event)), onchange: change };
     const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
     const row = {
       text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...acts, ...described }),
-      slider: make("input", { type: "range", min, max, step, oninput: change }),
+      slider: make("input", { type: "range", min, max, step }),
       ends: ENDS.map((end) => this.#end(name, end, end === "min" ? min : max)),
       reset: button({ className: "reset", textContent: "↺" }, () => this.state.reset([name])),
       unit: make("span", { className: "unit" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
       error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
     };
+    onSlide(row.slider, () => change({ target: row.slider }));
     this.#rows.set(name, row);
     this.#show(name);
     const label = make("label", { htmlFor: name, "data-text": name });

@@ -6,6 +6,9 @@ export const $ = (selector) => document.querySelector(selector);
 export const $$ = (selector) => [...document.querySelectorAll(selector)];
 export const onClick = (selector, act) => $(selector).addEventListener("click", act);
 
+/** Way of a finger after which it drags a slider [px]. */
+const SIDEWAYS = 12;
+
 const NUMBER = /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i;
 
 /** The number that a person typed, also with a decimal comma; any other text stays. */
@@ -30,6 +33,30 @@ export function colours(element = document.documentElement) {
 /** Show or hide an element only on a change, because each assignment makes the browser compute all styles again. */
 export function hide(element, hidden) {
   if (element.hidden !== hidden) element.hidden = hidden;
+}
+
+/**
+ * Call act() when a person moves a slider. A touch changes nothing until it goes sideways or ends: one that goes up or
+ * down scrolls the page, and the slider takes back its value.
+ */
+export function onSlide(slider, act) {
+  let touch = null;
+  slider.addEventListener("pointerdown", ({ pointerType, clientX }) => (touch = pointerType === "touch" ? { clientX, value: slider.value } : null));
+  slider.addEventListener("pointermove", ({ clientX }) => {
+    if (!touch || Math.abs(clientX - touch.clientX) < SIDEWAYS) return;
+    touch = null;
+    act();
+  });
+  slider.addEventListener("pointerup", () => {
+    const moved = touch && touch.value !== slider.value;
+    touch = null;
+    if (moved) act();
+  });
+  slider.addEventListener("pointercancel", () => {
+    if (touch) slider.value = touch.value;
+    touch = null;
+  });
+  slider.addEventListener("input", () => touch || act());
 }
 
 /** An element with these properties and children; names with a dash become attributes. */

@@ -319,6 +319,7 @@ function listen() {
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? route.choose() : state.choosePath(button.dataset.path)));
+  for (const button of $$("[data-section]")) button.addEventListener("click", () => $(`#${button.dataset.section}`).scrollIntoView());
   for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
   const all = () => {

@@ -6,7 +6,7 @@ import { refusalWords, say } from "./text.js";
 
 /** Time that a message stays, and additional time for each letter of a long one [ms]. */
 const [SHOWN_FOR, LETTER] = [6_000, 80];
-/** Possible corners of the inset, the preferred one first; the lower left has the legend. */
+/** Possible corners of the inset, the preferred one first. */
 const CORNERS = ["top-right", "bottom-right", "top-left"];
 
 let timer = 0;

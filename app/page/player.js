@@ -1,6 +1,6 @@
 /** The clock of the dance: plays, steps, scrubs, and stops at first contact. */
 
-import { $, onClick } from "./elements.js";
+import { $, onClick, onSlide } from "./elements.js";
 import { announce } from "./overlays.js";
 import { pending } from "./pending.js";
 import { RATES } from "./state.js";
@@ -37,7 +37,7 @@ export class Player {
     onClick("#back", () => this.#step(-1));
     onClick("#on", () => this.#step(1));
     onClick("#to-end", () => this.seek(Infinity));
-    $("#time").addEventListener("input", (event) => this.seek(Number(event.target.value)));
+    onSlide($("#time"), () => this.seek(Number($("#time").value)));
     $("#rate").append(...RATES.map((rate) => new Option(`${rate}×`, String(rate))));
     $("#rate").addEventListener("change", (event) => state.set({ rate: Number(event.target.value) }));
   }

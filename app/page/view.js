@@ -5,8 +5,8 @@ const PAN_STEP = 60;
 const CLICK_TRAVEL = 5;
 const [SCALE_MIN, SCALE_MAX] = [0.05, 20_000];
 const PADDING = 24;
-/** Width of the column of buttons on the left, and width of a picture below which it keeps clear of them [px]. */
-const [BUTTONS, NARROW] = [44, 500];
+/** Room for the column of buttons on the left, and for the scale below [px]. */
+const [BUTTONS, SCALE] = [40, 20];
 
 const within = (scale) => Math.min(Math.max(scale, SCALE_MIN), SCALE_MAX);
 
@@ -59,10 +59,9 @@ export class View {
 
   /** Show these bounds completely, [x min, y min, x max, y max]. */
   fit([left, bottom, right, top]) {
-    const side = this.width < NARROW ? BUTTONS : 0;
-    const [wide, high] = [this.width - 2 * PADDING - side, this.height - 2 * PADDING];
+    const [wide, high] = [this.width - 2 * PADDING - BUTTONS, this.height - 2 * PADDING - SCALE];
     const scale = within(Math.min(wide / (right - left), high / (top - bottom)));
-    this.set((left + right) / 2 - side / 2 / scale, (bottom + top) / 2, scale, true);
+    this.set((left + right) / 2 - BUTTONS / 2 / scale, (bottom + top) / 2 - SCALE / 2 / scale, scale, true);
   }
 
   set(x, y, scale = this.scale, fitted = false) {

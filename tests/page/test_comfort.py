@@ -247,7 +247,8 @@ def test_on_paper_stand_the_picture_the_numbers_and_the_answers_in_dark_ink(open
     page.pdf()
     for chart in ("#curve", "#scan:not(.coarse)"):
         expect(page.locator(f"{chart} .uplot")).to_be_visible()
-    for place in ("nav", "#transport", "#views", "#sweeps", "#grade", "#controls input[type=range] >> nth=0"):
+    places = ("header nav", "#tabs", "#transport", "#views", "#sweeps", "#grade")
+    for place in (*places, "#controls input[type=range] >> nth=0"):
         expect(page.locator(place)).to_be_hidden()
     for place in ("#canvas", "#pitch", "#first-contact .value", "#scan .plot"):
         expect(page.locator(place)).to_be_visible()

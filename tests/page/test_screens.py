@@ -89,3 +89,43 @@ def test_the_words_of_a_failure_stand_below_a_time_of_day_that_takes_their_room(
     words, button = row.locator("span").bounding_box(), row.locator("button").bounding_box()
     assert words["width"] > 150
     assert words["y"] >= button["y"] + button["height"]
+
+
+def test_a_swipe_up_that_begins_on_a_slider_scrolls_and_changes_nothing(visit: Any) -> None:
+    page = visit("?benches=40", **PHONE)
+    settled(page)
+    slider = page.locator("[data-field=benches] input[type=range]")
+    slider.evaluate("one => one.scrollIntoView({ block: 'end' })")
+    finger = page.context.new_cdp_session(page)
+
+    def swipe(dx: float, dy: float) -> None:
+        box = slider.bounding_box()
+        x, y = box["x"] + 0.7 * box["width"], box["y"] + box["height"] / 2
+        finger.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": x, "y": y}]})
+        for k in range(1, 11):
+            point = {"x": x + dx * k / 10, "y": y + dy * k / 10}
+            finger.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [point]})
+        finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        settled(page)
+
+    before = page.evaluate("scrollY")
+    swipe(6, -150)
+    page.wait_for_function("before => scrollY > before + 50", arg=before)
+    assert page.locator("#benches").input_value() == "40"
+    assert slider.input_value() == "40"
+    slider.evaluate("one => one.scrollIntoView({ block: 'end' })")
+    swipe(40, 3)
+    assert int(page.locator("#benches").input_value()) > 200
+    slider.tap()
+    assert 150 < int(page.locator("#benches").input_value()) < 250
+
+
+def test_on_a_phone_the_picture_takes_a_third_of_the_height_and_one_tap_leads_everywhere(visit: Any) -> None:
+    page = visit(VILLAGE, **PHONE)
+    answered(page, VILLAGE)
+    height = page.viewport_size["height"]
+    assert page.locator("#stage").bounding_box()["height"] <= 0.35 * height + 1
+    for section in ("keep", "answers", "controls", "dance"):
+        page.locator(f"[data-section={section}]").tap()
+        top = page.locator(f"#{section}").evaluate("one => one.getBoundingClientRect().top")
+        assert -1 <= top < height - 100, section

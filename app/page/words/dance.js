@@ -12,6 +12,11 @@ export const DANCE = {
   lost: ["The service does not answer. The page stays as it is; next try in {seconds} s.", "服务没有响应。画面保持不变，{seconds} 秒后重试。"],
   trying: ["The service does not answer. The page stays as it is; trying again now.", "服务没有响应。画面保持不变，正在重试。"],
   old: ["Older than your numbers", "结果早于当前数值"],
+  sections: ["Sections", "各部分"],
+  tabPicture: ["Picture", "画面"],
+  tabNumbers: ["Numbers", "数值"],
+  tabAnswers: ["Answers", "结果"],
+  tabKeep: ["Save", "保存"],
   retry: ["Try now", "立即重试"],
   back: ["The service is back.", "服务已恢复。"],
 
