@@ -46,7 +46,7 @@ TOGETHER = {
     "service/test_problems.py": "service/negotiation wire/faults wire/problem",
     "service/test_reply.py": "service/short_tries",
     "sweeps/test_command.py": "command/sweep",
-    "sweeps/test_run.py": "sweeps/engines sweeps/processes sweeps/worker",
+    "sweeps/test_run.py": "sweeps/engines sweeps/processes",
     "sweeps/test_shards.py": "sweeps/questions",
     "test_answers.py": "wire/answers",
     "test_any_path.py": "questions/check questions/turn wire/dances wire/paths",

@@ -1,33 +1,25 @@
-"""The embedded engine: processes of this machine, each with one piece at a time.
+"""The embedded engine: processes with one piece at a time (python -m app.start app.sweeps.processes).
 
 A process starts when a piece waits for one, so a sweep of one shard has one process however many it may have.
+
+task    a ShardPiece
+answer  the result of attempt()
 """
 
 from __future__ import annotations
 
-import contextlib
-import os
 import pickle
 import queue
-import subprocess
-import sys
-import threading
-from collections import deque
-from typing import Any, cast
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 
+from app.processes.child import ProcessEnded
+from app.processes.parent import Report, answer_tasks
+from app.processes.pool import STARTS, Pool
 from app.settings import usable_cores
-from app.start import search_path
-from app.sweeps.engines import Done, arrived
+from app.sweeps.engines import Done, arrived, attempt
 from app.sweeps.shards import ShardPiece
-from app.sweeps.worker import end, receive, send
 from core import BenchDragonError
-
-# Message in place of an answer when a process has ended.
-GONE = object()
-# Number of processes in a row that may end before they are ready.
-STARTS = 5
-# Longest wait for a process to end after a request [s].
-PATIENCE = 5.0
 
 
 class CannotStart(BenchDragonError):
@@ -36,51 +28,16 @@ class CannotStart(BenchDragonError):
     code = "cannot-start"
 
 
-class _Worker:
-    """One process, and the thread that listens to it."""
-
-    def __init__(self, events: queue.SimpleQueue[tuple[_Worker, Any]]) -> None:
-        self.piece: ShardPiece | None = None
-        self.ready = False
-        self._events = events
-        # In a new session, so that Ctrl-C stops the sweep and does not interrupt the workers one by one.
-        self.process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "app.sweeps.worker"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            start_new_session=True,
-            env={**os.environ, **search_path()},
-        )
-        threading.Thread(target=self._listen, daemon=True).start()
-
-    def give(self, piece: ShardPiece) -> None:
-        """Send a piece to the process; the thread reports the answer, or that the process died."""
-        self.piece = piece
-        with contextlib.suppress(OSError):
-            send(cast(Any, self.process.stdin), piece)
-
-    def _listen(self) -> None:
-        while True:
-            try:
-                answer = pickle.loads(receive(cast(Any, self.process.stdout)))
-            except (EOFError, OSError, ValueError):
-                self._events.put((self, GONE))
-                return
-            self._events.put((self, answer))
-
-
 class Processes:
     """A number of processes at most; a dead one is replaced."""
 
     alone = True
 
     def __init__(self, workers: int | None = None) -> None:
-        self._events: queue.SimpleQueue[tuple[_Worker, Any]] = queue.SimpleQueue()
-        self._waiting: deque[ShardPiece] = deque()
-        self._idle: list[_Worker] = []
         self._most = workers or usable_cores()
-        self._all: set[_Worker] = set()
-        self._failed_starts = 0
+        self._pool = Pool("app.sweeps.processes", waiting=self._most)
+        self._threads = ThreadPoolExecutor(self._most)  # each waits for one answer
+        self._finished: queue.SimpleQueue[Future[Done]] = queue.SimpleQueue()
 
     @property
     def workers(self) -> int:
@@ -90,54 +47,47 @@ class Processes:
     @property
     def pids(self) -> list[int]:
         """Process ids."""
-        return [worker.process.pid for worker in self._all]
+        return self._pool.pids
 
     def submit(self, piece: ShardPiece) -> None:
         """Take a piece, now or when a process is idle."""
-        self._waiting.append(piece)
-        self._hand_out()
+        self._threads.submit(self._answer, piece).add_done_callback(self._finished.put)
 
     def wait(self, seconds: float) -> list[Done]:
         """Pieces answered since the last call. raises: CannotStart, NoAnswer"""
         done: list[Done] = []
-        with contextlib.suppress(queue.Empty):
-            done += self._heard(*self._events.get(timeout=seconds))
+        with suppress(queue.Empty):
+            done.append(self._finished.get(timeout=seconds).result())
             while True:
-                done += self._heard(*self._events.get_nowait())
-        self._hand_out()
+                done.append(self._finished.get_nowait().result())
         return done
 
     def close(self) -> None:
         """End all processes."""
-        self._waiting.clear()
-        for worker in self._all:
-            end(worker.process, PATIENCE)
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        self._pool.close()
+        self._threads.shutdown()
 
-    def _hand_out(self) -> None:
-        while self._waiting and self._idle:
-            self._idle.pop().give(self._waiting.popleft())
-        starting = sum(not worker.ready for worker in self._all)
-        for _ in range(min(len(self._waiting) - starting, self._most - len(self._all))):
-            self._all.add(_Worker(self._events))
-
-    def _heard(self, worker: _Worker, answer: Any) -> list[Done]:
-        piece, worker.piece = worker.piece, None
-        if answer is GONE:
-            self._forget(worker)
-            return [Done(piece, None)] if piece else []
-        self._idle.append(worker)
-        if not worker.ready:
-            worker.ready, self._failed_starts = True, 0
-            return []
-        assert piece is not None
-        return [arrived(piece, answer)]
-
-    def _forget(self, worker: _Worker) -> None:
-        end(worker.process, PATIENCE)
-        self._all.discard(worker)
-        if worker in self._idle:
-            self._idle.remove(worker)
-        self._failed_starts += not worker.ready
-        if self._failed_starts >= STARTS:
+    def _answer(self, piece: ShardPiece) -> Done:
+        try:
+            result = pickle.loads(self._pool.answer(pickle.dumps(piece)))
+        except ProcessEnded as end:
+            if end.received:
+                return Done(piece, None)
             words = "{count} processes in a row ended before they were ready"
-            raise CannotStart.in_words("workers", words, count=STARTS)
+            raise CannotStart.in_words("workers", words, count=STARTS) from None
+        return arrived(piece, result)
+
+
+def answer(task: bytearray, report: Report) -> bytes:
+    """The rows of a piece, or the reason why there are none, pickled."""
+    try:
+        result = attempt(pickle.loads(task))
+    except Exception as error:  # This process cannot import something that the piece needs.
+        result = (None, f"{type(error).__name__}: {error}")
+    return pickle.dumps(result)
+
+
+def main() -> None:
+    """Answer pieces until the parent ends. All need much the same memory, so no process is renewed for it."""
+    answer_tasks(answer, again=lambda: True)

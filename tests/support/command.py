@@ -43,8 +43,8 @@ LAZY = (
     *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"),
     *("fcl", "scipy.interpolate", "scipy.special", "shapely"),
 )
-# Modules of other programs, and the compiled loops.
-NEVER = ("app.sweeps.worker", "app.sweeps.cluster", "core.kernels.")
+# What needs another program, and the compiled loops.
+NEVER = ("app.sweeps.cluster", "core.kernels.")
 WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
 # The command for a shell: it hands what it is given to the process that forks, and ends with the exit code of the run.
 SHELL = """#!/bin/sh

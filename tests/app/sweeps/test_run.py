@@ -155,20 +155,17 @@ def test_what_no_worker_can_answer_ends_the_run_in_words(shared: Shared, tmp_pat
 
 
 def test_no_process_is_left_of_an_interrupted_run(tmp_path: Path) -> None:
-    engines: list[Processes] = []
-
-    def engine() -> Processes:
-        engines.append(Processes(2))
-        return engines[-1]
+    engine, pids = Processes(2), list[int]()
 
     def stop(progress: Progress) -> None:
         if progress.designs:
+            pids.extend(engine.pids)
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run(spec_of(SLOW, 100), tmp_path / "a", question=SLOW, engine=engine, progress=stop)
-    assert len(engines[0].pids) == 2
-    assert not [pid for pid in engines[0].pids if psutil.pid_exists(pid)]
+        run(spec_of(SLOW, 100), tmp_path / "a", question=SLOW, engine=lambda: engine, progress=stop)
+    assert len(pids) == 2
+    assert not [pid for pid in pids if psutil.pid_exists(pid)]
     assert shards.parts(tmp_path / "a")
 
 
