@@ -7,11 +7,8 @@ ends with the process that started it. When that one is killed, the keeper of an
 from __future__ import annotations
 
 import logging
-import os
 import signal
 import sqlite3
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
@@ -23,8 +20,8 @@ from app.files.fonts import kept_list
 from app.files.lock import FolderLock
 from app.files.scratch import reclaim, temporary
 from app.jobs.store import Store
-from app.settings import SHARED_COUNTS, Settings
-from app.start import search_path
+from app.processes.child import Child
+from app.settings import Settings
 
 logger = logging.getLogger("uvicorn.error")
 
@@ -51,7 +48,7 @@ class Keeper:
         self.leaving = Event()
         self._lock = FolderLock(store.folder, "keeper")
         self._wake = Event()
-        self._runner: subprocess.Popen[bytes] | None = None
+        self._runner: Child | None = None
         self._clear_at = 0.0
         self._thread = Thread(target=self._keep, name="jobs", daemon=True)
 
@@ -68,13 +65,7 @@ class Keeper:
         self._wake.set()
         self._thread.join()
         if self._runner is not None:
-            assert self._runner.stdin is not None
-            self._runner.stdin.close()  # The runner ends when its input ends.
-            try:
-                self._runner.wait(END_SECONDS)
-            except subprocess.TimeoutExpired:
-                self._runner.kill()
-                self._runner.wait()
+            self._runner.end(END_SECONDS)
         self._lock.give_back()
 
     def _keep(self) -> None:
@@ -83,9 +74,9 @@ class Keeper:
             try:
                 self.store.check()
                 if self._lock.take():
-                    ended = self._runner is None or self._runner.poll() is not None
+                    ended = self._runner is None or not self._runner.is_alive
                     if ended and self.store.has_work(self.settings.job_days_max):
-                        self._runner = start("app.jobs.runner", str(self.store.folder))
+                        self._runner = Child("app.jobs.runner", str(self.store.folder), answers=False)
                     self._clear()
                 reported = ""
             except (OSError, sqlite3.Error) as error:
@@ -106,17 +97,6 @@ class Keeper:
         self._clear_at = now + max(CLEAR_SECONDS, (now - begun) / CLEAR_SHARE)
 
 
-def start(module: str, *arguments: str, stdout: int | None = None, **more: str) -> subprocess.Popen[bytes]:
-    """A process that ends when its standard input closes, so also when its parent is killed.
-
-    It runs in a new session, so signals from the service's terminal do not reach it. more: variables of its environment
-    """
-    environment = {name: value for name, value in os.environ.items() if name != SHARED_COUNTS}
-    environment |= search_path() | more
-    command = [sys.executable, "-P", "-m", "app.start", module, *arguments]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, env=environment, start_new_session=True, stdout=stdout)
-
-
 @contextmanager
 def kept(settings: Settings) -> Iterator[Keeper | str]:
     """The jobs of this process while it serves, or the reason why the data folder cannot be used."""
@@ -131,7 +111,7 @@ def kept(settings: Settings) -> Iterator[Keeper | str]:
             return
         stack.callback(store.close)
         keeper = Keeper(store, settings)
-        stack.enter_context(_told(keeper))
+        stack.enter_context(_listeners_leave(keeper))
         keeper.start()
         stack.callback(keeper.stop)
         yield keeper
@@ -155,7 +135,7 @@ def scratch() -> Iterator[str]:
 
 
 @contextmanager
-def _told(keeper: Keeper) -> Iterator[None]:
+def _listeners_leave(keeper: Keeper) -> Iterator[None]:
     """Context in which a signal to end makes listeners leave, because the server waits for them."""
     if current_thread() is not main_thread():
         yield

@@ -1,32 +1,26 @@
-"""Messages from the process of a job to the runner: lines of JSON on its original standard output."""
+"""Reports of the process of a job to the runner, as JSON."""
 
 from __future__ import annotations
 
-import os
-import sys
 import time
 from typing import Any
 
 import orjson
+
+from app.processes.parent import Report
 
 # Time between two messages about progress [s].
 PROGRESS_SECONDS = 0.5
 
 
 class Reports:
-    """Reports to the runner on the original standard output; other prints go to standard error."""
+    """Reports about one job. The first message about progress is due at once."""
 
-    def __init__(self) -> None:
-        self._line = os.fdopen(os.dup(sys.stdout.fileno()), "wb", buffering=0)
-        os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
-        self.begin()
+    def __init__(self, report: Report) -> None:
+        self._report, self._latest = report, 0.0
 
-    def begin(self) -> None:
-        """Begin a job, whose first message about progress is due at once."""
-        self._latest = 0.0
-
-    def say(self, **words: Any) -> None:
-        self._line.write(orjson.dumps(words) + b"\n")
+    def send(self, **values: Any) -> None:
+        self._report(orjson.dumps(values))
 
     def is_due(self) -> bool:
         """True if a message about progress is due; the next one is then due PROGRESS_SECONDS later."""
@@ -38,4 +32,4 @@ class Reports:
     def share(self, done: float) -> None:
         """Report the share of the work that is done, 0 to 1."""
         if self.is_due():
-            self.say(share=float(done))
+            self.send(share=float(done))

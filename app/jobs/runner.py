@@ -14,15 +14,13 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import os
 import queue
-import signal
 import sqlite3
-import subprocess
 import sys
 import time
 from collections import deque
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -31,12 +29,16 @@ import orjson
 
 from app.files.lock import FolderLock
 from app.jobs.job import SWEEP
-from app.jobs.keeper import start
 from app.jobs.store import Store
 from app.logs import log_to_stderr
+from app.processes.child import ProcessEnded
+from app.processes.parent import follow_parent
+from app.processes.pool import Pool
 from app.settings import Settings, part
 from app.wire.problem import problem_of
+from core import Budget
 from core.errors import Quantity
+from core.kernels import Halted
 
 logger = logging.getLogger("app.jobs")
 
@@ -51,29 +53,23 @@ RETRY_SECONDS = 1.0
 
 
 @dataclass(eq=False)
-class Work:
-    """A process that does jobs, and its present one.
+class Run:
+    """A job that runs.
 
-    job: None while it waits; begun: start of the job on the monotonic clock [s]; most: largest duration [s]
-    over: True if the result of the job is no longer needed
+    most: largest duration [s]; begun: its start on the monotonic clock [s]
+    budget: stopped when the job has taken too long, or its result is no longer needed; its process is killed then
     first: time of its first report of progress [s], and the share done then
     """
 
-    process: subprocess.Popen[bytes]
-    job: str | None = None
-    begun: float = 0.0
-    most: float = 0.0
-    over: bool = False
+    job: str
+    most: float
+    begun: float = field(default_factory=time.monotonic)
+    budget: Budget = field(default_factory=Budget)
     first: tuple[float, float] | None = None
 
-    def give(self, job: str, most: float) -> None:
-        """Begin a job."""
-        self.job, self.begun, self.most, self.first = job, time.monotonic(), most, None
-        assert self.process.stdin is not None
-        with contextlib.suppress(BrokenPipeError):
-            # Not as an argument, because every user can see arguments.
-            self.process.stdin.write(f"{job}\n".encode())
-            self.process.stdin.flush()
+    @property
+    def is_late(self) -> bool:
+        return time.monotonic() - self.begun > self.most
 
     def rate(self, share: float) -> float | None:
         """Average rate of progress since the first report [1/s]; None before it."""
@@ -83,20 +79,9 @@ class Work:
         since, before = self.first
         return (share - before) / (now - since) if now > since and share > before else None
 
-    def end(self) -> None:
-        """Kill the process and its children."""
-        self.over = True
-        if self.process.returncode is not None:
-            return  # Another process may have its number by now.
-        with contextlib.suppress(ProcessLookupError):
-            if hasattr(os, "killpg"):
-                os.killpg(self.process.pid, signal.SIGKILL)
-            else:
-                self.process.kill()
 
-
-# A process with one of its messages; None after it has ended.
-Word = tuple[Work, dict[str, Any] | None]
+# A job with a message of its process, or with the reason why there is no answer.
+Event = tuple[Run, dict[str, Any] | Exception]
 
 
 class Runner:
@@ -104,119 +89,99 @@ class Runner:
 
     def __init__(self, store: Store, settings: Settings) -> None:
         self.store, self.settings = store, settings
-        self.works: dict[str, Work] = {}
-        self._waiting: list[Work] = []
-        self._words: queue.Queue[Word] = queue.Queue()
+        self.runs: dict[str, Run] = {}
+        self._pool = Pool("app.jobs.work", str(store.folder), waiting=settings.jobs_running_max)
+        self._events: queue.Queue[Event] = queue.Queue()
         # Changes that are not in the store yet, because a full disk may refuse them for some time.
-        self._unheeded: deque[Word] = deque()
+        self._pending: deque[Event] = deque()
 
     def run(self) -> None:
         """Run jobs until none has waited for a while."""
         self.store.begin()
-        idle_since, said = time.monotonic(), ""
-        while self.works or time.monotonic() - idle_since < IDLE_SECONDS:
+        idle_since, reported = time.monotonic(), ""
+        while self.runs or time.monotonic() - idle_since < IDLE_SECONDS:
             try:
                 self.step()
             except (OSError, sqlite3.Error) as error:
-                if str(error) != said:  # Logged once, because a disk may be full for hours.
-                    said = str(error)
-                    logger.error("The store of the jobs failed, and is tried again each second: %s", said)
+                if str(error) != reported:  # Logged once, because a disk may be full for hours.
+                    reported = str(error)
+                    logger.error("The store of the jobs failed, and is tried again each second: %s", reported)
                 time.sleep(RETRY_SECONDS)
-            if self.works:
+            if self.runs:
                 idle_since = time.monotonic()
 
+    def close(self) -> None:
+        """End the processes of the jobs."""
+        self._pool.close()
+
     def step(self) -> None:
-        """Process messages, end dismissed jobs, start waiting ones."""
+        """Process events, end late and dismissed jobs, start waiting ones."""
         self.store.check()
         self._listen()
-        while self._unheeded:
-            self._heed(*self._unheeded[0])
-            self._unheeded.popleft()
-        wanted = self.store.running()
-        for job, work in self.works.items():
-            if work.over:
-                continue
-            if job not in wanted:
-                work.end()
-            elif time.monotonic() - work.begun > work.most:
-                self.store.fail(job, too_long(work.most))
-                work.end()
-        self.store.tidy(self.works)
+        while self._pending:
+            self._process(*self._pending[0])
+            self._pending.popleft()
+        needed = self.store.running()
+        for run in self.runs.values():
+            if run.is_late or run.job not in needed:
+                run.budget.stop()
+        self.store.tidy(self.runs)
         self.store.expire(self.settings.job_days_max)
-        while len(self.works) < self.settings.jobs_running_max:
+        while len(self.runs) < self.settings.jobs_running_max:
             of_client = part(self.settings.jobs_running_max, self.settings.jobs_running_client_max)
-            taken = self.store.take(self.settings.sweeps_running_max, of_client)
-            if taken is None:
+            job = self.store.take(self.settings.sweeps_running_max, of_client)
+            if job is None:
                 break
-            known = self.store.get(taken)
-            sweeps = known is not None and known.question == SWEEP
-            work = self.works[taken] = self._free()
-            work.give(taken, self.settings.sweep_seconds_max if sweeps else self.settings.job_seconds_max)
+            self._start(job)
 
-    def _free(self) -> Work:
-        """A process without a job: one that has done others, or else a new one."""
-        while self._waiting:
-            work = self._waiting.pop()
-            if work.process.poll() is None:
-                return work
-        work = Work(start("app.jobs.work", str(self.store.folder), stdout=subprocess.PIPE))
-        Thread(target=self._hear, args=(work,), daemon=True).start()
-        return work
+    def _start(self, job: str) -> None:
+        known = self.store.get(job)
+        is_sweep = known is not None and known.question == SWEEP
+        run = Run(job, self.settings.sweep_seconds_max if is_sweep else self.settings.job_seconds_max)
+        self.runs[job] = run
+        Thread(target=self._follow, args=(run,), daemon=True).start()
 
-    def _hear(self, work: Work) -> None:
-        assert work.process.stdout is not None
-        with work.process.stdout as lines:
-            for line in lines:
-                # A killed process may leave half a line.
-                with contextlib.suppress(orjson.JSONDecodeError):
-                    self._words.put((work, orjson.loads(line)))
-        work.process.wait()
-        self._words.put((work, None))
+    def _follow(self, run: Run) -> None:
+        """Turn what the process of a job sends into events; the last one is its result, or why there is none."""
+
+        def report(data: bytearray) -> None:
+            self._events.put((run, orjson.loads(data)))
+
+        try:
+            # Not as an argument of the process, because every user can see arguments.
+            report(self._pool.answer(run.job.encode(), run.budget, report))
+        except (Halted, ProcessEnded, OSError) as error:  # OSError: the system has no room for another process
+            self._events.put((run, error))
 
     def _listen(self) -> None:
         with contextlib.suppress(queue.Empty):
-            self._unheeded.append(self._words.get(timeout=LOOK_SECONDS))
+            self._pending.append(self._events.get(timeout=LOOK_SECONDS))
             while True:
-                self._unheeded.append(self._words.get_nowait())
+                self._pending.append(self._events.get_nowait())
 
-    def _heed(self, work: Work, said: dict[str, Any] | None) -> None:
-        job = work.job
-        if said is None:
-            self._bury(work)
-            return
-        assert job is not None  # A process without a job sends no message.
-        match said:
+    def _process(self, run: Run, event: dict[str, Any] | Exception) -> None:
+        job = run.job
+        match event:
             case {"share": float(share), "rate": rate, "done": int(done), "total": int(total), "size": int(size)}:
                 self.store.proceed(job, share, rate, done=done, total=total, size=size)
+                return
             case {"share": float(share)}:
-                self.store.proceed(job, share, work.rate(share))
+                self.store.proceed(job, share, run.rate(share))
+                return
             case {"kept": int(kept)}:
                 self.store.resume(job, kept)
-            case {"written": str(name), "media_type": str(media_type), "again": bool(again)}:
+                return
+            case {"written": str(name), "media_type": str(media_type)}:
                 self.store.succeed(job, Path(name), media_type, self.settings)
-                self._release(work, job, again)
-            case {"problem": str(text), "again": bool(again)}:
+            case {"problem": str(text)}:
                 self.store.fail(job, text.encode())
-                self._release(work, job, again)
-
-    def _release(self, work: Work, job: str, again: bool) -> None:
-        """Let a process that has done its job wait for the next one, or end it."""
-        if again and not work.over:
-            del self.works[job]
-            work.job = None
-            self._waiting.append(work)
-        else:
-            work.end()
-
-    def _bury(self, work: Work) -> None:
-        """Forget a process that has ended; its unfinished job is tried again, or fails."""
-        if work.job is not None:
-            if not work.over:
-                self.store.die(work.job, died(work.process.returncode))
-            del self.works[work.job]
-        assert work.process.stdin is not None
-        with contextlib.suppress(BrokenPipeError):
-            work.process.stdin.close()
+            case Halted():  # Changes nothing if the job was dismissed.
+                self.store.fail(job, too_long(run.most))
+            case ProcessEnded():
+                self.store.die(job, died(event.how))
+            case OSError():
+                self.store.die(job, died(event.strerror or str(event)))
+        del self.runs[job]
 
 
 def too_long(seconds: float) -> bytes:
@@ -225,40 +190,22 @@ def too_long(seconds: float) -> bytes:
     return problem_of(422, "too-much-work", words, most=Quantity(seconds, "s", 6)).to_json()
 
 
-def died(code: int) -> bytes:
-    """The problem of a job whose process died at each attempt. code: last exit code, or minus the signal"""
-    how = f"signal {-code}" if code < 0 else f"exit code {code}"
+def died(how: str) -> bytes:
+    """The problem of a job whose process died at each attempt. how: exit code or signal of the last one"""
     words = "The process of the job died at each attempt, the last time by {how}: the job may need too much memory."
     return problem_of(500, "process-ended", words, how=how).to_json()
-
-
-def end_group() -> None:
-    """End this process and its children."""
-    if hasattr(os, "killpg") and os.getpgid(0) == os.getpid():
-        os.killpg(0, signal.SIGKILL)
-    os._exit(1)
-
-
-def follow_input() -> None:
-    """Read standard input, and end this process and its children when it ends, because their parent is gone."""
-
-    def follow() -> None:
-        while os.read(sys.stdin.fileno(), 1024):
-            pass
-        end_group()
-
-    Thread(target=follow, daemon=True).start()
 
 
 def main() -> None:
     settings = Settings()
     log_to_stderr(settings.log_json)
     folder = Path(sys.argv[1])
-    follow_input()
+    follow_parent()
     lock = FolderLock(folder, "runner")
     try:
         if not lock.take(LOCK_SECONDS):
             raise SystemExit(f"Another runner still holds {folder}")
-        Runner(Store(folder), settings).run()
+        with closing(Runner(Store(folder), settings)) as runner:
+            runner.run()
     except (OSError, sqlite3.Error) as error:
         raise SystemExit(f"The store of the jobs failed: {error}") from error

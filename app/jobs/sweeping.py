@@ -73,7 +73,7 @@ class _Teller:
         """raises: TooManyBytes"""
         if not self.begun:
             self.begun = True
-            self.reports.say(kept=progress.designs)
+            self.reports.send(kept=progress.designs)
         if self.reports.is_due():
             self.tell(progress)
 
@@ -85,7 +85,7 @@ class _Teller:
             told = {"size": size, "designs": progress.designs, "total": progress.total, "most": self.bytes_max}
             raise TooManyBytes.in_words("over", f"{words}: ask for fewer designs.", **told)
         share, rate = progress.designs / progress.total, progress.rate / progress.total
-        self.reports.say(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
+        self.reports.send(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
 
 
 def _renew(folder: Path, spec: Spec) -> None:

@@ -17,6 +17,7 @@ import pytest
 from app.files.tables import ARROW_TYPE
 from app.jobs import runner
 from app.jobs.store import Store
+from app.processes.messages import Kind, send
 from app.settings import Settings
 from tests.campaigns.job_kills import post, survive
 from tests.support.job_service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
@@ -115,11 +116,11 @@ def test_the_processes_of_jobs_log_in_the_form_of_the_service(tmp_path: Path) ->
     code = f"""
 import logging, os, sys
 from app.jobs import runner, work
-runner.follow_input = lambda: None
-def said(*given):
+runner.follow_parent = lambda: None
+def log_and_end(*arguments):
     logging.getLogger("app.jobs").error(module.__name__)
     raise SystemExit
-runner.Runner.run = work.do = said
+runner.Runner.run = work.do = log_and_end
 sys.argv = ["", {str(tmp_path)!r}]
 for module in runner, work:
     if os.fork() == 0:
@@ -129,11 +130,10 @@ for module in runner, work:
     environment = os.environ | {"BENCH_DRAGON_LOG_JSON": "true"}
     command = [sys.executable, "-c", code]
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-    with subprocess.Popen(command, env=environment, text=True, **pipes) as process:
+    with subprocess.Popen(command, env=environment, **pipes) as process:
         assert process.stdin is not None
-        process.stdin.write("job\n")
-        process.stdin.flush()
         assert process.stderr is not None
+        send(process.stdin, Kind.TASK, b"job")
         assert [json.loads(line)["message"] for line in process.stderr] == ["app.jobs.runner", "app.jobs.work"]
 
 
