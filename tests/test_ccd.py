@@ -53,7 +53,7 @@ def engines(chosen: Callable[[Engine], bool]) -> list[Any]:
     return [pytest.param(one.name, marks=marks.get(one.package, [])) for one in ENGINES if chosen(one)]
 
 
-class Asked(dict[str, Results]):
+class AnswersOfEngines(dict[str, Results]):
     """The answers of each engine to the sample, once a test wants them, read back from the files that a run writes."""
 
     def __init__(self, folder: Path) -> None:
@@ -71,7 +71,7 @@ class Asked(dict[str, Results]):
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Results]:
-    return Asked(tmp_path_factory.mktemp("answers"))
+    return AnswersOfEngines(tmp_path_factory.mktemp("answers"))
 
 
 def test_the_sample_has_every_class_kind_and_depth() -> None:

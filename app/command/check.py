@@ -63,35 +63,35 @@ def check(
     dance = read_dance(file)
     if cross_check is not None:
         dance["cross_check"] = cross_check
-    asked = checked(CheckRequest, dance, object_words(file))
-    with refusing(asked), show.waiting("check"):
-        answer = checks.check(asked, Terms())
-        drawn = _drawn_check(asked, answer, Format(ending[1:]), time) if figure else b""
-        write = trajectory_writer(suffix, None, Language.ENGLISH, asked.start_clock) if suffix else None
-        table = write(_danced(asked, answer)) if write else b""
+    request = checked(CheckRequest, dance, object_words(file))
+    with refusing(request), show.waiting("check"):
+        answer = checks.check(request, Terms())
+        drawn = _drawn_check(request, answer, Format(ending[1:]), time) if figure else b""
+        write = trajectory_writer(suffix, None, Language.ENGLISH, request.start_clock) if suffix else None
+        table = write(_danced(request, answer)) if write else b""
     if figure:
         show.write(figure, drawn)
     if output:
         show.write(output, table)
-    show.print_found(answer, json, _report_parts(answer, asked.margin, asked.benches))
+    show.print_result(answer, json, _report_parts(answer, request.margin, request.benches))
 
 
-def _danced(asked: CheckRequest, answer: Report) -> core.Trajectory:
+def _danced(request: CheckRequest, answer: Report) -> core.Trajectory:
     """Positions and speeds at every second of the judged interval, within the run."""
     settings = Settings()
-    dance = asked.to_dance(settings.checked_benches_max)
-    stop = dance.end.time if asked.stop is None else min(asked.stop, dance.end.time)
+    dance = request.to_dance(settings.checked_benches_max)
+    stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)
     steps = TimeRange(start=answer.start, stop=stop)
     return core.trajectory(dance, steps.times_of(dance, settings.cells_max))
 
 
-def _drawn_check(asked: CheckRequest, answer: Report, format: Format, time: float | None) -> bytes:
+def _drawn_check(request: CheckRequest, answer: Report, format: Format, time: float | None) -> bytes:
     if time is None:
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
-    shown = {name: getattr(asked, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
+    fields = {name: getattr(request, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
     # The time comes from an option, not from the file, so a refusal of it must name the option.
-    picture = TrajectoryFigureRequest.model_construct(**shown, time=time)
+    picture = TrajectoryFigureRequest.model_construct(**fields, time=time)
     with refusing(picture):
         return figures.trajectory_figure(picture, Terms(), format.media_type)
 
@@ -119,7 +119,7 @@ def _report_parts(report: Report, margin: float, benches: int) -> Iterator[show.
 def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
     """Rows of quantity, value, time and benches."""
     contact = report.first_contact
-    pair = f"benches {show.shown(contact.benches)}" if contact.benches else ""
+    pair = f"benches {show.value_text(contact.benches)}" if contact.benches else ""
     what = f"first within {format_number(margin)} m" if margin else "first contact"
     if contact.stray:
         what += f" with strays up to {format_number(contact.stray)} m"
@@ -128,21 +128,21 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
         engines = f"engines {'agree' if check.agree else 'DISAGREE'}"
         yield "cross-check", engines, None, show.judged_words(check.judged, benches)
     if least := report.least_clearance:
-        overlap = show.separation(least.distance, " m", show.SHOWN_DECIMALS) if least.distance < 0.0 else ""
-        yield "least clearance", overlap or _distance(least), least.time, f"benches {show.shown(least.benches)}"
+        overlap = show.separation(least.distance, " m", show.DISPLAY_DECIMALS) if least.distance < 0.0 else ""
+        yield "least clearance", overlap or _distance(least), least.time, f"benches {show.value_text(least.benches)}"
     for area in report.venue.areas if report.venue else ():
         if near := area.nearest:
             yield f"nearest to {area.name}", _distance(near), near.time, f"bench {near.bench}"
     if speed := report.highest_speed:
-        who = f"{'handle' if len(speed.handles) == 1 else 'handles'} {show.shown(speed.handles)}"
+        who = f"{'handle' if len(speed.handles) == 1 else 'handles'} {show.value_text(speed.handles)}"
         yield "highest speed", f"{speed.speed:.6f} m/s", speed.time, who
     elif any(one.kind is FailureKind.FOLDS for one in report.failures):
         yield "highest speed", "grows without bound", report.stop, "towards the fold"
     if bend := report.sharpest_bend:
-        yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {show.shown(bend.benches)}"
+        yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {show.value_text(bend.benches)}"
 
 
-def _distance(found: LeastClearance | Nearest) -> str:
-    least = found.at_least
-    proven = "not proven" if least is None else f"proven: at least {format_bound(least, show.SHOWN_DECIMALS)} m"
-    return f"{found.distance:.6f} m, {proven}"
+def _distance(nearest: LeastClearance | Nearest) -> str:
+    least = nearest.at_least
+    proven = "not proven" if least is None else f"proven: at least {format_bound(least, show.DISPLAY_DECIMALS)} m"
+    return f"{nearest.distance:.6f} m, {proven}"

@@ -16,32 +16,32 @@ from core.errors import format_number
 
 
 @asks(CollisionQuery, CollisionRequest)
-def collision_time(asked: CollisionQuery | CollisionRequest, json: Json = False) -> None:
+def collision_time(request: CollisionQuery | CollisionRequest, json: Json = False) -> None:
     """Time of first contact: when two benches first touch, or come within a margin."""
     with show.waiting("first contact"):
-        answer = collisions.collision_time(asked, Terms())
-    near = f"First time that two benches are within {format_number(asked.margin)} m of each other"
-    title = near if asked.margin else "First contact"
-    if stray := asked.to_stray():
+        answer = collisions.collision_time(request, Terms())
+    near = f"First time that two benches are within {format_number(request.margin)} m of each other"
+    title = near if request.margin else "First contact"
+    if stray := request.to_stray():
         title += f" that may come about with strays up to {format_number(stray)} m"
-    show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
+    show.print_answer(title, answer, json, margin=request.margin, benches=request.benches)
 
 
 @asks(ClearanceQuery, ClearanceRequest)
-def clearance(asked: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
+def clearance(request: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
     """Smallest distance between two benches that share no handle, and the pair, at every instant."""
     with show.waiting("clearance"):
-        answer = clearances.clearance(asked, Terms())
-    show.print_found(answer, json, _clearance_parts(answer.columns))
+        answer = clearances.clearance(request, Terms())
+    show.print_result(answer, json, _clearance_parts(answer.columns))
 
 
 def _clearance_parts(columns: dict[str, Any]) -> Iterator[show.Part]:
     """Clearance at every instant, and the local minima between them."""
     table = show.new_table("Clearance", "time [s]", "clearance [m]", "benches")
     for time, clearance, benches in zip(columns["time"], columns["clearance"], columns["benches"], strict=True):
-        table.add_row(format_number(time), show.separation(clearance), show.shown(tuple(benches)))
+        table.add_row(format_number(time), show.separation(clearance), show.value_text(tuple(benches)))
     yield table
     grazes = show.new_table("Local minima", "time [s]", "clearance [m]", "benches")
     for graze in columns["grazes"]:
-        grazes.add_row(show.shown(graze.time), show.separation(graze.clearance), show.shown(graze.benches))
+        grazes.add_row(show.value_text(graze.time), show.separation(graze.clearance), show.value_text(graze.benches))
     yield grazes if columns["grazes"] else "No local minimum between the first and the last instant."

@@ -23,7 +23,7 @@ from core import InvalidValue
 
 @asks(ContestRequest)
 def contest(
-    asked: ContestRequest,
+    request: ContestRequest,
     folder: Annotated[Path, path_argument("FOLDER", "Folder for the files; created if missing.")],
     language: Annotated[Language, typer.Option(help="Language of names, captions and the report.")] = Language.CHINESE,
     films: Annotated[bool, typer.Option(help="Write dance.mp4 and turn.mp4 (without the extra film: .gif).")] = True,
@@ -35,8 +35,8 @@ def contest(
         raise InvalidValue.in_words("folder", "FOLDER must be a folder, got the file {file}", file=str(folder))
     folder.mkdir(parents=True, exist_ok=True)
     with show.steps() as progress:
-        kit = write_kit(folder, asked, language, Wanted(films, gif), progress)
-    print(answer_table(kit.given, Say(language)), end="")
+        kit = write_kit(folder, request, language, Wanted(films, gif), progress)
+    print(answer_table(kit.results, Say(language)), end="")
     for name in kit.files:
         print(folder / name, file=sys.stderr)
     if kit.no_turn:

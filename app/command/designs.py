@@ -22,52 +22,55 @@ from core.errors import format_number
 
 
 @asks(MinimumPitchQuery, MinimumPitchRequest)
-def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, json: Json = False) -> None:
+def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, json: Json = False) -> None:
     """The smallest pitch such that every larger one lets the head reach the turning circle."""
     with show.waiting("minimum pitch"):
-        answer = pitches.minimum_pitch(asked, Terms())
-    gap = f" and no bench within {format_number(asked.margin)} m of another" if asked.margin else ""
-    title = f"Minimum pitch for a turning circle of {format_number(asked.turning_diameter)} m{gap}"
-    show.print_answer(title, answer, json, margin=asked.margin, benches=asked.benches)
+        answer = pitches.minimum_pitch(request, Terms())
+    gap = f" and no bench within {format_number(request.margin)} m of another" if request.margin else ""
+    title = f"Minimum pitch for a turning circle of {format_number(request.turning_diameter)} m{gap}"
+    show.print_answer(title, answer, json, margin=request.margin, benches=request.benches)
 
 
 @asks(TurnQuery)
-def turn(asked: TurnQuery, json: Json = False) -> None:
+def turn(request: TurnQuery, json: Json = False) -> None:
     """Two tangent arcs that lead from a spiral inwards to the same spiral, rotated by half a turn, outwards."""
-    show.print_answer("Turn", turns.turn(asked, Terms()), json)
+    show.print_answer("Turn", turns.turn(request, Terms()), json)
 
 
 @asks(ShortestTurnQuery, ShortestTurnRequest)
-def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, json: Json = False) -> None:
+def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, json: Json = False) -> None:
     """The shortest turn inside its circle that the dragon can dance, and what limits it."""
     with show.waiting("shortest turn"):
-        answer = shortest.shortest_turn(asked, Terms())
-    gap = f" with no bench within {format_number(asked.margin)} m of another" if asked.margin else ""
-    show.print_answer(f"Shortest turn{gap}", answer, json, margin=asked.margin)
+        answer = shortest.shortest_turn(request, Terms())
+    gap = f" with no bench within {format_number(request.margin)} m of another" if request.margin else ""
+    show.print_answer(f"Shortest turn{gap}", answer, json, margin=request.margin)
 
 
 @asks(TurnTimeQuery, TurnTimeRequest)
-def turn_time(asked: TurnTimeQuery | TurnTimeRequest, json: Json = False) -> None:
+def turn_time(request: TurnTimeQuery | TurnTimeRequest, json: Json = False) -> None:
     """How long the head takes through a turn at the highest speed at which no handle exceeds the limit."""
-    answer = times.turn_time(asked, Terms())
+    answer = times.turn_time(request, Terms())
     show.print_answer(
-        f"Time through the turn with no handle above {format_number(asked.speed_limit)} m/s", answer, json
+        f"Time through the turn with no handle above {format_number(request.speed_limit)} m/s", answer, json
     )
 
 
 @asks(QuickestTurnQuery, QuickestTurnRequest)
-def quickest_turn(asked: QuickestTurnQuery | QuickestTurnRequest, json: Json = False) -> None:
+def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, json: Json = False) -> None:
     """The turn inside its circle that takes the head the shortest time of those in a scan."""
     with show.waiting("quickest turn"):
-        answer = quickest.quickest_turn(asked, Terms())
+        answer = quickest.quickest_turn(request, Terms())
     show.print_answer(
-        f"Quickest turn with no handle above {format_number(asked.speed_limit)} m/s", answer, json, margin=asked.margin
+        f"Quickest turn with no handle above {format_number(request.speed_limit)} m/s",
+        answer,
+        json,
+        margin=request.margin,
     )
 
 
 @asks(MaximumHeadSpeedQuery, MaximumHeadSpeedRequest)
-def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, json: Json = False) -> None:
+def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, json: Json = False) -> None:
     """The largest constant head speed at which no handle exceeds the limit on the way through a turn."""
     with show.waiting("maximum head speed"):
-        answer = speeds.maximum_head_speed(asked, Terms())
-    show.print_answer(f"Maximum head speed for {format_number(asked.speed_limit)} m/s", answer, json)
+        answer = speeds.maximum_head_speed(request, Terms())
+    show.print_answer(f"Maximum head speed for {format_number(request.speed_limit)} m/s", answer, json)

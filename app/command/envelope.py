@@ -18,7 +18,7 @@ from app.wire.question import Terms
 
 @asks(EnvelopeQuery, EnvelopeRequest)
 def envelope(
-    asked: EnvelopeQuery | EnvelopeRequest,
+    request: EnvelopeQuery | EnvelopeRequest,
     output: Annotated[
         Path | None, typer.Option(help="Write the polygons to a .geojson, .json or .dxf file (extra dxf), in metres.")
     ] = None,
@@ -29,8 +29,8 @@ def envelope(
     if output and ending_of(output) == ".dxf":
         require("dxf", "output", "DXF")
     with show.waiting("envelope"):
-        found = swept(asked, Terms())
-        answer, data = Envelope.of(found, asked), write(found) if write else b""
+        result = swept(request, Terms())
+        answer, data = Envelope.of(result, request), write(result) if write else b""
     if output:
         show.write(output, data)
     show.print_answer("Ground that benches sweep", answer, json)

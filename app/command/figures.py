@@ -38,7 +38,7 @@ class Kind(StrEnum):
     PITCH_SCAN = "pitch-scan"
 
 
-ASKED = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PITCH_SCAN: drawn.PITCH_SCAN}
+FIGURES = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PITCH_SCAN: drawn.PITCH_SCAN}
 
 
 def _is_dance(place: Path) -> bool:
@@ -48,7 +48,7 @@ def _is_dance(place: Path) -> bool:
 
 @asks(FigureOptions)
 def figures(
-    asked: FigureOptions,
+    options: FigureOptions,
     context: typer.Context,
     file: Annotated[
         Path | None,
@@ -75,17 +75,17 @@ def figures(
     if folder.is_file():
         raise InvalidValue.in_words("folder", "FOLDER must be a folder, got the file {file}", file=str(folder))
     kinds = kind or list(Kind)[: 2 if file else None]
-    used = {name for one in kinds for name in (ASKED[one].flat or FigureOptions).model_fields}
+    used = {name for one in kinds for name in (FIGURES[one].flat or FigureOptions).model_fields}
     why = "does not apply to the figure {kinds}: leave it out, or draw another --kind too"
     unused(context, FigureOptions.model_fields.keys() - used, why, kinds=" or ".join(kinds))
-    requests = {one: of_file(file, ASKED[one].body or FigureOptions, context) if file else asked for one in kinds}
+    requests = {one: of_file(file, FIGURES[one].body or FigureOptions, context) if file else options for one in kinds}
     files = {one: folder / f"{one.value}.{format.value}" for one in kinds}
     for picture in files.values() if folder.exists() else ():
         checked_output("format", picture)
     drawings = {}
     for one, request in requests.items():
         with refusing(request), show.waiting(f"figure {one.value}") as progress:
-            drawings[one] = ASKED[one].whole(request, Terms(progress=progress), format.media_type)
+            drawings[one] = FIGURES[one].whole(request, Terms(progress=progress), format.media_type)
     folder.mkdir(parents=True, exist_ok=True)
     for one, data in drawings.items():
         show.write(files[one], data)
@@ -101,7 +101,7 @@ class FilmOptions(FilmFields, PathOptions):
 
 @asks(FilmOptions, FilmRequest)
 def film(
-    asked: FilmOptions | FilmRequest,
+    request: FilmOptions | FilmRequest,
     context: typer.Context,
     output: Annotated[Path, typer.Option(help="Write a .mp4 file (extra film), or a .gif.")] = Path("dance.mp4"),
 ) -> None:
@@ -111,5 +111,5 @@ def film(
     form = GIF_TYPE if gif else films.FORM
     with show.waiting(f"film {output}") as progress:
         terms = Terms(progress=progress)
-        data = films.filmed(asked, dance_of(asked, context, terms.settings.drawn_benches_max), terms, form)
+        data = films.filmed(request, dance_of(request, context, terms.settings.drawn_benches_max), terms, form)
     show.write(output, data)

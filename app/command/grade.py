@@ -57,30 +57,30 @@ def grade(
     if summary:
         checked_output("summary", summary, (".csv",))
     numbers = {"collision_time": collision_time, "pitch": pitch, "turn_length": turn_length, "speed": speed}
-    given = {name: text for name, text in numbers.items() if text is not None}
-    named = list(_named(files or []))
-    if not named and not given:
+    typed_numbers = {name: text for name, text in numbers.items() if text is not None}
+    paths = list(_paths_of(files or []))
+    if not paths and not typed_numbers:
         raise InvalidValue.in_words("files", "give at least one FILE or one number, such as --pitch 0.45")
-    answers = [typed(name, text, language) for name, text in given.items()]
-    found, refused = [], []
-    with show.steps() if len(named) > 1 else nullcontext(lambda what, share: None) as progress:
-        for k, file in enumerate(named):
+    answers = [typed(name, text, language) for name, text in typed_numbers.items()]
+    grades, refused = [], []
+    with show.steps() if len(paths) > 1 else nullcontext(lambda what, share: None) as progress:
+        for k, file in enumerate(paths):
             try:
                 # One byte beyond the limit shows that the file is too long.
                 with file.open("rb") as source:
                     data = source.read(FILE_MAX + 1)
             except OSError as error:
                 refused.append(error)
-                found.append(unreadable(str(file), note("not_opened", why=error.strerror), language))
+                grades.append(unreadable(str(file), note("not_opened", why=error.strerror), language))
             else:
-                found.append(_graded(str(file), data, language))
-            progress("grading", (k + 1) / len(named))
-    if refused and len(refused) == len(named) and not answers:
+                grades.append(_graded(str(file), data, language))
+            progress("grading", (k + 1) / len(paths))
+    if refused and len(refused) == len(paths) and not answers:
         raise refused[0]
-    answer = GradeAnswer(files=found, answers=answers)
+    answer = GradeAnswer(files=grades, answers=answers)
     if summary:
-        write_whole(summary, _summary(found).encode("utf-8-sig"))
-    show.print_found(answer, json, _parts(answer, language))
+        write_whole(summary, _summary(grades).encode("utf-8-sig"))
+    show.print_result(answer, json, _parts(answer, language))
 
 
 def _graded(name: str, data: bytes, language: Language) -> FileAnswer:
@@ -92,16 +92,16 @@ def _graded(name: str, data: bytes, language: Language) -> FileAnswer:
         return unreadable(name, note("memory", most=f"{READING_MAX / 1e6:.0f}"), language)
 
 
-def _named(files: list[Path]) -> Iterator[Path]:
+def _paths_of(files: list[Path]) -> Iterator[Path]:
     """Files to grade; those of a folder sorted by path. raises: InvalidValue for a folder without any"""
     for file in files:
         if file.is_dir():
             inside = sorted(path for path in file.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
-            shown = [path for path in inside if not path.name.startswith(("~$", "."))]
-            if not shown:
-                words, told = "{folder} must hold a file that ends in {endings}", {"endings": ", ".join(ENDINGS)}
-                raise InvalidValue.in_words("files", words, got="a folder without any", folder=str(file), **told)
-            yield from shown
+            visible = [path for path in inside if not path.name.startswith(("~$", "."))]
+            if not visible:
+                words, values = "{folder} must hold a file that ends in {endings}", {"endings": ", ".join(ENDINGS)}
+                raise InvalidValue.in_words("files", words, got="a folder without any", folder=str(file), **values)
+            yield from visible
         else:
             yield file
 
@@ -183,9 +183,9 @@ def _sheet(sheet: SheetAnswer, language: Language) -> Iterator[show.Part]:
         yield from (f"    {line}" for line in sheet.picture)
 
 
-def _diagnosis(found: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
-    if not found:
+def _diagnosis(diagnosis: Sequence[DiagnosisAnswer], language: Language) -> Iterator[show.Part]:
+    if not diagnosis:
         yield "  " + say("nothing_fits", language)
-    for one in found:
+    for one in diagnosis:
         yield f"  > {one.words}"
         yield f"    {one.evidence}"

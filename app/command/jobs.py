@@ -45,28 +45,28 @@ def _at(data: Path | None, url: str, token: str) -> InFolder | OfService:
 @jobs.command("list")
 def list_jobs(data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
     """All jobs, the newest first."""
-    found = _at(data, url, token).list()
+    listed = _at(data, url, token).list()
     if json:
-        show.print_json(orjson.dumps({"jobs": found}))
+        show.print_json(orjson.dumps({"jobs": listed}))
         return
     table = Table(box=None, pad_edge=False)
     for column in ("job", "question", "status", "progress", "asked"):
         table.add_column(column, no_wrap=True)
-    for job in found:
-        asked = datetime.fromisoformat(job["created"]).astimezone().strftime("%Y-%m-%d %H:%M:%S")
-        table.add_row(job["jobID"], job["processID"], job["status"], f"{job['progress']} %", asked)
-    show.print_parts(table if found else "No jobs.")
+    for job in listed:
+        created = datetime.fromisoformat(job["created"]).astimezone().strftime("%Y-%m-%d %H:%M:%S")
+        table.add_row(job["jobID"], job["processID"], job["status"], f"{job['progress']} %", created)
+    show.print_parts(table if listed else "No jobs.")
 
 
 @jobs.command("show")
 def show_job(job: Name, data: Data = None, url: Url = "", token: Token = "", json: Json = False) -> None:
     """Status and progress of one job."""
-    found = _at(data, url, token).show(job)
+    status = _at(data, url, token).show(job)
     if json:
-        show.print_json(orjson.dumps(found))
+        show.print_json(orjson.dumps(status))
         return
     table = Table(box=None, show_header=False, pad_edge=False)
-    for name, value in found.items():
+    for name, value in status.items():
         if value is not None and name not in ("links", "type", "problem"):
             table.add_row(name.replace("_", " "), str(value))
     show.print_parts(table)
@@ -115,9 +115,9 @@ def result(
     """Result of a finished job: the same bytes as the service's direct answer."""
     if output is not None:
         checked_output("output", output)
-    found = _at(data, url, token).result(job)
+    answer = _at(data, url, token).result(job)
     if output is None:
         with os.fdopen(os.dup(1), "wb") as out:
-            out.write(found)
+            out.write(answer)
     else:
-        write_whole(output, found)
+        write_whole(output, answer)

@@ -20,7 +20,7 @@ from typer.core import TyperGroup
 
 import core
 from app.command.streams import output_fault
-from app.command.usage import Misuse, told
+from app.command.usage import Misuse, message_of
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
 
@@ -65,7 +65,7 @@ def _one_line() -> Iterator[None]:
     except BenchDragonError as error:
         message = error.message
     except Misuse as error:
-        message = told(error)
+        message = message_of(error)
     except BrokenPipeError:
         raise
     except OSError as error:
@@ -91,12 +91,12 @@ class _Commands(TyperGroup):
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         if cmd_name not in ROOMS:
             return None
-        asked = getattr(import_module(f"app.command.{ROOMS[cmd_name]}"), cmd_name.replace("-", "_"))
-        if not isinstance(asked, typer.Typer):
+        entry = getattr(import_module(f"app.command.{ROOMS[cmd_name]}"), cmd_name.replace("-", "_"))
+        if not isinstance(entry, typer.Typer):
             alone = typer.Typer(context_settings=HELP, add_completion=False)
-            alone.command(cmd_name)(asked)
-            asked = alone
-        command = typer.main.get_command(asked)
+            alone.command(cmd_name)(entry)
+            entry = alone
+        command = typer.main.get_command(entry)
         command.name = cmd_name
         for one in (command, *getattr(command, "commands", {}).values()):
             one.help = escape(one.help or "")  # A unit such as [m] is no style of rich.
@@ -121,8 +121,8 @@ app = typer.Typer(
 )
 
 
-def _print_version(asked: bool) -> None:
-    if asked:
+def _print_version(wanted: bool) -> None:
+    if wanted:
         print(f"bench-dragon {core.__version__}{'' if COMPILED else ', not compiled: many times slower'}")
         raise typer.Exit
 

@@ -34,7 +34,7 @@ RANGED = "app.command.options.ranged"
 CONTEXT = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
 
 
-def given(context: typer.Context, *names: str) -> list[str]:
+def typed_options(context: typer.Context, *names: str) -> list[str]:
     """The named options that were given on the command line."""
     sources = {name: context.get_parameter_source(name) for name in names}
     return [name for name, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
@@ -42,20 +42,20 @@ def given(context: typer.Context, *names: str) -> list[str]:
 
 def unused(context: typer.Context, names: Iterable[str], why: str, **values: Value) -> None:
     """Refuse named options that were given but have no use here. why: the rest of the template, with what to change"""
-    for name in given(context, *names):
+    for name in typed_options(context, *names):
         raise InvalidValue.in_words(name, f"--{{option}} {why}", option=name.replace("_", "-"), **values)
 
 
 def numbers(option: str, text: str, kind: Callable[[str], Number]) -> list[Number]:
     """A list such as 0,60,120. raises: InvalidValue naming the entry that is not a number"""
-    found = []
+    entries = []
     for k, word in enumerate(text.split(",")):
         try:
-            found.append(kind(word))
+            entries.append(kind(word))
         except ValueError as error:
             rule = f"must be a {'whole number' if kind is int else 'number'}, as in --{{option}} 0,1,2"
             raise InvalidValue(f"{option}.{k}", rule, got=Given(word), option=option) from error
-    return found
+    return entries
 
 
 def of_file(file: Path, body: type[Model], context: typer.Context, instead: str = "") -> Model:
@@ -73,15 +73,15 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     held = read_dance(file)
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
-    told = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
-    told |= {name: context.params[name] for name in given(context, *own)}
-    if isinstance(told.get("times"), str):
-        told["times"] = numbers("times", told["times"], float)
+    values = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
+    values |= {name: context.params[name] for name in typed_options(context, *own)}
+    if isinstance(values.get("times"), str):
+        values["times"] = numbers("times", values["times"], float)
     elif "times" in own and (steps := _steps(held, body, context)):
-        told["times"] = steps
+        values["times"] = steps
     elif "time" in own and "start" in held:
-        told.setdefault("time", held["start"])
-    return checked(body, told, object_words(file))
+        values.setdefault("time", held["start"])
+    return checked(body, values, object_words(file))
 
 
 def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) -> dict[str, Any]:
@@ -89,7 +89,7 @@ def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) 
 
     The stop after a start of the file is that of the whole dance, 300 s later at most.
     """
-    steps = {name: context.params[name] for name in given(context, *TimeRange.model_fields)}
+    steps = {name: context.params[name] for name in typed_options(context, *TimeRange.model_fields)}
     ends = {} if "times" in held else {name: held[name] for name in SpanFields.model_fields if name in held}
     ends = checked(SpanFields, ends).model_dump(exclude_none=True)
     if steps or ends:
@@ -130,13 +130,13 @@ def asks(
                 name,
                 inspect.Parameter.KEYWORD_ONLY,
                 default=field.default,
-                annotation=Annotated[_plain(field.annotation), typer.Option(help=field.description)],
+                annotation=Annotated[_without_limits(field.annotation), typer.Option(help=field.description)],
             )
             for name, field in model.model_fields.items()
         ]
         added = [_file(body), CONTEXT] if body else []
 
-        def asked(**values: Any) -> None:
+        def run(**values: Any) -> None:
             context = values["context"] if "context" in own else values.pop("context", None)
             file = values.pop("file", None) if body else None
             flat = {name: values.pop(name) for name in model.model_fields}
@@ -148,12 +148,12 @@ def asks(
 
         parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own.values()]
         parameters += [p for p in added if p.name not in own] + fields
-        asked.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
-        asked.__annotations__ = {p.name: p.annotation for p in parameters}
-        asked.__name__ = command.__name__
+        run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        run.__annotations__ = {p.name: p.annotation for p in parameters}
+        run.__name__ = command.__name__
         # Help keeps the ends of lines of all paragraphs but the first.
-        asked.__doc__ = "\n\n".join(" ".join(one.split()) for one in (command.__doc__ or "").split("\n\n"))
-        return asked
+        run.__doc__ = "\n\n".join(" ".join(one.split()) for one in (command.__doc__ or "").split("\n\n"))
+        return run
 
     return decorated
 
@@ -166,10 +166,10 @@ def _file(body: type[BaseModel]) -> inspect.Parameter:
     return inspect.Parameter("file", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 
-def _plain(annotation: Any) -> Any:
+def _without_limits(annotation: Any) -> Any:
     """A type without the limits of pydantic, which not every version of typer accepts."""
     if get_origin(annotation) is Annotated:
-        return _plain(get_args(annotation)[0])
+        return _without_limits(get_args(annotation)[0])
     if get_origin(annotation) in (Union, UnionType):
-        return Union[tuple(map(_plain, get_args(annotation)))]  # noqa: UP007
+        return Union[tuple(map(_without_limits, get_args(annotation)))]  # noqa: UP007
     return annotation

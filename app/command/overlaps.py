@@ -23,7 +23,7 @@ from core.errors import format_number
 
 @asks(InstantQuery)
 def overlaps(
-    asked: InstantQuery,
+    request: InstantQuery,
     context: typer.Context,
     file: Annotated[
         Path | None,
@@ -35,25 +35,25 @@ def overlaps(
     if file:
         why = "describes a dance, and FILE gives the benches: give one of the two"
         unused(context, InstantQuery.model_fields, why)
-        told = {} if ending_of(file) == ".toml" else read_json(file)
-        if "benches" not in told:
+        values = {} if ending_of(file) == ".toml" else read_json(file)
+        if "benches" not in values:
             words = "{file} must be JSON with benches, each a rectangle with x, y, heading, length and width"
             why = "ask check or clearance about a dance"
             raise InvalidValue.in_words("file", words, reason=why, file=str(file))
-        benches = checked(OverlapsRequest, told)
+        benches = checked(OverlapsRequest, values)
     with show.waiting("overlaps"):
-        answer = together.overlaps(benches, Terms()) if file else together.of_dance(asked, Terms())
-    show.print_found(answer, json, _overlap_parts(answer, benches.margin if file else asked.margin))
+        answer = together.overlaps(benches, Terms()) if file else together.of_dance(request, Terms())
+    show.print_result(answer, json, _overlap_parts(answer, benches.margin if file else request.margin))
 
 
 def _overlap_parts(answer: OverlapsAnswer, margin: float) -> Iterator[show.Part]:
     title = f"Pairs within {format_number(margin)} m of each other" if margin else "Overlapping pairs"
     table = show.new_table(title, "benches", "separation [m]", "witness a [m]", "witness b [m]")
     for one in answer.overlaps:
-        witnesses = map(show.shown, (one.witness_a, one.witness_b))
-        table.add_row(show.shown(one.benches), show.separation(one.separation), *witnesses)
+        witnesses = map(show.value_text, (one.witness_a, one.witness_b))
+        table.add_row(show.value_text(one.benches), show.separation(one.separation), *witnesses)
     yield table
     check = answer.cross_check
-    found = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in check.engines.items())
-    asked = "All four engines" if not check.left_out else "The engines that can judge a margin"
-    yield f"{asked} {'agree' if check.agree else 'DISAGREE'}; pairs found: {found}"
+    counts = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in check.engines.items())
+    engines = "All four engines" if not check.left_out else "The engines that can judge a margin"
+    yield f"{engines} {'agree' if check.agree else 'DISAGREE'}; pairs found: {counts}"

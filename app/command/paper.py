@@ -23,7 +23,7 @@ def paper(
     """The paper's numbers beside those of this program, with the reason for each difference."""
     with show.waiting("recomputing the paper"):
         answer = papers.paper(papers.PaperQuery(language=language), Terms())
-    show.print_found(answer, json, _parts(answer, language))
+    show.print_result(answer, json, _parts(answer, language))
 
 
 def _parts(answer: PaperTable, language: Language) -> Iterator[show.Part]:
@@ -35,19 +35,21 @@ def _parts(answer: PaperTable, language: Language) -> Iterator[show.Part]:
     table = show.new_table(words("title"), *map(words, ("quantity", "paper", "ours", "difference")))
     for one in answer.rows:
         name = f"{one.quantity} [{one.unit}], {one.source}"
-        table.add_row(name, str(one.paper), show.shown(one.ours), f"{one.difference:+.6f}")
+        table.add_row(name, str(one.paper), show.value_text(one.ours), f"{one.difference:+.6f}")
     yield table
     for one in answer.rows:
         yield Text(one.quantity, style="bold")
         yield one.reason
-        yield from (f"  {fact.what}: {show.shown(fact.value)} {fact.unit}" for fact in one.evidence)
+        yield from (f"  {fact.what}: {show.value_text(fact.value)} {fact.unit}" for fact in one.evidence)
         yield ""
     others = show.new_table(words("others"), *map(words, ("quantity", "published", "ours", "difference")))
     for other in answer.literature:
         difference = f"{other.difference:+.6f}"
-        others.add_row(f"{other.quantity} [{other.unit}]", str(other.published), show.shown(other.ours), difference)
+        others.add_row(
+            f"{other.quantity} [{other.unit}]", str(other.published), show.value_text(other.ours), difference
+        )
     yield others
     for other in answer.literature:
         yield Text(f"{other.published} {other.unit}: {other.source}", style="bold")
-        yield from [f"{found.words} {found.evidence}" for found in other.diagnosis] or [words("unknown")]
+        yield from [f"{error.words} {error.evidence}" for error in other.diagnosis] or [words("unknown")]
         yield ""

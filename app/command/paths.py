@@ -7,7 +7,7 @@ from typing import Literal, Protocol
 import typer
 from pydantic import Field
 
-from app.command.options import given, unused
+from app.command.options import typed_options, unused
 from app.wire.paths import EntryRadius, ExitRadius, TurnFields
 from app.wire.question import DanceQuery, TurningDiameter, measure
 from core import Dance
@@ -16,7 +16,7 @@ TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius", "exit_radius")
 
 
 class PathOptions(DanceQuery):
-    """A uniform dragon on the path asked for."""
+    """A uniform dragon on a chosen path."""
 
     path: Literal["spiral", "turn"] = Field(
         "spiral", description="Path: a spiral inwards, or the contest's turn between two coils"
@@ -33,13 +33,13 @@ class OfFile(Protocol):
     def to_dance(self, benches_max: int) -> Dance: ...
 
 
-def dance_of(asked: PathOptions | OfFile, context: typer.Context, benches_max: int) -> Dance:
-    """The dance on the path asked for, whose own pitch is the default. raises: TooLarge, InvalidValue"""
-    options = asked if isinstance(asked, PathOptions) else None
+def dance_of(request: PathOptions | OfFile, context: typer.Context, benches_max: int) -> Dance:
+    """The dance on the path of the request, whose own pitch is the default. raises: TooLarge, InvalidValue"""
+    options = request if isinstance(request, PathOptions) else None
     if options is None:
         unused(context, ["path"], "cannot be combined with FILE, which describes the dance")
     if options is None or options.path == "spiral":
         unused(context, TURN_FIELDS, "belongs to a turn: give --path turn too, or leave it out")
-        return asked.to_dance(benches_max)
-    told = {name: getattr(options, name) for name in given(context, "pitch", "start_turns", *TURN_FIELDS)}
-    return Dance(options.to_dragon(benches_max), TurnFields(**told).to_turn(), options.head_speed)
+        return request.to_dance(benches_max)
+    values = {name: getattr(options, name) for name in typed_options(context, "pitch", "start_turns", *TURN_FIELDS)}
+    return Dance(options.to_dragon(benches_max), TurnFields(**values).to_turn(), options.head_speed)

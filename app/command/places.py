@@ -50,29 +50,29 @@ def places(
         raise InvalidValue.in_words("units", "--units must be metres or degrees", got=Given(units))
     if output:
         checked_output("output", output, (".json",))
-    told: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
-    found = read_map(file, told[units], language)
-    answer = Places.of(found)
+    coordinates: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
+    parts = read_map(file, coordinates[units], language)
+    answer = Places.of(parts)
     if output:
-        parts = {name: part for name in ("path", "venue") if (part := getattr(answer, name)) is not None}
-        show.write(output, orjson.dumps((answer.dance or {}) | parts, option=orjson.OPT_INDENT_2) + b"\n")
+        of_map = {name: part for name in ("path", "venue") if (part := getattr(answer, name)) is not None}
+        show.write(output, orjson.dumps((answer.dance or {}) | of_map, option=orjson.OPT_INDENT_2) + b"\n")
     if json:
         show.print_json(answer.to_json())
         return
-    for note in found.notes:
+    for note in parts.notes:
         print(note, file=sys.stderr)
-    _print(found)
+    _print(parts)
 
 
-def _print(found: DanceParts) -> None:
+def _print(parts: DanceParts) -> None:
     table = show.new_table("What the map holds", "name", "what", "x [m]", "y [m]")
-    for area in found.venue.areas if found.venue else ():
-        what = "square" if found.venue and area is found.venue.square else "obstacle"
+    for area in parts.venue.areas if parts.venue else ():
+        what = "square" if parts.venue and area is parts.venue.square else "obstacle"
         x, y = zip(*area.rings[0], strict=True)
         table.add_row(area.name, what, *(f"{min(side):.3f} to {max(side):.3f}" for side in (x, y)))
-    if found.path is not None:
-        kind = str(found.path.get("kind", "spiral"))
-        points = found.path.get("points")
+    if parts.path is not None:
+        kind = str(parts.path.get("kind", "spiral"))
+        points = parts.path.get("points")
         table.add_row("path", f"{kind}, {format_count(len(points), 'point')}" if points else kind, "", "")
     show.print_parts(table)
 
@@ -93,16 +93,16 @@ def maps(
     ending = checked_output("output", output, tuple(f".{one}" for one in MapFormat))
     if ending == ".dxf":
         require("dxf", "output", "DXF")
-    told = read_dance(file)
+    values = read_dance(file)
     if spacing is not None:
-        told["spacing"] = spacing
+        values["spacing"] = spacing
     if (longitude is None) != (latitude is None):
         raise InvalidValue.in_words("longitude", "--longitude and --latitude must be given together")
     if longitude is not None and latitude is not None:
-        told["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
-    asked = checked(MapsRequest, told, object_words(file))
-    with refusing(asked), show.waiting("map"):
-        data = maps_of(asked, Terms(), MapFormat(ending[1:]).media_type)
+        values["origin"] = checked(OriginFields, {"longitude": longitude, "latitude": latitude}).model_dump()
+    request = checked(MapsRequest, values, object_words(file))
+    with refusing(request), show.waiting("map"):
+        data = maps_of(request, Terms(), MapFormat(ending[1:]).media_type)
     show.write(output, data)
 
 
@@ -123,9 +123,9 @@ def plan(
     """A PDF to print, true to scale: map, place of each person, points to paint, times (extra figures)."""
     checked_output("output", output, (".pdf",))
     require("figures", "output", "A plan")
-    given = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}
-    told = read_dance(file) | {name: value for name, value in given.items() if value is not None}
-    asked = checked(PlanRequest, told, object_words(file))
-    with refusing(asked), show.waiting("plan") as progress:
-        data = plan_of(asked, Terms(progress=progress))
+    changes = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}
+    values = read_dance(file) | {name: value for name, value in changes.items() if value is not None}
+    request = checked(PlanRequest, values, object_words(file))
+    with refusing(request), show.waiting("plan") as progress:
+        data = plan_of(request, Terms(progress=progress))
     show.write(output, data)

@@ -51,20 +51,20 @@ class _Thorough(Wire):
     )
 
 
-class CollisionClaim(_Thorough, DanceQuery):
+class CollisionProofRequest(_Thorough, DanceQuery):
     """First time two benches touch or come within the margin."""
 
     time: float | None = measure("s", "Time to prove; default: the answer of collision-time", None, ge=0)
     margin: Margin = 0.0
 
 
-class PitchClaim(_Thorough, Circle, UniformDragon):
+class PitchProofRequest(_Thorough, Circle, UniformDragon):
     """Smallest pitch of the spiral."""
 
     pitch: float | None = measure("m", "Pitch to prove; default: the answer of minimum-pitch", None, ge=1e-3, le=10)
 
 
-class ClearClaim(_Thorough, DanceQuery):
+class ClearRequest(_Thorough, DanceQuery):
     """A run on the spiral without a contact."""
 
     start: Instant = measure("s", "Start time", 0.0)
@@ -72,7 +72,7 @@ class ClearClaim(_Thorough, DanceQuery):
     margin: Margin = 0.0
 
 
-class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
+class TurnProofRequest(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     """A dance through the turn."""
 
     start: Instant = measure("s", "Start time; 0 is the entry into the turn", -100.0)
@@ -80,7 +80,7 @@ class TurnClaim(_Thorough, HeadSpeed, TurnFields, UniformDragon):
     margin: Margin = 0.0
 
 
-class StrayClaim(_Thorough, CircleQuery):
+class StrayProofRequest(_Thorough, CircleQuery):
     """Largest stray with which nothing touches until the head is on the circle."""
 
     stray: float | None = measure(
@@ -109,9 +109,11 @@ def _working(what: str) -> Iterator[Callable[[float], None]]:
     raise typer.Exit(code)
 
 
-def _terms(asked: CollisionClaim | PitchClaim | ClearClaim, progress: Callable[[float], None]) -> dict[str, Any]:
+def _terms(
+    request: CollisionProofRequest | PitchProofRequest | ClearRequest, progress: Callable[[float], None]
+) -> dict[str, Any]:
     """Keyword arguments that these proofs share."""
-    return {"margin": asked.margin, "every_pair": asked.every_pair, "progress": progress}
+    return {"margin": request.margin, "every_pair": request.every_pair, "progress": progress}
 
 
 prove = typer.Typer(add_completion=False)
@@ -138,30 +140,30 @@ def check_or_prove(
 
 
 @prove.command()
-@asks(CollisionClaim)
-def collision_time(asked: CollisionClaim, output: Output = Path("collision-time.proof.json")) -> None:
+@asks(CollisionProofRequest)
+def collision_time(request: CollisionProofRequest, output: Output = Path("collision-time.proof.json")) -> None:
     """Prove that nothing touches until 1e-10 s before a time, and that two benches overlap 1e-10 s after it.
 
     With a margin: no two benches come within it before, and two are within it after.
     """
     checked_output("output", output, (".json",))
-    dance, time = asked.to_dance(Settings().benches_max), asked.time
+    dance, time = request.to_dance(Settings().benches_max), request.time
     with _working("proof") as progress:
         from core.proof import prove_collision_time
 
         if time is None:
-            time = core.first_contact(dance, margin=asked.margin).time
+            time = core.first_contact(dance, margin=request.margin).time
         if time is None:
-            near = "no two benches come nearer than {margin}" if asked.margin else "nothing touches"
-            words, margin = f"{near}, so there is no collision time to prove", Quantity(asked.margin, "m")
+            near = "no two benches come nearer than {margin}" if request.margin else "nothing touches"
+            words, margin = f"{near}, so there is no collision time to prove", Quantity(request.margin, "m")
             raise ProofRefused.in_words("time", words, reason="prove clear", margin=margin)
-        certificate = prove_collision_time(dance, time, **_terms(asked, progress))
+        certificate = prove_collision_time(dance, time, **_terms(request, progress))
     _finish(certificate, output)
 
 
 @prove.command()
-@asks(PitchClaim)
-def minimum_pitch(asked: PitchClaim, output: Output = Path("minimum-pitch.proof.json")) -> None:
+@asks(PitchProofRequest)
+def minimum_pitch(request: PitchProofRequest, output: Output = Path("minimum-pitch.proof.json")) -> None:
     """Prove that nothing touches on the way to the circle, and that at a pitch 1e-6 m smaller two benches overlap or
     one folds.
 
@@ -169,36 +171,36 @@ def minimum_pitch(asked: PitchClaim, output: Output = Path("minimum-pitch.proof.
     proof.
     """
     checked_output("output", output, (".json",))
-    dragon, radius, pitch = asked.to_dragon(Settings().benches_max), asked.turning_diameter / 2, asked.pitch
+    dragon, radius, pitch = request.to_dragon(Settings().benches_max), request.turning_diameter / 2, request.pitch
     with _working("proof") as progress:
         from core.proof import prove_minimum_pitch
 
         if pitch is None:
-            pitch = core.minimum_pitch(dragon, **asked.to_circle()).pitch_bracket[1]
-            if Fraction(pitch) * Fraction(asked.start_turns) < Fraction(radius):  # start within the circle
+            pitch = core.minimum_pitch(dragon, **request.to_circle()).pitch_bracket[1]
+            if Fraction(pitch) * Fraction(request.start_turns) < Fraction(radius):  # start within the circle
                 pitch = math.nextafter(pitch, math.inf)
         certificate = prove_minimum_pitch(
-            dragon, pitch, turning_radius=radius, start_turns=asked.start_turns, **_terms(asked, progress)
+            dragon, pitch, turning_radius=radius, start_turns=request.start_turns, **_terms(request, progress)
         )
     _finish(certificate, output)
 
 
 @prove.command()
-@asks(ClearClaim)
-def clear(asked: ClearClaim, output: Output = Path("clear.proof.json")) -> None:
+@asks(ClearRequest)
+def clear(request: ClearRequest, output: Output = Path("clear.proof.json")) -> None:
     """Prove that nothing touches, or comes within the margin, on the spiral until a time or the end of the run."""
     checked_output("output", output, (".json",))
-    dance = asked.to_dance(Settings().benches_max)
+    dance = request.to_dance(Settings().benches_max)
     with _working("proof") as progress:
         from core.proof import prove_clear
 
-        certificate = prove_clear(dance, asked.stop, start=asked.start, **_terms(asked, progress))
+        certificate = prove_clear(dance, request.stop, start=request.start, **_terms(request, progress))
     _finish(certificate, output)
 
 
 @prove.command()
-@asks(StrayClaim)
-def tolerance(asked: StrayClaim, output: Output = Path("tolerance.proof.json")) -> None:
+@asks(StrayProofRequest)
+def tolerance(request: StrayProofRequest, output: Output = Path("tolerance.proof.json")) -> None:
     """Prove a tolerance: with strays up to it nothing touches until the head is on the circle.
 
     Without --stray a second proof is added: a pose of the whole dragon in which two benches overlap, with strays that
@@ -207,31 +209,31 @@ def tolerance(asked: StrayClaim, output: Output = Path("tolerance.proof.json")) 
     spirals.
     """
     checked_output("output", output, (".json",))
-    dance = asked.to_dance(Settings().benches_max)
-    stop = time_on_circle(dance, asked.turning_diameter / 2)
+    dance = request.to_dance(Settings().benches_max)
+    stop = time_on_circle(dance, request.turning_diameter / 2)
     with _working("proof") as progress:
         from core.proof import prove_tolerance
 
-        stray, shown = asked.stray, None
+        stray, exhibit = request.stray, None
         if stray is None:
-            found = core.tolerance(dance, stop=stop)
-            stray, shown = found.independent, found.exhibit  # the proof does not use the bench between
+            result = core.tolerance(dance, stop=stop)
+            stray, exhibit = result.independent, result.exhibit  # the proof does not use the bench between
             if stray == 0.0:
                 raise ProofRefused.in_words("stray", "no stray is known to be safe until the head is on the circle")
         certificate = prove_tolerance(
-            dance, stray, exhibit=shown, stop=stop, every_pair=asked.every_pair, progress=progress
+            dance, stray, exhibit=exhibit, stop=stop, every_pair=request.every_pair, progress=progress
         )
     _finish(certificate, output)
 
 
 @prove.command()
-@asks(TurnClaim)
-def turn(asked: TurnClaim, output: Output = Path("turn.proof.json")) -> None:
+@asks(TurnProofRequest)
+def turn(request: TurnProofRequest, output: Output = Path("turn.proof.json")) -> None:
     """Prove that a dance on the contest's turn is clear from start to stop, or prove its first contact."""
     checked_output("output", output, (".json",))
-    dance = core.Dance(asked.to_dragon(Settings().benches_max), asked.to_turn(), asked.head_speed)
-    times = {"start": asked.start, "stop": asked.stop, "margin": asked.margin}
-    _finish(_dance_proven(dance, times, asked.every_pair), output)
+    dance = core.Dance(request.to_dragon(Settings().benches_max), request.to_turn(), request.head_speed)
+    times = {"start": request.start, "stop": request.stop, "margin": request.margin}
+    _finish(_dance_proven(dance, times, request.every_pair), output)
 
 
 @prove.command()
@@ -245,18 +247,18 @@ def dance(
 ) -> None:
     """Prove that a dance, on any path but waypoints, is clear from start to stop or end, or prove its first contact."""
     checked_output("output", output, (".json",))
-    asked = checked(CheckRequest, read_dance(file))
-    told = asked.to_dance(Settings().checked_benches_max)
+    request = checked(CheckRequest, read_dance(file))
+    whole = request.to_dance(Settings().checked_benches_max)
     for name in ("venue", "speed_limit"):
-        if getattr(asked, name) is not None:
+        if getattr(request, name) is not None:
             print(f"The {name.replace('_', ' ')} is not part of the proof.", file=sys.stderr)
-    if told.passages:
-        speed = f"a head at a constant {format_number(told.head_speed)} m/s"
+    if whole.passages:
+        speed = f"a head at a constant {format_number(whole.head_speed)} m/s"
         print(f"Passages are not part of the proof, which is about places: its times are for {speed}.", file=sys.stderr)
-    begin, until = told.span(told.begin if asked.start is None else asked.start, asked.stop)
-    dance, clock = told.steady, told.clock
+    begin, until = whole.span(whole.begin if request.start is None else request.start, request.stop)
+    dance, clock = whole.steady, whole.clock
     start, stop = clock.steady(np.array([begin, until])).tolist()
-    times = {"start": start, "stop": None if asked.stop is None else stop, "margin": asked.margin}
+    times = {"start": start, "stop": None if request.stop is None else stop, "margin": request.margin}
     _finish(_dance_proven(dance, times, every_pair), output)
 
 
@@ -265,19 +267,22 @@ def _dance_proven(dance: core.Dance, times: dict[str, Any], every_pair: bool) ->
     with _working("proof") as progress:
         from core.proof import prove_clear, prove_contact
 
-        found = core.first_contact(dance, **times)
+        contact = core.first_contact(dance, **times)
         stop, margin = times.pop("stop"), Quantity(times["margin"], "m")
-        asked: dict[str, Any] = {"every_pair": every_pair, "progress": progress}
-        if found.outcome is Outcome.CLEAR:
-            return prove_clear(dance, stop, **times, **asked)
-        if found.outcome is Outcome.CONTACT and found.time is not None:
-            return prove_contact(dance, found.time, **times, **asked)
-        if found.benches is None:
+        terms: dict[str, Any] = {"every_pair": every_pair, "progress": progress}
+        if contact.outcome is Outcome.CLEAR:
+            return prove_clear(dance, stop, **times, **terms)
+        if contact.outcome is Outcome.CONTACT and contact.time is not None:
+            return prove_contact(dance, contact.time, **times, **terms)
+        if contact.benches is None:
             near = "come nearer than {margin}" if margin.value else "touch"
             raise ProofRefused.in_words("time", f"the search did not decide whether two benches {near}", margin=margin)
-        near, (a, b) = "are nearer than {margin}" if margin.value else "overlap", found.benches
-        words, told = f"benches {{a}} and {{b}} {near} already at the start, {{start}}", Quantity(times["start"], "s")
-        raise ProofRefused.in_words("start", words, a=a, b=b, margin=margin, start=told)
+        near, (a, b) = "are nearer than {margin}" if margin.value else "overlap", contact.benches
+        words, at_start = (
+            f"benches {{a}} and {{b}} {near} already at the start, {{start}}",
+            Quantity(times["start"], "s"),
+        )
+        raise ProofRefused.in_words("start", words, a=a, b=b, margin=margin, start=at_start)
 
 
 def _checked(certificate: Any) -> Proof:

@@ -24,14 +24,14 @@ from core.display import format_count
 from core.errors import format_number
 
 # Decimals of lengths and speeds on a terminal.
-SHOWN_DECIMALS = 6
+DISPLAY_DECIMALS = 6
 # Width that a table takes beside its entries: for each column, and at both sides together [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
 # Width of a table where standard output is no terminal [characters].
 PIPE_WIDTH = 120
 # Proven fields, which are shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})
-SAID_BY_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
+MEANING_OF_NULL = {"proven_up_to": "every larger pitch", "scan_step": "no scan"}
 # Fields whose values the sentences beside them have.
 UNSHOWN = frozenset({"claim"})
 # Most entries of a list in a table; of a longer list only their number is shown.
@@ -39,7 +39,7 @@ LISTED_MOST = 50
 # Fields that are separations of two benches: below zero the benches overlap.
 SEPARATIONS = frozenset({"gap", "clearance"})
 # A progress bar appears after this wait [s].
-SHOWN_WAIT = 1.0
+BAR_DELAY = 1.0
 
 Part = Table | Text | str
 
@@ -52,7 +52,7 @@ def waiting(what: str) -> Iterator[Callable[[float], None]]:
         return
     bar = Progress(console=Console(stderr=True), transient=True)
     task = bar.add_task(what, total=None)
-    timer = threading.Timer(SHOWN_WAIT, bar.start)
+    timer = threading.Timer(BAR_DELAY, bar.start)
     timer.start()
     try:
         yield lambda share: bar.update(task, total=1.0, completed=share)
@@ -70,22 +70,22 @@ def steps() -> Iterator[Callable[[str, float], None]]:
         with Progress(console=Console(stderr=True), transient=True) as bar:
             tasks: dict[str, Any] = {}
 
-            def told(what: str, share: float) -> None:
+            def advance(what: str, share: float) -> None:
                 if what not in tasks:
                     tasks[what] = bar.add_task(what, total=1.0)
                 bar.update(tasks[what], completed=share)
 
-            yield told
+            yield advance
         return
     quarters: dict[str, int] = {}
 
-    def said_once(what: str, share: float) -> None:
+    def print_quarter(what: str, share: float) -> None:
         quarter = int(4.0 * share + 1e-9)
         if quarter > quarters.get(what, 0):
             quarters[what] = quarter
             print(f"{what}: {25 * quarter} %", file=sys.stderr, flush=True)
 
-    yield said_once
+    yield print_quarter
 
 
 def print_json(data: bytes) -> None:
@@ -122,10 +122,10 @@ def _fitted(table: Table, console: Console) -> Table | str:
     return table
 
 
-def print_found(found: Answer | answers.Columns, json: bool, parts: Iterable[Part]) -> None:
+def print_result(result: Answer | answers.Columns, json: bool, parts: Iterable[Part]) -> None:
     """Print an answer as JSON, or else its parts, which may be made only then."""
     if json:
-        print_json(found.to_json())
+        print_json(result.to_json())
     else:
         print_parts(*parts)
 
@@ -172,7 +172,7 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             continue
         label = prefix + name.replace("_", " ")
         if isinstance(value, answers.Feature):
-            yield label, ", ".join(f"{word} {shown(number)}" for word, number in value)
+            yield label, ", ".join(f"{word} {value_text(number)}" for word, number in value)
         elif isinstance(value, answers.PairCheck):
             yield from ((f"{label}: {word}", text) for word, text in _check_words(value, benches))
         elif isinstance(value, answers.Polygon | answers.MultiPolygon):
@@ -186,10 +186,10 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
         elif value is not None:
             unit = unit_of(field)
             exact = isinstance(value, (float, tuple)) and (name in PROVEN or name.endswith("_bracket"))
-            words = _digits(value, unit) if exact else f"{shown(value)} {unit if value != [] else ''}".rstrip()
+            words = _digits(value, unit) if exact else f"{value_text(value)} {unit if value != [] else ''}".rstrip()
             yield label, words
-        elif name in SAID_BY_NULL:
-            yield label, SAID_BY_NULL[name]
+        elif name in MEANING_OF_NULL:
+            yield label, MEANING_OF_NULL[name]
 
 
 def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
@@ -202,20 +202,20 @@ def _digits(value: float | tuple[float | None, ...], unit: str) -> str:
 
 def separation(metres: float, unit: str = "", decimals: int = 9) -> str:
     """A separation of two benches [m] in words; a negative one as the depth of the overlap."""
-    words = shown(float(metres), decimals)
+    words = value_text(float(metres), decimals)
     return (f"overlap by {words[1:]}" if words.startswith("-") else words) + unit
 
 
 def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, str]]:
-    yield "agree", shown(check.agree)
+    yield "agree", value_text(check.agree)
     yield "judged", judged_words(check.judged, benches)
     for engine, verdict in check.engines.items():
-        before = "" if verdict.before is None else f"before {shown(verdict.before)}, "
-        yield engine.value, f"{before}after {shown(verdict.after)}"
+        before = "" if verdict.before is None else f"before {value_text(verdict.before)}, "
+        yield engine.value, f"{before}after {value_text(verdict.after)}"
     if check.together:
-        yield "together", "; ".join(map(shown, check.together))
+        yield "together", "; ".join(map(value_text, check.together))
     if check.left_out:
-        yield "left out", shown(check.left_out)
+        yield "left out", value_text(check.left_out)
 
 
 def judged_words(judged: Sequence[int], benches: int) -> str:
@@ -223,13 +223,13 @@ def judged_words(judged: Sequence[int], benches: int) -> str:
     if len(judged) == benches:
         return f"all {benches} benches"
     if len(judged) == len(("a", "b")):
-        return f"only benches {shown(judged)}"
+        return f"only benches {value_text(judged)}"
     return f"{len(judged)} of {benches:,} benches, from {judged[0]} to {judged[-1]}: those near the pair"
 
 
-def shown(value: Any, decimals: int = 9) -> str:
+def value_text(value: Any, decimals: int = 9) -> str:
     if isinstance(value, (tuple, list)):
-        return ", ".join(shown(entry, 12) for entry in value) or "none"
+        return ", ".join(value_text(entry, 12) for entry in value) or "none"
     if isinstance(value, bool):
         return "yes" if value else "no"
     # Adding 0.0 turns a rounded -0.0 into 0.0.

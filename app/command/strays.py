@@ -21,32 +21,32 @@ LARGEST = "the answer is the largest stray, by people and by the play of pins to
 
 
 @asks(ToleranceQuery, ToleranceRequest, LARGEST)
-def tolerance(asked: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
+def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
     """Largest proven stray without contact, and a pose that touches with a slightly larger one.
 
     Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
     with show.waiting("tolerance"):
-        answer = tolerances.tolerance(asked, Terms())
+        answer = tolerances.tolerance(request, Terms())
     show.print_answer("Tolerance to strays", answer, json)
 
 
 @asks(ToleranceCurveQuery, ToleranceCurveRequest, LARGEST)
-def tolerance_curve(asked: ToleranceCurveQuery | ToleranceCurveRequest, json: Json = False) -> None:
+def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, json: Json = False) -> None:
     """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
     with show.waiting("tolerance curve") as progress:
-        answer = curves.tolerance_curve(asked, Terms(progress=progress))
-    show.print_found(answer, json, _curve_parts(answer.columns))
+        answer = curves.tolerance_curve(request, Terms(progress=progress))
+    show.print_result(answer, json, _curve_parts(answer.columns))
 
 
 @asks(ContactProbabilityQuery, ContactProbabilityRequest, "--lateral and --forward describe how people wobble")
-def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
+def contact_probability(request: ContactProbabilityQuery | ContactProbabilityRequest, json: Json = False) -> None:
     """Probability of a contact when people wobble, from dances drawn at random.
 
     Without a FILE: on the way to the turning circle. With a FILE: in the whole dance.
     """
     with show.waiting("drawing dances at random") as progress:
-        answer = chances.contact_probability(asked, Terms(progress=progress))
+        answer = chances.contact_probability(request, Terms(progress=progress))
     show.print_answer("Probability of a contact when people wobble", answer, json)
 
 

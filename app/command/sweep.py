@@ -39,10 +39,10 @@ def _bar(what: str, total: int) -> Iterator[Callable[[Progress], None]]:
     if not sys.stderr.isatty():
         yield lambda progress: None
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[said]}"))
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[rate]}"))
     with Bar(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(what, total=total, said="")
-        yield lambda progress: bar.update(task, completed=progress.designs, said=progress.words)
+        task = bar.add_task(what, total=total, rate="")
+        yield lambda progress: bar.update(task, completed=progress.designs, rate=progress.words)
 
 
 @sweep.command()
@@ -65,15 +65,15 @@ def run(
     from app.sweeps.run import run as run_sweep
     from app.sweeps.spec import Spec
 
-    asked = Spec.read(spec)
+    sweep_spec = Spec.read(spec)
     engine = engine_of(dask, workers)
-    with _bar(asked.question, asked.designs) as progress:
+    with _bar(sweep_spec.question, sweep_spec.designs) as progress:
         try:
-            run_sweep(asked, output, question=asked.asks, engine=engine, progress=progress)
+            run_sweep(sweep_spec, output, question=sweep_spec.asks, engine=engine, progress=progress)
         except KeyboardInterrupt:
             print(f"Stopped: the same command continues {output}", file=sys.stderr)
             raise typer.Exit(INTERRUPTED) from None
-    print(f"{output}: {asked.designs} designs in {asked.shards} shards", file=sys.stderr)
+    print(f"{output}: {sweep_spec.designs} designs in {sweep_spec.shards} shards", file=sys.stderr)
 
 
 @sweep.command()
@@ -99,8 +99,8 @@ def show(
         return
     from app.sweeps.table import summary
 
-    for name, said in summary(sweep, column).lines():
-        print(f"{name:<24} {said}")
+    for name, text in summary(sweep, column).lines():
+        print(f"{name:<24} {text}")
 
 
 @sweep.command()

@@ -13,11 +13,11 @@ from pydantic import Field
 
 import core
 from app.command import show
-from app.command.options import Json, asks, given, numbers, unused
+from app.command.options import Json, asks, numbers, typed_options, unused
 from app.command.paths import PathOptions, dance_of
 from app.files import tables
 from app.files.disk import checked_output, write_whole
-from app.files.tables import SHOWN_HANDLES, TABLE_ENDINGS, trajectory_writer
+from app.files.tables import PAPER_HANDLES, TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
 from app.wire.dances import TimeRange
@@ -27,7 +27,7 @@ from core import Dragon, InvalidValue, RunEnd, Trajectory
 from core.display import format_count
 
 # Largest number of instants that a terminal shows, if that many fit.
-SHOWN_INSTANTS = 7
+PRINTED_INSTANTS = 7
 # In a run that ends in a fold: a handle this many times faster than the head shows that the fold is near [1]; and the
 # mark of such an instant.
 FAST = 2.0
@@ -53,7 +53,7 @@ class TrajectoryOptions(TimeRange, PathOptions):
 
 @asks(TrajectoryOptions, TrajectoryRequest)
 def trajectory(
-    asked: TrajectoryOptions | TrajectoryRequest,
+    request: TrajectoryOptions | TrajectoryRequest,
     context: typer.Context,
     output: Annotated[Path | None, typer.Option(help="Write a .csv, .xlsx, .arrow or .json file.")] = None,
     language: Annotated[
@@ -63,7 +63,7 @@ def trajectory(
 ) -> None:
     """Position and speed of every handle."""
     ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
-    if ending and given(context, "handles"):
+    if ending and typed_options(context, "handles"):
         words = "--handles chooses rows of the table: leave it out with --output or --json"
         raise InvalidValue.in_words("handles", words)
     if output and json:
@@ -71,16 +71,16 @@ def trajectory(
         raise InvalidValue.in_words("json", words)
     if ending != ".xlsx":
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
-    clock = asked.start_clock if isinstance(asked, TrajectoryRequest) else None
-    write = trajectory_writer(ending, asked.decimals, language, clock) if ending else None
+    clock = request.start_clock if isinstance(request, TrajectoryRequest) else None
+    write = trajectory_writer(ending, request.decimals, language, clock) if ending else None
     settings = Settings()
-    dance = dance_of(asked, context, settings.benches_max)
-    handles, times = _handles(context.params["handles"], dance.dragon), asked.times
-    if given(context, "times") and (ranged := given(context, "start", "stop", "step")):
+    dance = dance_of(request, context, settings.benches_max)
+    handles, times = _handles(context.params["handles"], dance.dragon), request.times
+    if typed_options(context, "times") and (ranged := typed_options(context, "start", "stop", "step")):
         raise InvalidValue.in_words("times", "--times replaces --{option}: give one of the two", option=ranged[0])
     if isinstance(times, str):
-        asked = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": asked.decimals})
-    instants = asked.times_of(dance, settings.cells_max)
+        request = checked(TrajectoryRequest, {"times": numbers("times", times, float), "decimals": request.decimals})
+    instants = request.times_of(dance, settings.cells_max)
     if dance.path.spiral is not None and instants.size and instants.min() < 0.0:
         words = "the dance begins at 0 s, and before it the head is on the outward extension of the same spiral"
         print(f"Warning: {words}; for the contest's turn give --path turn", file=sys.stderr)
@@ -94,19 +94,19 @@ def trajectory(
         show.print_json(data)
     else:
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
-        show.print_parts(*_parts(result, handles, all_instants=all_instants, decimals=asked.decimals, fold=fold))
+        show.print_parts(*_parts(result, handles, all_instants=all_instants, decimals=request.decimals, fold=fold))
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
     """The handles in an option; None without the option. raises: InvalidValue"""
     if text is None:
         return None
-    found = numbers("handles", text, int)
-    for k, handle in enumerate(found):
+    handles = numbers("handles", text, int)
+    for k, handle in enumerate(handles):
         if not 0 <= handle <= dragon.benches:
             rule = "must be from 0 to {last} for this dragon"
             raise InvalidValue(f"handles.{k}", rule, got=handle, last=dragon.benches)
-    return found
+    return handles
 
 
 def _parts(
@@ -120,11 +120,11 @@ def _parts(
     all_instants: all instants, in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
     """
     instants, number = result.speed.shape
-    rows = list(handles) if handles else sorted({k for k in SHOWN_HANDLES if k < number} | {number - 1})
+    rows = list(handles) if handles else sorted({k for k in PAPER_HANDLES if k < number} | {number - 1})
     names = tables.own_names(result)
     labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
-    places = show.SHOWN_DECIMALS if decimals is None else decimals
+    places = show.DISPLAY_DECIMALS if decimals is None else decimals
     instant_names = [_instant(result, t, fold) for t in range(instants)]
     widest = max(map(len, [*labels, "handle"]))
     room = show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - widest
@@ -157,7 +157,7 @@ def _blocks(
         return show.COLUMN_SPACE + max(map(len, [names[t], *(_entry(value, decimals) for value in values[t])]))
 
     if not all_instants:
-        counts = range(min(SHOWN_INSTANTS, instants), 1, -1)
+        counts = range(min(PRINTED_INSTANTS, instants), 1, -1)
         even = [count for count in counts if count >= EVEN_INSTANTS and (instants - 1) % (count - 1) == 0]
         for count in (*even, *counts):
             spaced = np.linspace(0, instants - 1, count).round().astype(int).tolist()

@@ -19,17 +19,17 @@ QUOTED = re.compile(r"""('.*'|".*"|\S+) is not """, re.DOTALL)
 EMPTY = "must not be an empty name: the current folder is ."
 
 
-def told(error: Any) -> str:
+def message_of(error: Any) -> str:
     """One line for a Misuse: what is wrong, where, and what to change; else the parser's own message."""
-    parameter, said = getattr(error, "param", None), QUOTED.match(error.message or "")
+    parameter, quoted = getattr(error, "param", None), QUOTED.match(error.message or "")
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
     if parameter is not None and not error.message:
         own = parameter.metavar or parameter.name.upper()
         name = own if parameter.param_type_name == "argument" else parameter.opts[0]
         return f"{name} is missing" if hasattr(error, "param_type") else f"{name} {EMPTY}"  # refused by path()
-    if parameter is not None and said:
-        return _unfit(parameter, said[1])
+    if parameter is not None and quoted:
+        return _unfit(parameter, quoted[1])
     words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
     if command := re.match(r"No such command '([^']*)'", words):
         return unknown(command[1], error.ctx.command.list_commands(error.ctx))

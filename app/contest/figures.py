@@ -101,11 +101,11 @@ def snapshots(solved: Solved, say: Say) -> tuple[Figure, str]:
     stop = float(solved.inwards.time[-1])
     times = [0.0, 0.5 * stop, stop, solved.met_at]
     figure = canvas(9.0, 9.0)
-    found = core.trajectory(solved.spiral, times)
-    extent = 1.22 * float(np.abs(found.position).max())
+    motion = core.trajectory(solved.spiral, times)
+    extent = 1.22 * float(np.abs(motion.position).max())
     view = (-extent, extent)
     pair = solved.contact.benches or ()
-    for axes, time, handles in zip(figure.subplots(2, 2).flat, times, found.position, strict=True):
+    for axes, time, handles in zip(figure.subplots(2, 2).flat, times, motion.position, strict=True):
         outlines = bench_outlines(solved.dragon, handles)
         draw_dance(axes, solved.spiral.path, handles, outlines, linewidth=0.4)
         axes.fill(*outlines[0].T, color=VERMILION, zorder=4, label=say("head", "龙头"))
@@ -153,9 +153,9 @@ def clearance(solved: Solved, say: Say) -> tuple[Figure, str]:
 
 def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
     """Question 3: radius of the head at first contact, against the pitch."""
-    figure, radius, least = canvas(8.0, 4.8), solved.asked.turning_diameter / 2, solved.pitch.pitch
+    figure, radius, least = canvas(8.0, 4.8), solved.request.turning_diameter / 2, solved.pitch.pitch
     scan, _ = scan_near_minimum(
-        solved.dragon, samples=STAIRS, turning_radius=radius, start_turns=solved.asked.start_turns, margin=0.0
+        solved.dragon, samples=STAIRS, turning_radius=radius, start_turns=solved.request.start_turns, margin=0.0
     )
     axes = figure.subplots()
     _stairs(axes, scan, radius, least, say)
@@ -250,8 +250,8 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
     axes.legend(fontsize=8, loc="upper right")
     caption = say(
         f"Speed amplification in the turn: at most {fastest.speed_ratio:.6f}, so a limit of "
-        f"{solved.asked.speed_limit:g} m/s allows a head speed of {fastest.head_speed:.6f} m/s.",
-        f"调头过程中的速度放大：最大 {fastest.speed_ratio:.6f} 倍，因此限速 {solved.asked.speed_limit:g} m/s 时"
+        f"{solved.request.speed_limit:g} m/s allows a head speed of {fastest.head_speed:.6f} m/s.",
+        f"调头过程中的速度放大：最大 {fastest.speed_ratio:.6f} 倍，因此限速 {solved.request.speed_limit:g} m/s 时"
         f"龙头速度最大为 {fastest.head_speed:.6f} m/s。",
     )
     return figure, caption
@@ -259,10 +259,10 @@ def amplification(solved: Solved, say: Say) -> tuple[Figure, str]:
 
 def sensitivity(solved: Solved, say: Say) -> tuple[Figure, str]:
     """Change of the answers with the numbers of the problem."""
-    shown = panels(solved, say)
-    columns = (len(shown) + 1) // 2
+    drawn = panels(solved, say)
+    columns = (len(drawn) + 1) // 2
     figure = canvas(4.5 * columns, 7.0)
-    for axes, panel in zip_longest(figure.subplots(2, columns).flat, shown):
+    for axes, panel in zip_longest(figure.subplots(2, columns).flat, drawn):
         if panel:
             _draw_panel(axes, panel)
         else:

@@ -34,7 +34,7 @@ def films(
         return
     from app.files import film
 
-    span = solved.asked.span
+    span = solved.request.span
     inwards = say("Bench dragon, to first contact", "板凳龙：盘入至首次碰撞")
     if solved.contact.time is None:
         inwards = say("Bench dragon, to the end of the run", "板凳龙：盘入至终点")

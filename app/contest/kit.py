@@ -53,13 +53,17 @@ class Kit:
     """
 
     files: list[str] = field(default_factory=list)
-    given: list[Result] = field(default_factory=list)
+    results: list[Result] = field(default_factory=list)
     missing: MissingPackage | None = None
     no_turn: str = ""
 
 
 def write_kit(
-    folder: Path, asked: ContestRequest, language: Language, shot: films.Wanted, progress: Callable[[str, float], None]
+    folder: Path,
+    request: ContestRequest,
+    language: Language,
+    shot: films.Wanted,
+    progress: Callable[[str, float], None],
 ) -> Kit:
     """Write the kit; without matplotlib, or without a font for the language, it lacks figures and films.
 
@@ -72,8 +76,8 @@ def write_kit(
         raise InvalidValue.in_words("folder", words, folder=str(folder))
     say, unfinished = Say(language), folder / UNFINISHED
     try:
-        solved = solve(asked, Terms(), lambda share: progress(say("answers", "求解"), share))
-        kit = Kit(given=answers(solved, say), no_turn=solved.why_no_turn)
+        solved = solve(request, Terms(), lambda share: progress(say("answers", "求解"), share))
+        kit = Kit(results=answers(solved, say), no_turn=solved.why_no_turn)
         shutil.rmtree(unfinished, ignore_errors=True)
         _write(unfinished, solved, kit, say, shot, progress)
         _take_over(folder, kit.files)
@@ -108,7 +112,7 @@ def _write(
 
     for name, data in _workbooks(solved, say.language):
         write(name, data)
-    write("answers.json", orjson.dumps(kit.given, option=orjson.OPT_INDENT_2) + b"\n")
+    write("answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n")
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
             write(f"{TABLES}/{table.name}.{ending}", text.encode("utf-8-sig" if ending == "csv" else "utf-8"))
@@ -126,7 +130,7 @@ def _write(
             write(name, data)
     except MissingPackage as missing:
         kit.missing = missing
-    write(REPORT, report(solved, kit.given, tables, drawn, filmed, say).encode())
+    write(REPORT, report(solved, kit.results, tables, drawn, filmed, say).encode())
 
 
 def _workbooks(solved: Solved, language: Language) -> Iterator[tuple[str, bytes]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from app.contest.answers import Result
 from app.contest.solved import Solved
-from app.contest.tables import Table, in_markdown
+from app.contest.tables import PaperTable, in_markdown
 from app.files.words import Say
 from core.errors import format_number
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 DIGITS = 9
 
 
-def answer_table(given: Sequence[Result], say: Say) -> str:
+def answer_table(results: Sequence[Result], say: Say) -> str:
     """The five answers as a table in Markdown."""
     heads = say("question|what|value|bracket|how it is known", "问题|量|数值|区间|依据").split("|")
     rows = [
-        [f"{one.question}", one.name, f"{one.value:.{DIGITS}f} {one.unit}", _bracket(one), one.how] for one in given
+        [f"{one.question}", one.name, f"{one.value:.{DIGITS}f} {one.unit}", _bracket(one), one.how] for one in results
     ]
     return in_markdown([heads, ["---", "---", "---:", "---", "---"], *rows])
 
@@ -34,8 +34,8 @@ def _bracket(one: Result) -> str:
 
 def report(
     solved: Solved,
-    given: Sequence[Result],
-    tables: Sequence[Table],
+    results: Sequence[Result],
+    tables: Sequence[PaperTable],
     drawn: Sequence[Drawn],
     films: Sequence[str],
     say: Say,
@@ -47,7 +47,7 @@ def report(
         say("# The bench dragon: every answer", "# 板凳龙：全部答案"),
         _dragon(solved, say),
         say("## Answers", "## 答案"),
-        answer_table(given, say),
+        answer_table(results, say),
         _ratio(solved, say),
         say("## Workbooks", "## 结果文件"),
         say(
@@ -70,19 +70,20 @@ def report(
 
 
 def _dragon(solved: Solved, say: Say) -> str:
-    asked = solved.asked
+    request = solved.request
     return say(
-        f"{asked.benches} benches (head {asked.head_length:g} m, body {asked.body_length:g} m, "
-        f"width {asked.width:g} m, overhang {asked.overhang:g} m) "
-        f"on a spiral of {asked.pitch:g} m pitch from {asked.start_turns:g} turns, "
-        f"the head at {asked.head_speed:g} m/s; turning circle {asked.turning_diameter:g} m, "
-        f"pitch of the turn {asked.turn_pitch:g} m, ratio of its arcs {asked.ratio:g}, "
-        f"speed limit {asked.speed_limit:g} m/s.",
-        f"共 {asked.benches} 节板凳（龙头长 {asked.head_length:g} m，龙身与龙尾长 {asked.body_length:g} m，"
-        f"板宽 {asked.width:g} m，孔到板端 {asked.overhang:g} m），螺距 {asked.pitch:g} m，"
-        f"自第 {asked.start_turns:g} 圈盘入，"
-        f"龙头速度 {asked.head_speed:g} m/s；调头圆直径 {asked.turning_diameter:g} m，调头螺距 {asked.turn_pitch:g} m，"
-        f"圆弧半径之比 {asked.ratio:g}，限速 {asked.speed_limit:g} m/s。",
+        f"{request.benches} benches (head {request.head_length:g} m, body {request.body_length:g} m, "
+        f"width {request.width:g} m, overhang {request.overhang:g} m) "
+        f"on a spiral of {request.pitch:g} m pitch from {request.start_turns:g} turns, "
+        f"the head at {request.head_speed:g} m/s; turning circle {request.turning_diameter:g} m, "
+        f"pitch of the turn {request.turn_pitch:g} m, ratio of its arcs {request.ratio:g}, "
+        f"speed limit {request.speed_limit:g} m/s.",
+        f"共 {request.benches} 节板凳（龙头长 {request.head_length:g} m，龙身与龙尾长 {request.body_length:g} m，"
+        f"板宽 {request.width:g} m，孔到板端 {request.overhang:g} m），螺距 {request.pitch:g} m，"
+        f"自第 {request.start_turns:g} 圈盘入，"
+        f"龙头速度 {request.head_speed:g} m/s；调头圆直径 {request.turning_diameter:g} m，"
+        f"调头螺距 {request.turn_pitch:g} m，"
+        f"圆弧半径之比 {request.ratio:g}，限速 {request.speed_limit:g} m/s。",
     )
 
 

@@ -42,7 +42,7 @@ def panels(solved: Solved, say: Say) -> list[Panel]:
     Minimum pitch against width, turning diameter and length of a body; first contact, if there is any, against width
     and length; head speed, if there is a turn, against the ratio of the arcs.
     """
-    asked, met = solved.asked, solved.contact.time
+    request, met = solved.request, solved.contact.time
     fastest = solved.turned.fastest.head_speed if solved.turned else None
     pitch, contact = say("minimum pitch [m]", "最小螺距 [m]"), say("first contact [s]", "首次碰撞时刻 [s]")
     speed = say("maximum head speed [m/s]", "龙头最大速度 [m/s]")
@@ -57,30 +57,34 @@ def panels(solved: Solved, say: Say) -> list[Panel]:
         (ratio, speed, "ratio", RATIOS, _speed, fastest),
     ]
     return [
-        Panel(words, shown, _curve(asked, name, limits, answer), (getattr(asked, name), own), answer is _speed)
-        for words, shown, name, limits, answer, own in wanted
+        Panel(words, label, _curve(request, name, limits, answer), (getattr(request, name), own), answer is _speed)
+        for words, label, name, limits, answer, own in wanted
         if own is not None
     ]
 
 
-def _curve(asked: ContestRequest, name: str, limits: tuple[float, float], answer: Answer) -> list[tuple[float, float]]:
-    found = []
+def _curve(
+    request: ContestRequest, name: str, limits: tuple[float, float], answer: Answer
+) -> list[tuple[float, float]]:
+    points = []
     for value in np.linspace(*limits, VALUES).tolist():
         with suppress(BenchDragonError):  # no answer: these benches do not fit on this spiral or turn
-            if (given := answer(asked.model_copy(update={name: value}))) is not None:
-                found.append((value, given))
-    return found
+            if (result := answer(request.model_copy(update={name: value}))) is not None:
+                points.append((value, result))
+    return points
 
 
-def _pitch(asked: ContestRequest) -> float:
-    dragon = asked.to_dragon(asked.benches)
-    return core.minimum_pitch(dragon, turning_radius=asked.turning_diameter / 2, start_turns=asked.start_turns).pitch
+def _pitch(request: ContestRequest) -> float:
+    dragon = request.to_dragon(request.benches)
+    return core.minimum_pitch(
+        dragon, turning_radius=request.turning_diameter / 2, start_turns=request.start_turns
+    ).pitch
 
 
-def _contact(asked: ContestRequest) -> float | None:
-    return core.first_contact(Dance(asked.to_dragon(asked.benches), asked.to_path(), asked.head_speed)).time
+def _contact(request: ContestRequest) -> float | None:
+    return core.first_contact(Dance(request.to_dragon(request.benches), request.to_path(), request.head_speed)).time
 
 
-def _speed(asked: ContestRequest) -> float:
-    turn = Turn(asked.turn_pitch, asked.turning_diameter / 2, asked.ratio, start_turns=asked.start_turns)
-    return core.maximum_head_speed(Dance(asked.to_dragon(asked.benches), turn), asked.speed_limit).head_speed
+def _speed(request: ContestRequest) -> float:
+    turn = Turn(request.turn_pitch, request.turning_diameter / 2, request.ratio, start_turns=request.start_turns)
+    return core.maximum_head_speed(Dance(request.to_dragon(request.benches), turn), request.speed_limit).head_speed

@@ -10,13 +10,13 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.files.tables import SHOWN_HANDLES
+from app.files.tables import PAPER_HANDLES
 from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
 from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 
 # Number of intervals between the instants of the tables that the contest requires; for the turn, from -span to span.
-SHOWN_STEPS, TURN_STEPS = 5, 4
+TABLE_STEPS, TURN_STEPS = 5, 4
 # Ratio of equal arcs [1], which makes the turn shortest: both arcs are as tight as the benches allow.
 EVEN = 1.0
 
@@ -59,7 +59,7 @@ class Solved:
     turned: None where no turn can be danced, with the reason why_no_turn
     """
 
-    asked: ContestRequest
+    request: ContestRequest
     spiral: Dance
     inwards: Trajectory
     contact: core.FirstContact
@@ -76,41 +76,41 @@ class Solved:
     @property
     def handles(self) -> list[int]:
         """The handles in the tables; for a short dragon those that it has."""
-        return sorted({k for k in (*SHOWN_HANDLES, self.dragon.benches) if k <= self.dragon.benches})
+        return sorted({k for k in (*PAPER_HANDLES, self.dragon.benches) if k <= self.dragon.benches})
 
     @property
-    def shown_times(self) -> Floats:
+    def table_times(self) -> Floats:
         """Instants of question 1 in the tables [s]."""
-        return np.linspace(0.0, self.asked.stop, SHOWN_STEPS + 1)
+        return np.linspace(0.0, self.request.stop, TABLE_STEPS + 1)
 
     @property
     def turn_times(self) -> Floats:
         """Instants of question 4 in the tables [s]."""
-        return np.linspace(-self.asked.span, self.asked.span, TURN_STEPS + 1)
+        return np.linspace(-self.request.span, self.request.span, TURN_STEPS + 1)
 
 
-def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]) -> Solved:
+def solve(request: ContestRequest, terms: Terms, progress: Callable[[float], None]) -> Solved:
     """All five answers. raises: InvalidValue, OutsideRun, TooMuchWork"""
-    dragon = asked.to_dragon(terms.settings.checked_benches_max)
-    spiral = Dance(dragon, asked.to_path(), asked.head_speed)
-    inwards = core.trajectory(spiral, seconds(0.0, spiral.span(0.0, asked.stop)[1]), budget=terms.budget)
+    dragon = request.to_dragon(terms.settings.checked_benches_max)
+    spiral = Dance(dragon, request.to_path(), request.head_speed)
+    inwards = core.trajectory(spiral, seconds(0.0, spiral.span(0.0, request.stop)[1]), budget=terms.budget)
     progress(0.1)
     contact = core.first_contact(spiral, budget=terms.budget)
     met_at = instant_of(contact)
     progress(0.2)
     least = core.minimum_pitch(
-        dragon, turning_radius=asked.turning_diameter / 2, start_turns=asked.start_turns, budget=terms.budget
+        dragon, turning_radius=request.turning_diameter / 2, start_turns=request.start_turns, budget=terms.budget
     )
     progress(0.4)
     turned, why = None, ""
     try:
-        turned = _turned(asked, dragon, terms)
+        turned = _turned(request, dragon, terms)
     except InvalidValue as error:
         why = error.message
     progress(1.0)
     meeting = core.trajectory(spiral, [met_at], budget=terms.budget)
     return Solved(
-        asked,
+        request,
         spiral,
         inwards=inwards,
         contact=contact,
@@ -122,24 +122,30 @@ def solve(asked: ContestRequest, terms: Terms, progress: Callable[[float], None]
     )
 
 
-def _turned(asked: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
+def _turned(request: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
     """Questions 4 and 5. raises: InvalidValue if the turn cannot be danced"""
-    radius, about = asked.turning_diameter / 2, {"start_turns": asked.start_turns}
-    path = Turn(asked.turn_pitch, radius, asked.ratio, **about)
-    dance = Dance(dragon, path, asked.head_speed)
-    shortest = core.shortest_turn(dragon, asked.turn_pitch, radius, asked.ratio, **about, budget=terms.budget)
+    radius, about = request.turning_diameter / 2, {"start_turns": request.start_turns}
+    path = Turn(request.turn_pitch, radius, request.ratio, **about)
+    dance = Dance(dragon, path, request.head_speed)
+    shortest = core.shortest_turn(dragon, request.turn_pitch, radius, request.ratio, **about, budget=terms.budget)
     even = None
     with suppress(InvalidValue):  # Equal arcs may be too tight even with the entry on the circle.
-        even = core.shortest_turn(dragon, asked.turn_pitch, radius, EVEN, **about, budget=terms.budget)
-    around = core.trajectory(dance, seconds(-asked.span, asked.span), budget=terms.budget)
-    fastest = core.maximum_head_speed(dance, asked.speed_limit, budget=terms.budget)
+        even = core.shortest_turn(dragon, request.turn_pitch, radius, EVEN, **about, budget=terms.budget)
+    around = core.trajectory(dance, seconds(-request.span, request.span), budget=terms.budget)
+    fastest = core.maximum_head_speed(dance, request.speed_limit, budget=terms.budget)
     turns = [path, shortest.turn]
     with suppress(InvalidValue):  # no turn that was tried can be danced
-        found = core.quickest_turn(
-            dragon, asked.turn_pitch, radius, asked.ratio, **about, speed_limit=asked.speed_limit, budget=terms.budget
+        quickest = core.quickest_turn(
+            dragon,
+            request.turn_pitch,
+            radius,
+            request.ratio,
+            **about,
+            speed_limit=request.speed_limit,
+            budget=terms.budget,
         )
-        turns.append(found.turn)
-    times = [core.turn_time(dragon, turn, asked.speed_limit, budget=terms.budget) for turn in turns]
+        turns.append(quickest.turn)
+    times = [core.turn_time(dragon, turn, request.speed_limit, budget=terms.budget) for turn in turns]
     return Turned(path, dance, shortest=shortest, even=even, times=times, around=around, fastest=fastest)
 
 

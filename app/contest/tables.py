@@ -22,7 +22,7 @@ WIDE, NARROW = 4, "\\footnotesize\\setlength{\\tabcolsep}{3pt}"
 
 
 @dataclass(frozen=True)
-class Table:
+class PaperTable:
     """name: of its files; caption; corner: over the names of the rows; columns, rows: names; numbers: (R, C)"""
 
     name: str
@@ -67,10 +67,10 @@ def in_markdown(lines: Iterable[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def paper_tables(solved: Solved, say: Say) -> list[Table]:
+def paper_tables(solved: Solved, say: Say) -> list[PaperTable]:
     """Positions and speeds of questions 1 and 4 at the instants that the contest requires, and those of question 2."""
     first, turning = ("", say("Question 1", "问题 1")), ("turn-", say("Question 4", "问题 4"))
-    tables = [*_over_time(solved, solved.spiral, solved.shown_times, first, say), _at_contact(solved, say)]
+    tables = [*_over_time(solved, solved.spiral, solved.table_times, first, say), _at_contact(solved, say)]
     if solved.turned:
         tables += _over_time(solved, solved.turned.dance, solved.turn_times, turning, say)
     return tables
@@ -81,14 +81,14 @@ def _names(solved: Solved, say: Say) -> list[str]:
     return [names[k] for k in solved.handles]
 
 
-def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, str], say: Say) -> list[Table]:
+def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, str], say: Say) -> list[PaperTable]:
     """Tables of positions and of speeds. about: beginning of their names, and of their captions"""
     name, question = about
-    found = core.trajectory(dance, times)
+    motion = core.trajectory(dance, times)
     handles, gap = _names(solved, say), say(" ", "")
     columns = [f"{time:g} s" for time in times.tolist()]
     axes = [f"{handle}{gap}{axis} (m)" for handle in handles for axis in "xy"]
-    places = found.position[:, solved.handles].transpose(1, 2, 0).reshape(len(axes), times.size)
+    places = motion.position[:, solved.handles].transpose(1, 2, 0).reshape(len(axes), times.size)
     speeds = [f"{handle} (m/s)" for handle in handles]
     positions, rates = say("positions", "位置"), say("speeds", "速度")
     corner, colon, late = say("handle", "把手"), say(": ", "："), ""
@@ -97,12 +97,12 @@ def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, st
         late = say(f" (benches have touched at {touch:.6f} s)", f"（板凳已于 {touch:.6f} s 相碰）")
     positions, rates = f"{question}{colon}{positions}{late}", f"{question}{colon}{rates}{late}"
     return [
-        Table(f"{name}positions", positions, corner, columns, axes, places),
-        Table(f"{name}speeds", rates, corner, columns, speeds, found.speed[:, solved.handles].T),
+        PaperTable(f"{name}positions", positions, corner, columns, axes, places),
+        PaperTable(f"{name}speeds", rates, corner, columns, speeds, motion.speed[:, solved.handles].T),
     ]
 
 
-def _at_contact(solved: Solved, say: Say) -> Table:
+def _at_contact(solved: Solved, say: Say) -> PaperTable:
     numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
     columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
     met = solved.contact.time is not None
@@ -111,4 +111,4 @@ def _at_contact(solved: Solved, say: Say) -> Table:
         f"Question 2: positions and speeds at {solved.met_at:.6f} s{what}",
         f"问题 2：{solved.met_at:.6f} s 时的位置和速度{what}",
     )
-    return Table("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)
+    return PaperTable("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)

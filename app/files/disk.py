@@ -33,8 +33,8 @@ def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
     if endings and ending not in endings:
         *most, last = endings
         words = f"{', '.join(most)} or {last}" if most else last
-        told = {"got": ending or "no ending", "option": option, "endings": words}
-        raise InvalidValue.in_words(option, "--{option} must end in {endings}", **told)
+        values = {"got": ending or "no ending", "option": option, "endings": words}
+        raise InvalidValue.in_words(option, "--{option} must end in {endings}", **values)
     if file.is_dir():
         raise _refused(errno.EISDIR, file)
     target = file.resolve()
@@ -78,7 +78,7 @@ def standard_input() -> bytes:
     return sys.stdin.buffer.read()
 
 
-def shown_name(file: Path) -> str:
+def display_name(file: Path) -> str:
     """The name of a file in a message; - is standard input."""
     return "standard input" if str(file) == "-" else str(file)
 
@@ -86,13 +86,13 @@ def shown_name(file: Path) -> str:
 def read_json(file: Path) -> dict[str, Any]:
     """The JSON object in a file, or on standard input for -. raises: InvalidValue, OSError"""
     try:
-        found = json_of(standard_input() if str(file) == "-" else file.read_bytes())
+        value = json_of(standard_input() if str(file) == "-" else file.read_bytes())
     except Unreadable as error:
-        raise error.of("file", shown_name(file)) from error
-    if not isinstance(found, dict):
+        raise error.of("file", display_name(file)) from error
+    if not isinstance(value, dict):
         words = "{file} must hold a JSON object"
-        raise InvalidValue.in_words("file", words, got=Given(found, shown(found)), file=shown_name(file))
-    return found
+        raise InvalidValue.in_words("file", words, got=Given(value, shown(value)), file=display_name(file))
+    return value
 
 
 def object_words(file: Path) -> str:

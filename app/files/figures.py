@@ -50,14 +50,14 @@ def contact_figure(
 
     Without a contact it shows the dance just before the run ends, and the title says so.
     """
-    found = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
+    contact = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
 
     def drawn() -> bytes:
-        figure = canvas(11.0 if found.benches else 7.2, 6.0)
-        axes = found.plot(figure.add_subplot(1, 2, 1) if found.benches else figure.add_subplot())
+        figure = canvas(11.0 if contact.benches else 7.2, 6.0)
+        axes = contact.plot(figure.add_subplot(1, 2, 1) if contact.benches else figure.add_subplot())
         draw_venue(axes, venue)
-        if found.benches:
-            enlarged = found.plot(figure.add_subplot(1, 2, 2), enlarged=True)
+        if contact.benches:
+            enlarged = contact.plot(figure.add_subplot(1, 2, 2), enlarged=True)
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
         return file_bytes(figure, format)
 

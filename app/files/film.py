@@ -94,7 +94,7 @@ def frames(
     dance: Dance, spec: FilmSpec, venue: Venue | None, title: str, budget: Budget
 ) -> Iterator[NDArray[np.uint8]]:
     """Pictures (height, width, 4) in red, green, blue, alpha, each its own copy."""
-    times, stage = spec.times, Stage(dance, spec, venue, title)
+    times, stage = spec.times, FilmPicture(dance, spec, venue, title)
     for first in range(0, times.size, BATCH):
         some = times[first : first + BATCH]
         outlines = bench_outlines(dance.dragon, trajectory(dance, some, budget=budget).position)
@@ -103,7 +103,7 @@ def frames(
             yield stage.frame(float(time), benches, spec.touching if k == times.size - 1 else None)
 
 
-class Stage:
+class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:

@@ -23,11 +23,17 @@ LAYERS = (("ENVELOPE", 1), ("ENVELOPE_HOLES", 5))
 METRES, VERSION = 6, "R2000"
 
 
-def envelope_geojson(found: Envelope) -> bytes:
+def envelope_geojson(envelope: Envelope) -> bytes:
     """A GeoJSON feature: the polygons, with their proven bounds as properties."""
-    known = {"name": "envelope", "excess": found.excess, "area": found.area, "start": found.start, "stop": found.stop}
-    properties = known | {"certificate": found.certificate.method}
-    return orjson.dumps({"type": "Feature", "properties": properties, "geometry": geometry_of(found)})
+    known = {
+        "name": "envelope",
+        "excess": envelope.excess,
+        "area": envelope.area,
+        "start": envelope.start,
+        "stop": envelope.stop,
+    }
+    properties = known | {"certificate": envelope.certificate.method}
+    return orjson.dumps({"type": "Feature", "properties": properties, "geometry": geometry_of(envelope)})
 
 
 def new_dxf(layers: Iterable[tuple[str, int]]) -> Any:
@@ -48,11 +54,11 @@ def dxf_bytes(drawing: Any) -> bytes:
     return sink.getvalue().encode()
 
 
-def envelope_dxf(found: Envelope) -> bytes:
+def envelope_dxf(envelope: Envelope) -> bytes:
     """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage"""
     drawing = new_dxf(LAYERS)
     space = drawing.modelspace()
-    for rings in found.polygons:
+    for rings in envelope.polygons:
         for k, ring in enumerate(rings):
             space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": LAYERS[k > 0][0]})
     return dxf_bytes(drawing)

@@ -24,7 +24,7 @@ from core.values import Floats
 TABLE_ENDINGS = (".csv", ".xlsx", ".arrow", ".json")
 COLUMNS = ("time", "handle", "x", "y", "speed")
 # Handles in the tables that the contest requires, beside the rear one of the tail.
-SHOWN_HANDLES = (0, 1, 51, 101, 151, 201)
+PAPER_HANDLES = (0, 1, 51, 101, 151, 201)
 # Further columns, if benches have names or if the time of day at time 0 is given.
 NAME, CLOCK = "name", "clock"
 CSV_TYPE = "text/csv"

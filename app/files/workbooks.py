@@ -80,7 +80,7 @@ def workbook(sheets: Sequence[Worksheet], decimals: int) -> bytes:
         for part in empty.infolist():
             data = empty.read(part)
             if part.filename in names:
-                data = _filled(data, sheets[names.index(part.filename)], decimals)
+                data = _with_cells(data, sheets[names.index(part.filename)], decimals)
             part.compress_type = zipfile.ZIP_DEFLATED
             full.writestr(part, data, compresslevel=QUICKEST)
     return sink.getvalue()
@@ -101,7 +101,7 @@ def _without_numbers(sheets: Sequence[Worksheet], decimals: int) -> bytes:
     return sink.getvalue()
 
 
-def _filled(page: bytes, sheet: Worksheet, decimals: int) -> bytes:
+def _with_cells(page: bytes, sheet: Worksheet, decimals: int) -> bytes:
     """The sheet's XML with its rows."""
     letters = [letters_of(k).encode() for k in range(len(sheet.columns) + 1)]
     rows = [_row(1, letters, [b"", *map(_text, sheet.columns)])]
@@ -124,8 +124,8 @@ def _text(words: str) -> bytes:
 def _row(number: int, letters: Sequence[bytes], cells: Sequence[bytes]) -> bytes:
     """XML of one row; empty cells are left out."""
     place = b"%d" % number
-    found = [b'<c r="%b%b"%b' % (letter, place, cell) for letter, cell in zip(letters, cells, strict=True) if cell]
-    return b'<row r="%b">%b</row>' % (place, b"".join(found))
+    cells_xml = [b'<c r="%b%b"%b' % (letter, place, cell) for letter, cell in zip(letters, cells, strict=True) if cell]
+    return b'<row r="%b">%b</row>' % (place, b"".join(cells_xml))
 
 
 def letters_of(column: int) -> str:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from app.files.workbooks import letters_of
-from app.grade.grid import Cell, plain
+from app.grade.grid import Cell, normalized
 from app.grade.words import Note, note
 
 # Most texts that are quoted, and most characters of each.
@@ -45,7 +45,7 @@ class OddCells:
             return cell
         if cell is None:
             return float("nan")
-        place, text = cell_name(*((column, row) if self.turned else (row, column))), plain(cell)
+        place, text = cell_name(*((column, row) if self.turned else (row, column))), normalized(cell)
         try:
             number = float(text.replace(",", "."))
         except ValueError:
@@ -59,14 +59,14 @@ class OddCells:
     def notes(self) -> list[Note]:
         """One remark on each text, and one on the numbers that are stored as text."""
         kinds = [("text", {"text": text}, places) for text, places in self.texts.items()]
-        found = [_counted(*kind) for kind in kinds[:TEXTS_MOST]]
+        remarks = [_remark_on(*kind) for kind in kinds[:TEXTS_MOST]]
         if self.numbers:
-            found.append(_counted("text_number", {}, self.numbers))
+            remarks.append(_remark_on("text_number", {}, self.numbers))
         more = sum(len(places) for _, _, places in kinds[TEXTS_MOST:])
-        return [*found, note("more_text", count=more)] if more else found
+        return [*remarks, note("more_text", count=more)] if more else remarks
 
 
-def _counted(code: str, values: dict[str, str], places: list[str]) -> Note:
+def _remark_on(code: str, values: dict[str, str], places: list[str]) -> Note:
     """The remark on one cell, or the one on several with their number and the first."""
     if len(places) == 1:
         return note(code, cell=places[0], **values)

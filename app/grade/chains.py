@@ -104,18 +104,18 @@ class Bent:
 
     def points(self, s: Floats) -> Floats:
         """Points (..., 2) at places s [m], 0 at the entry."""
-        found = self.right.position(self._outside(s))
+        xy = self.right.position(self._outside(s))
         for (centre, radius, _, _), here, spoke in self._spokes(s):
-            found = np.where(here[..., None], np.array([centre.real, centre.imag]) + radius * spoke, found)
-        return found
+            xy = np.where(here[..., None], np.array([centre.real, centre.imag]) + radius * spoke, xy)
+        return xy
 
     def tangents(self, s: Floats) -> Floats:
         """Directions of travel (..., 2) at places s [m]."""
-        found = self.right.tangent(self._outside(s))
+        directions = self.right.tangent(self._outside(s))
         for (_, _, _, turned), here, spoke in self._spokes(s):
             ahead = math.copysign(1.0, turned) * np.stack([-spoke[..., 1], spoke[..., 0]], axis=-1)
-            found = np.where(here[..., None], ahead, found)
-        return found
+            directions = np.where(here[..., None], ahead, directions)
+        return directions
 
     def _outside(self, s: Floats) -> Floats:
         """Places on the right turn: those of the coils; where an arc is here, any."""

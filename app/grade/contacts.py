@@ -68,7 +68,7 @@ def angle_sum_time(outline: Outline, angle: float) -> float:
     return bisect(lambda time: reached(np.array([time]))[0], high - TIME_STEP, high, width=RESOLUTION)[1]
 
 
-class Sampled(StrEnum):
+class StepKind(StrEnum):
     """What the way to the circle is sampled by: time, radius or angle of the head, in equal steps from the start."""
 
     TIME = "time"
@@ -76,7 +76,7 @@ class Sampled(StrEnum):
     ANGLE = "angle"
 
 
-def sampled_pitch(sampled: Sampled, step: float, right: float) -> float:
+def sampled_pitch(sampled: StepKind, step: float, right: float) -> float:
     """Smallest pitch without a contact at samples of the way to the circle [m].
 
     step: in s, m or rad; the radius is sampled from the circle outwards; right: the exact pitch
@@ -89,8 +89,8 @@ def sampled_pitch(sampled: Sampled, step: float, right: float) -> float:
         poses = bench_poses(trajectory_of(dance, _samples(spiral, sampled, step)).position)
         if not len(poses):
             return True
-        found = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
-        return bool(found.separation.min() > 0.0)
+        apart = separation(poses[:, :1], sizes[:1], poses[:, 2:], sizes[2:])
+        return bool(apart.separation.min() > 0.0)
 
     steps = range(1, math.ceil((right - PITCH_RANGE[0]) / PITCH_STEP))
     low = next(pitch for k in steps if not clear(pitch := right - k * PITCH_STEP))
@@ -126,13 +126,13 @@ def longest_overlap(pitch: float) -> tuple[float, float] | None:
     return begin, border(radii[after], radii[after - 1]) if after < radii.size else TURNING_RADIUS
 
 
-def _samples(spiral: Spiral, sampled: Sampled, step: float) -> Floats:
+def _samples(spiral: Spiral, sampled: StepKind, step: float) -> Floats:
     """Times of the samples between WAY_RADIUS and the circle [s], at 1 m/s from the start of the spiral."""
     first, last = (radius / spiral.growth for radius in (WAY_RADIUS, TURNING_RADIUS))
-    if sampled is Sampled.RADIUS:
+    if sampled is StepKind.RADIUS:
         radii = TURNING_RADIUS + step * np.arange(math.floor((WAY_RADIUS - TURNING_RADIUS) / step + SLACK) + 1)
         return _times(spiral, np.asarray(radii[::-1] / spiral.growth, dtype=np.float64))
-    if sampled is Sampled.TIME:
+    if sampled is StepKind.TIME:
         early, late = _times(spiral, np.array([first, last])).tolist()
         return step * np.arange(math.ceil(early / step), math.floor(late / step) + 1, dtype=np.float64)
     turned = [spiral.start_theta - theta for theta in (first, last)]

@@ -16,8 +16,8 @@ from functools import partial
 import numpy as np
 
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance
-from app.grade.fits import best_fit, finding, is_given_by
-from app.grade.geometry import Model, Seen, geometries, time_at
+from app.grade.fits import best_fit, finding, matches
+from app.grade.geometry import Model, SheetClues, geometries, time_at
 from app.grade.judged import JudgedSheet
 from app.grade.labels import SPEED
 from app.grade.layout import HANDLES, TableKind
@@ -55,8 +55,8 @@ def diagnosed(judgements: list[JudgedSheet], budget: Budget) -> list[Finding]:
         contact = by_kind[TableKind.CONTACT]
         return _of_contact(contact, budget) if contact.is_off else []
     position, speed = by_kind.get(TableKind.POSITION), by_kind.get(TableKind.SPEED)
-    found, position, speed = _outside(position, speed)
-    return found + _over_time(position, speed, budget)
+    findings, position, speed = _outside(position, speed)
+    return findings + _over_time(position, speed, budget)
 
 
 def _outside(
@@ -82,32 +82,32 @@ def _over_time(position: JudgedSheet | None, speed: JudgedSheet | None, budget: 
     right = of_dance(dance)
     motions, findings, unexplained = [right], [], False
     if position and position.is_off:
-        if found := best_fit(position, geometries(dance, position.times, _seen(position)), budget):
-            motions = [found.model.motion]
-            findings.append(finding(found, position))
+        if best := best_fit(position, geometries(dance, position.times, _seen(position)), budget):
+            motions = [best.model.motion]
+            findings.append(finding(best, position))
         elif ring := wrong_ring(position):
             findings.append(ring)
         unexplained = not findings
-    if speed is None or not speed.is_off or any(is_given_by(speed, Model("", motion)) for motion in motions):
+    if speed is None or not speed.is_off or any(matches(speed, Model("", motion)) for motion in motions):
         return findings
     models = list(speed_errors(motions[0]))
     if position is None:
-        models += geometries(dance, speed.times, Seen())
+        models += geometries(dance, speed.times, SheetClues())
     elif unexplained:
         models += _quotients_of(position)
-    if found := best_fit(speed, models, budget):
-        findings.append(finding(found, speed))
+    if best := best_fit(speed, models, budget):
+        findings.append(finding(best, speed))
     return findings
 
 
-def _seen(one: JudgedSheet) -> Seen:
+def _seen(one: JudgedSheet) -> SheetClues:
     """What the places of a sheet show of free values."""
     order = np.argsort(one.handles)
     links = np.linalg.norm(np.diff(one.values[:, order, :2], axis=1), axis=-1)
     is_link = np.diff(one.handles[order]) == 1
     is_head, tolerance = one.handles[order][:-1] == 0, STEADY + 2.0 * 10.0**-one.written
     head, body = (_steady(links[:, is_link & which], tolerance) for which in (is_head, ~is_head))
-    return Seen(_head(one), None if head is None or body is None else (head, body))
+    return SheetClues(_head(one), None if head is None or body is None else (head, body))
 
 
 def _steady(lengths: Floats, tolerance: float) -> float | None:
@@ -132,14 +132,14 @@ def _quotients_of(one: JudgedSheet) -> Iterator[Model]:
 
 def _own_quotient(one: JudgedSheet, step: float, before: int, after: int, times: Floats) -> Floats:
     """Numbers (T, HANDLES, 3) with speeds from the places of the sheet, NaN elsewhere."""
-    found = np.full((times.size, HANDLES, 3), np.nan)
+    numbers = np.full((times.size, HANDLES, 3), np.nan)
     for n, time in enumerate(times):
         ends = [np.flatnonzero(np.abs(one.times - time - at * step) < INSTANT_STEP) for at in (-before, after)]
         if all(end.size for end in ends):
             way = one.values[ends[1][0], :, :2] - one.values[ends[0][0], :, :2]
             known = one.handles < HANDLES
-            found[n, one.handles[known], SPEED] = np.linalg.norm(way[known], axis=-1) / (step * (before + after))
-    return found
+            numbers[n, one.handles[known], SPEED] = np.linalg.norm(way[known], axis=-1) / (step * (before + after))
+    return numbers
 
 
 def _head(one: JudgedSheet) -> Floats | None:
@@ -187,10 +187,10 @@ def _of_contact(one: JudgedSheet, budget: Budget) -> list[Finding]:
         is_other = instant is not instants[0]
         instant = _improved(one, right, instant) if is_other else instant
         at = replace(one, times=np.array([instant]))
-        models = [Model("other_instant", right, {"time": f"{instant:.6f}"}, is_plain=True)] if is_other else []
-        models += [*geometries(dance, at.times, Seen(None, seen.chords)), *speed_errors(right)]
-        if found := best_fit(at, models, budget):
-            return [finding(found, at), *(_why_then(instant, one.written) if is_other else [])]
+        models = [Model("other_instant", right, {"time": f"{instant:.6f}"}, is_simplest=True)] if is_other else []
+        models += [*geometries(dance, at.times, SheetClues(None, seen.chords)), *speed_errors(right)]
+        if best := best_fit(at, models, budget):
+            return [finding(best, at), *(_why_then(instant, one.written) if is_other else [])]
     return []
 
 
@@ -209,8 +209,8 @@ def _why_then(instant: float, written: int) -> list[Finding]:
     """The rounding, or else the shortcuts, that give an instant, either exactly or as a rounded number."""
     off = INSTANT_OFF * 10.0**-written
     if (decimals := rounded_right("collision_time", instant, off)) is not None:
-        said = note("error_rounded_instant", decimals=decimals)
-        return [Finding("rounded_instant", said, note("evidence_rounded_instant", time=f"{contact_time():.6f}"))]
+        sentence = note("error_rounded_instant", decimals=decimals)
+        return [Finding("rounded_instant", sentence, note("evidence_rounded_instant", time=f"{contact_time():.6f}"))]
     exact = explained("collision_time", instant, off)
     decimals = next((k for k in range(4) if abs(round(instant, k) - instant) < off), None)
     if exact or decimals is None:

@@ -77,7 +77,7 @@ def of_dance(dance: Dance) -> Motion:
     """The right motion of a dance."""
 
     def moved(times: Floats) -> Floats:
-        found = trajectory_of(dance, np.minimum(times, dance.end.time))
-        return motion(found.position, found.speed)
+        right = trajectory_of(dance, np.minimum(times, dance.end.time))
+        return motion(right.position, right.speed)
 
     return moved

@@ -75,40 +75,40 @@ def fit(one: JudgedSheet, model: Model, at: Ints | slice = slice(None)) -> Fit:
     return Fit(model, numbers, share, float(fits[present].mean()), float(np.median(off[present])), count, decided)
 
 
-def is_given_by(one: JudgedSheet, model: Model) -> bool:
+def matches(one: JudgedSheet, model: Model) -> bool:
     """True if a sheet holds the numbers of a model, whether or not they differ from the right ones."""
     return fit(one, model).all >= ALL_SHARE
 
 
-def _decided(values: Floats, given: Floats, other: Floats, tolerance: float) -> bool:
-    """True if the digits of the values decide for the numbers given by a model, against other ones."""
-    apart = np.isfinite(values) & (np.abs(given - other) > 2.0 * tolerance)
-    agrees = np.abs(values - given)[apart] <= tolerance
+def _decided(values: Floats, modelled: Floats, other: Floats, tolerance: float) -> bool:
+    """True if the digits of the values decide for the numbers of a model, against other ones."""
+    apart = np.isfinite(values) & (np.abs(modelled - other) > 2.0 * tolerance)
+    agrees = np.abs(values - modelled)[apart] <= tolerance
     return agrees.size >= DECISIVE_LEAST and float(agrees.mean()) >= WRONG_SHARE
 
 
 def best_fit(one: JudgedSheet, models: Iterable[Model], budget: Budget) -> Fit | None:
     """The model that explains a sheet; None if none does, or if another error explains it as well.
 
-    Of models that the digits do not tell apart, a plain one wins, because each other one has a further error that does
+    Of models that the digits do not tell apart, the simplest wins, because each other one has a further error that does
     not show; difference quotients are named together.
     """
-    found: list[Fit] = []
+    fits: list[Fit] = []
     some = np.unique(np.linspace(0, one.times.size - 1, LOOKS).astype(np.int64))
     for model in models:
         budget.look()
         # Most models are already far off at a few instants.
         is_near = fit(one, model, some).all >= LOOK_SHARE
         if is_near and (whole := fit(one, model)).explains:
-            found.append(whole)
-    if not found:
+            fits.append(whole)
+    if not fits:
         return None
-    best = max(found, key=lambda one: (round(one.all, 3), -one.off))
+    best = max(fits, key=lambda one: (round(one.all, 3), -one.off))
     if any(_gives(one, numbers) and not _is_better(one, best.numbers, numbers) for numbers in _biased(one)):
         return None
-    alike = [each for each in found if not _is_better(one, best.numbers, each.numbers)]
-    if len(plain := [each for each in alike if each.model.is_plain]) == 1:
-        return plain[0]
+    alike = [each for each in fits if not _is_better(one, best.numbers, each.numbers)]
+    if len(simplest := [each for each in alike if each.model.is_simplest]) == 1:
+        return simplest[0]
     if len({each.model.error for each in alike}) == 1:
         return replace(best, model=replace(best.model, values=_together([each.model for each in alike])))
     spans = [each.model.values.get("span") for each in alike]
@@ -166,17 +166,17 @@ def _together(models: list[Model]) -> dict[str, object]:
     return {name: " / ".join(dict.fromkeys(str(model.values[name]) for model in models)) for name in names}
 
 
-def finding(found: Fit, one: JudgedSheet) -> Finding:
+def finding(explaining: Fit, one: JudgedSheet) -> Finding:
     """The model that explains a sheet, with the numbers that support it."""
     worst = one.worst()
     assert worst is not None
     values = {
         "sheet": one.table.title or note(SHEETS[one.table.kind]),
-        "share": f"{100 * found.wrong:.1f}",
-        "count": found.count,
+        "share": f"{100 * explaining.wrong:.1f}",
+        "count": explaining.count,
         "tolerance": f"{one.tolerance:.1e}",
         "worst": f"{one.off[worst]:.6g}",
         "unit": "m/s" if COMPONENTS[one.table.kind][worst[2]] == SPEED else "m",
     }
-    model = found.model
+    model = explaining.model
     return Finding(model.error, note(f"error_{model.error}", **model.values), note("evidence", **values))

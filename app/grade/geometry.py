@@ -38,17 +38,17 @@ LENGTH_DECIMALS, MEASURED, SAME_LENGTH = (2, 3, 4, 5), 2e-6, 1e-4
 class Model:
     """A known error, recomputed. error: its name; motion: its result; values: numbers in its words
 
-    is_plain: True if others beside it have a further error
+    is_simplest: True if the models beside it have this error and a further one
     """
 
     error: str
     motion: Motion
     values: dict[str, object] = field(default_factory=dict)
-    is_plain: bool = False
+    is_simplest: bool = False
 
 
 @dataclass(frozen=True)
-class Seen:
+class SheetClues:
     """What the student's sheet shows of free values.
 
     head: (T, 2) [m], NaN where it is missing; None if the sheet has no places of the head
@@ -59,7 +59,7 @@ class Seen:
     chords: tuple[float, float] | None = None
 
 
-def geometries(dance: Dance, times: Floats, seen: Seen) -> Iterator[Model]:
+def geometries(dance: Dance, times: Floats, seen: SheetClues) -> Iterator[Model]:
     """Every known error in the positions, the likeliest first. times: (T,) [s] of the sheet"""
     right = of_dance(dance)
     yield Model("anticlockwise", lambda t: right(t) * [1.0, -1.0, 1.0])
@@ -88,8 +88,8 @@ OTHER_LENGTHS = {
 
 def _other_dragons(dance: Dance) -> Iterator[Model]:
     """Wrong distances between the handles."""
-    for error, given in OTHER_LENGTHS.items():
-        yield Model(error, _of_dragon(dance, Dragon(dance.dragon.benches, **given)))
+    for error, lengths in OTHER_LENGTHS.items():
+        yield Model(error, _of_dragon(dance, Dragon(dance.dragon.benches, **lengths)))
 
 
 def _of_dragon(dance: Dance, dragon: Dragon) -> Motion:
@@ -99,11 +99,11 @@ def _of_dragon(dance: Dance, dragon: Dragon) -> Motion:
         return on_bent(dragon, Bent(right_turn(), tuple(arcs_of(right_turn()))))
 
 
-def _own_lengths(dance: Dance, seen: Seen) -> Iterator[Model]:
+def _own_lengths(dance: Dance, seen: SheetClues) -> Iterator[Model]:
     """Distances between the handles that are steady in the student's sheet, and neither right nor a known error."""
     if seen.chords is None:
         return
-    known = [Dragon(2), *(Dragon(2, **given) for given in OTHER_LENGTHS.values())]
+    known = [Dragon(2), *(Dragon(2, **lengths) for lengths in OTHER_LENGTHS.values())]
     if any(np.abs(dragon.chords[:2] - seen.chords).max() < SAME_LENGTH for dragon in known):
         return
     head, body = (_simple(chord) for chord in seen.chords)
@@ -149,11 +149,11 @@ def _other_angles(dance: Dance, path: Spiral, many: bool) -> Iterator[Model]:
 
     def explicit(t: Floats) -> Floats:
         """Explicit Euler in steps of 1 s."""
-        theta, found = start, {}
+        theta, angles = start, {}
         for second in range(int(t.max(initial=0.0)) + 1):
-            found[float(second)] = theta
+            angles[float(second)] = theta
             theta -= 1.0 / (b * math.sqrt(1.0 + theta**2))
-        return np.array([found.get(float(one), start) for one in t])
+        return np.array([angles.get(float(one), start) for one in t])
 
     def rounded_head(decimals: int, t: Floats) -> Floats:
         return np.round(path.theta(t * dance.head_speed), decimals)

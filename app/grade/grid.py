@@ -11,11 +11,11 @@ Cell = float | str | None
 
 
 class UnreadableTable(Exception):
-    """A file that cannot be graded. said: the reason, and what to change"""
+    """A file that cannot be graded. reason: with what to change"""
 
-    def __init__(self, said: Note) -> None:
-        super().__init__(said.code)
-        self.said = said
+    def __init__(self, reason: Note) -> None:
+        super().__init__(reason.code)
+        self.reason = reason
 
 
 @dataclass
@@ -27,7 +27,7 @@ class Grid:
     notes: list[Note] = field(default_factory=list)
 
 
-def plain(text: str) -> str:
+def normalized(text: str) -> str:
     """Text without blanks at its ends, and with half-width brackets, letters and digits and an ASCII minus sign.
 
     >>> plain(" 龙尾（后） ")

@@ -24,7 +24,7 @@ ROUNDED, DECIMALS = 0.51, (5, 4, 3, 2)
 # Most decimals of a number in metres that a double holds.
 DECIMALS_MOST = 12
 # Decimals that the contest asks for; and largest difference of numbers that count as equal [m, m/s].
-ASKED, FLAT = 6, 2e-6
+DECIMALS_OF_CONTEST, FLAT = 6, 2e-6
 # Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
 ARITHMETIC = 2e-6
 # Typical factors of numbers in centimetres and millimetres; the shares of the numbers, by size, that must have them;
@@ -134,8 +134,8 @@ def judged(table: Table, workbook: Workbook, decimals_beside: int = 0) -> Judged
     """The judgement of one table. decimals_beside: those of the numbers in the other sheets of its file"""
     notes = [*table.notes]
     times = np.array([contact_time()]) if table.kind is TableKind.CONTACT else table.times
-    told = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
-    motion = of_dance(dance_of(workbook))(np.where(told, times, 0.0))[..., list(COMPONENTS[table.kind])]
+    is_on_path = (times >= EARLIEST) & (times <= dance_of(workbook).end.time)
+    motion = of_dance(dance_of(workbook))(np.where(is_on_path, times, 0.0))[..., list(COMPONENTS[table.kind])]
     values = table.values * _scale(table, motion, notes)
     handles = _handles(table, values, motion, notes)
     known = handles < HANDLES
@@ -143,10 +143,10 @@ def judged(table: Table, workbook: Workbook, decimals_beside: int = 0) -> Judged
         notes.append(note("extra_handles", count=int((~known).sum())))
     wanted = np.full(values.shape, np.nan)
     wanted[:, known] = motion[:, handles[known]]
-    asked = told & (np.abs(times[:, None] - times_of(workbook)).min(axis=1) < 1e-9)
-    if not asked.all():
-        notes.append(note("extra_times", count=int((~asked).sum())))
-    wanted[~asked] = np.nan
+    is_wanted = is_on_path & (np.abs(times[:, None] - times_of(workbook)).min(axis=1) < 1e-9)
+    if not is_wanted.all():
+        notes.append(note("extra_times", count=int((~is_wanted).sum())))
+    wanted[~is_wanted] = np.nan
     values = np.where(np.isnan(wanted), np.nan, values)
     off, cells = np.abs(values - wanted), cells_of(workbook, table.kind)
     present, right = int((~np.isnan(off)).sum()), int((off <= RIGHT).sum())
@@ -165,9 +165,9 @@ def judged(table: Table, workbook: Workbook, decimals_beside: int = 0) -> Judged
         verdict = Rating.RIGHT if largest <= RIGHT else Rating.ROUNDED
     missing = cells - present
     if missing and present:
-        filled = np.isfinite(values)
-        absent = HANDLES - np.unique(handles[filled.any(axis=(0, 2))]).size
-        late = times_of(workbook).size - np.unique(times[filled.any(axis=(1, 2))]).size
+        has_number = np.isfinite(values)
+        absent = HANDLES - np.unique(handles[has_number.any(axis=(0, 2))]).size
+        late = times_of(workbook).size - np.unique(times[has_number.any(axis=(1, 2))]).size
         notes.append(note("missing", count=missing, handles=absent, times=late))
     return JudgedSheet(
         table,
@@ -196,7 +196,7 @@ def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:
     known = np.isfinite(values) & np.isfinite(wanted)
     if not known.any() or np.ptp(values[known]) > FLAT or np.ptp(wanted[known]) <= ROUNDED * 10.0 ** -DECIMALS[0]:
         return -1
-    return decimals if decimals >= DECIMALS[-1] else ASKED
+    return decimals if decimals >= DECIMALS[-1] else DECIMALS_OF_CONTEST
 
 
 def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from app.grade.grid import Cell, plain
+from app.grade.grid import Cell, normalized
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米": 1e-3}
 # Units of angles: numbers with them are no places.
@@ -54,14 +54,14 @@ def label_of(cell: Cell) -> Label | None:
     """Meaning of a text beside a line of numbers; None if it is no label."""
     if not isinstance(cell, str):
         return None
-    text = plain(cell)
+    text = normalized(cell)
     unit, component = 1.0, None
-    if found := UNIT.search(text):
-        unit = UNITS.get(found[1].lower(), 1.0)
-        component = SPEED if found[2] else None
-        text = text[: found.start()].rstrip() if found[2] or found[1].lower() in UNITS else text
-    if found and found[1].lower() in ANGLE_UNITS:
-        component, text = ANGLE, text[: found.start()].rstrip()
+    if match := UNIT.search(text):
+        unit = UNITS.get(match[1].lower(), 1.0)
+        component = SPEED if match[2] else None
+        text = text[: match.start()].rstrip() if match[2] or match[1].lower() in UNITS else text
+    if match and match[1].lower() in ANGLE_UNITS:
+        component, text = ANGLE, text[: match.start()].rstrip()
     elif component is None:
         component = _component(text)
     handle = None
@@ -89,5 +89,5 @@ def instant_of(cell: Cell) -> float | None:
     """Time in a cell [s], given as text with or without a unit, or as a number."""
     if isinstance(cell, float):
         return cell
-    found = TIME.fullmatch(plain(cell)) if isinstance(cell, str) else None
-    return float(found[1]) if found else None
+    match = TIME.fullmatch(normalized(cell)) if isinstance(cell, str) else None
+    return float(match[1]) if match else None

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.grade.cells import OddCells
-from app.grade.grid import Cell, Grid, plain
+from app.grade.grid import Cell, Grid, normalized
 from app.grade.labels import ANGLE, SPEED, SPEED_WORD, Label, X, Y, instant_of, label_of
 from app.grade.words import Note
 from core.values import Floats
@@ -86,8 +86,8 @@ def _says_speed(grid: Grid, heads: list[list[Cell]], cells: list[list[Cell]], tu
     """True if the title of a sheet, or a text before its numbers, names speeds and no places."""
     above = [row[0] for row in cells[:MARGIN]] if turned else []
     texts = [grid.title, *(cell for row in heads for cell in row), *above]
-    said = " ".join(plain(text) for text in texts if isinstance(text, str))
-    return SPEED_WORD.search(said) is not None and PLACE_WORD.search(said) is None
+    words = " ".join(normalized(text) for text in texts if isinstance(text, str))
+    return SPEED_WORD.search(words) is not None and PLACE_WORD.search(words) is None
 
 
 def _label_columns(cells: list[list[Cell]]) -> list[list[Label | None]]:
@@ -105,13 +105,13 @@ def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
 
 def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
     """Columns whose heading names x, y or a speed but no handle."""
-    found = {}
+    columns = {}
     for row in heads:
         for k, cell in enumerate(row):
             label = label_of(cell)
             if k != aside and label and label.component in COMPONENTS[TableKind.CONTACT] and label.handle is None:
-                found[k] = label
-    return found
+                columns[k] = label
+    return columns
 
 
 def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
@@ -121,17 +121,19 @@ def _lines(labels: list[Label | None]) -> list[tuple[int, Label]]:
     open_below = {k for k, label in lines if label.component is None and labels[k + 1 : k + 2] == [None]}
     if 2 * len(open_below) <= len(lines):
         return lines
-    found: list[tuple[int, Label]] = []
+    expanded: list[tuple[int, Label]] = []
     for k, label in lines:
         both = [(k, replace(label, component=X)), (k + 1, replace(label, component=Y))]
-        found += both if k in open_below else [(k, label)]
-    return found
+        expanded += both if k in open_below else [(k, label)]
+    return expanded
 
 
 def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict[int, float]:
     """Columns and their instants; by their order if no heading gives them."""
-    told = ({k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None} for row in heads)
-    best: dict[int, float] = max(told, key=len, default={})
+    instants = (
+        {k: t for k, cell in enumerate(row) if k > aside and (t := instant_of(cell)) is not None} for row in heads
+    )
+    best: dict[int, float] = max(instants, key=len, default={})
     if best and np.all(np.diff(list(best.values())) > 0):
         return best
     columns = range(aside + 1, len(cells[0]))
@@ -168,7 +170,7 @@ def _over_time(
         by_speed = not twice
     if by_speed:
         lines = [(k, replace(label, component=SPEED)) for k, label in lines if label.component in (None, SPEED)]
-    return _filled(grid, cells, TableKind.SPEED if by_speed else TableKind.POSITION, lines, times, turned)
+    return _table_of(grid, cells, TableKind.SPEED if by_speed else TableKind.POSITION, lines, times, turned)
 
 
 def _contact(
@@ -190,7 +192,7 @@ def _contact(
     )
 
 
-def _filled(
+def _table_of(
     grid: Grid,
     cells: list[list[Cell]],
     kind: TableKind,
@@ -232,4 +234,4 @@ def bare_table(grid: Grid, cells: list[list[Cell]]) -> Table | None:
         heads = {aside + 1 + c: Label(None, c, 1.0) for c in COMPONENTS[TableKind.CONTACT]}
         return _contact(grid, cells, lines, heads, False)
     kind = TableKind.POSITION if twice else TableKind.SPEED
-    return _filled(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)
+    return _table_of(grid, cells, kind, lines, _times(cells[:first], cells, aside), False)

@@ -10,7 +10,7 @@ import re
 import numpy as np
 
 from app.grade.cells import OddCells
-from app.grade.grid import Cell, Grid, plain
+from app.grade.grid import Cell, Grid, normalized
 from app.grade.labels import HANDLE_WORD, TIME_WORD, instant_of, label_of
 from app.grade.layout import BENCHES, COMPONENTS, LABELS_LEAST, MARGIN, Ints, Table, TableKind
 from core.values import Floats
@@ -40,7 +40,7 @@ def _columns(heads: list[Cell]) -> dict[str, int]:
     """Columns of the time, the handle, x, y and v; the first of each."""
     columns: dict[str, int] = {}
     for k, cell in enumerate(heads):
-        name, label = plain(cell) if isinstance(cell, str) else "", label_of(cell)
+        name, label = normalized(cell) if isinstance(cell, str) else "", label_of(cell)
         if TIME_WORD.search(name):
             columns.setdefault("time", k)
         elif label and label.component is not None and label.component < len("xyv"):
@@ -58,7 +58,7 @@ def _handle_of(cell: Cell) -> int | None:
         return None
     if (label := label_of(cell)) and label.handle is not None:
         return label.handle
-    number = NUMBER.search(plain(cell))
+    number = NUMBER.search(normalized(cell))
     return int(number[0]) if number else None
 
 
@@ -93,7 +93,7 @@ def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str
     handles, h = _numbered([placed[n][1] or 0 for n in lines])
     times, t = np.unique(np.array([placed[n][0] for n in lines], dtype=np.float64), return_inverse=True)
     kinds = [kind for kind in (TableKind.POSITION, TableKind.SPEED) if _axes(kind) <= columns.keys()]
-    return [_filled(grid, cells, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
+    return [_table_of(grid, cells, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
 
 
 def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[Table]:
@@ -103,14 +103,14 @@ def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[st
         return []
     handles, h = _numbered([_handle_of(cells[n][columns["handle"]]) or 0 for n in lines])
     once = (np.array([np.nan]), np.zeros(len(lines), dtype=np.int64), handles, h, lines)
-    return [_filled(grid, cells, head, columns, TableKind.CONTACT, once)]
+    return [_table_of(grid, cells, head, columns, TableKind.CONTACT, once)]
 
 
 def _axes(kind: TableKind) -> set[str]:
     return {"xyv"[component] for component in COMPONENTS[kind]}
 
 
-def _filled(
+def _table_of(
     grid: Grid,
     cells: list[list[Cell]],
     head: int,

@@ -22,7 +22,7 @@ from app.grade.words import Note, note
 # Half units of the last digit within which a number agrees: 2 % more for numbers that were rounded twice.
 HALF = 1.02
 # Half of the last decimal that the contest asks for: a number is graded to six decimals, if it has more.
-HALF_ASKED = 0.5e-6
+HALF_UNIT_LEAST = 0.5e-6
 # A pitch that is too small by more than this counts as rounded down, which is infeasible [m].
 INFEASIBLE = 1e-5
 # Largest half of the last digit, relative to the number, at which a shortcut is reported [1]: 1.3 has too few digits.
@@ -57,9 +57,9 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
     A number is right if it is the right one to its own digits. One that is off by less than its last digit was rounded
     the other way, and nothing else follows from that. A pitch is rounded up, because a smaller one is infeasible.
     """
-    right, asked = right_answer(name), max(half_unit, HALF_ASKED)
-    digits = _decimals_of(asked)
-    is_nearest, is_near = abs(value - right) <= HALF * asked, abs(value - right) < 2.0 * asked
+    right, half = right_answer(name), max(half_unit, HALF_UNIT_LEAST)
+    digits = _decimals_of(half)
+    is_nearest, is_near = abs(value - right) <= HALF * half, abs(value - right) < 2.0 * half
     words = {"nearest": f"{right:.{digits}f}", "unit": UNITS[name]}
     if name == "pitch" and value < right and is_near and not (is_nearest and right - value <= INFEASIBLE):
         up = math.ceil(right * 10.0**digits) / 10.0**digits
@@ -78,12 +78,12 @@ def graded_number(name: str, value: float, half_unit: float) -> Graded:
 
 def _overlap_of(pitch: float) -> list[Note]:
     """Where benches overlap at a pitch that is a little too small, which shows how finely the way must be checked."""
-    if pitch <= PITCH_RANGE[0] or (found := longest_overlap(pitch)) is None:
+    if pitch <= PITCH_RANGE[0] or (overlap := longest_overlap(pitch)) is None:
         return []
-    way = found[0] - found[1]
+    way = overlap[0] - overlap[1]
     if way > OVERLAP_MOST:
         return []
-    values = {"first": f"{found[0]:.6f}", "last": f"{found[1]:.6f}", "way": f"{1000.0 * way:.3g}"}
+    values = {"first": f"{overlap[0]:.6f}", "last": f"{overlap[1]:.6f}", "way": f"{1000.0 * way:.3g}"}
     return [note("pitch_overlap", **values)]
 
 
@@ -112,8 +112,8 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
     one = _together(fits)
     words = "gives_on_grid" if "grid" in one.values else "gives"
     numbers = {"unit": UNITS[name], "right": f"{right_answer(name):.9g}", "value": f"{value:.9g}"}
-    given = f"{one.values.get('source', one.value):.9g}"
-    evidence = note(words, gives=given, **numbers, **one.values)
+    result = f"{one.values.get('source', one.value):.9g}"
+    evidence = note(words, gives=result, **numbers, **one.values)
     return [Finding(one.error, note(f"error_{one.error}", **one.values), evidence, chance)]
 
 
@@ -133,5 +133,5 @@ def chance_of(name: str, value: float, half_unit: float, known: Sequence[Shortcu
 def _together(fits: list[Shortcut]) -> Shortcut:
     """One of the shortcuts of the same error, with all steps that give the number."""
     steps = sorted({str(one.values["step"]) for one in fits if "step" in one.values}, key=float)
-    plain = next((one for one in fits if "grid" not in one.values), fits[0])
-    return replace(plain, values=plain.values | ({"step": " / ".join(steps)} if steps else {}))
+    first = next((one for one in fits if "grid" not in one.values), fits[0])
+    return replace(first, values=first.values | ({"step": " / ".join(steps)} if steps else {}))

@@ -64,11 +64,11 @@ def without(one: JudgedSheet, cells: Mask) -> JudgedSheet:
 
 def same_cells(outside: Outside, one: JudgedSheet, other: JudgedSheet) -> Mask:
     """The cells (T, H) of another sheet that have the handles and instants of those outside on the first one."""
-    found = np.zeros(other.values.shape[:2], dtype=bool)
+    cells = np.zeros(other.values.shape[:2], dtype=bool)
     _, t, other_t = np.intersect1d(one.times, other.times, return_indices=True)
     _, h, other_h = np.intersect1d(one.handles, other.handles, return_indices=True)
-    found[np.ix_(other_t, other_h)] = outside.cells[np.ix_(t, h)]
-    return found
+    cells[np.ix_(other_t, other_h)] = outside.cells[np.ix_(t, h)]
+    return cells
 
 
 def _beyond(one: JudgedSheet) -> Mask:
@@ -78,9 +78,9 @@ def _beyond(one: JudgedSheet) -> Mask:
     assert spiral is not None
     radius = np.linalg.norm(of_dance(dance)(np.nan_to_num(one.times))[..., :2], axis=-1)
     known = one.handles < HANDLES
-    found = np.zeros(one.values.shape[:2], dtype=bool)
-    found[:, known] = radius[:, one.handles[known]] > spiral.pitch * spiral.start_turns + ON_LINE
-    return found
+    beyond = np.zeros(one.values.shape[:2], dtype=bool)
+    beyond[:, known] = radius[:, one.handles[known]] > spiral.pitch * spiral.start_turns + ON_LINE
+    return beyond
 
 
 def _are_on_line(one: JudgedSheet, beyond: Mask) -> bool:

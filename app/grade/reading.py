@@ -70,10 +70,10 @@ def _decoded(data: bytes) -> str:
 
 def _number(word: str, decimal: str) -> Cell:
     """A number, a text, or None for a blank. decimal: "," if a comma may be the decimal point"""
-    said = word.strip()
-    if not said:
+    bare = word.strip()
+    if not bare:
         return None
-    pointed = said.replace(decimal, ".")
+    pointed = bare.replace(decimal, ".")
     try:
         value = float(pointed)
     except ValueError:

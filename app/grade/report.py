@@ -14,7 +14,7 @@ from app.grade.cells import cell_name
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import KINDS, cells_of
 from app.grade.grid import UnreadableTable
-from app.grade.judged import ASKED, JudgedSheet, Rating, decimals_of, judged, workbook_of, worst_of
+from app.grade.judged import DECIMALS_OF_CONTEST, JudgedSheet, Rating, decimals_of, judged, workbook_of, worst_of
 from app.grade.layout import BENCHES, COMPONENTS, SHEETS, TableKind
 from app.grade.names import readable_name
 from app.grade.numbers import CERTAIN, graded_number
@@ -138,26 +138,26 @@ class GradeAnswer(Answer):
 
 def graded(name: str, data: bytes, language: Language, budget: Budget) -> FileAnswer:
     """The grade of one file. name: of the file, which may say which workbook it is; raises: TooMuchWork"""
-    shown, remark = readable_name(name)
+    readable, remark = readable_name(name)
     try:
-        answer = _graded(shown, data, language, budget)
+        answer = _graded(readable, data, language, budget)
     except UnreadableTable as error:
-        return unreadable(name, error.said, language)
+        return unreadable(name, error.reason, language)
     except Halted as error:
         raise too_long(data, budget) from error
     except (MissingPackage, TooMuchWork, MemoryError):
         raise
     except Exception as error:  # An error of ours in one file must not stop the grading of the others.
         return unreadable(name, note("failed", why=f"{type(error).__name__}: {error}"[:120]), language)
-    return answer.model_copy(update={"notes": [*answer.notes, remark.said(language)]}) if remark else answer
+    return answer.model_copy(update={"notes": [*answer.notes, remark.text(language)]}) if remark else answer
 
 
 def unreadable(name: str, why: Note, language: Language) -> FileAnswer:
     """The answer for a file that was not graded."""
-    shown, remark = readable_name(name)
-    notes = [one.said(language) for one in (why, remark) if one]
+    readable, remark = readable_name(name)
+    notes = [one.text(language) for one in (why, remark) if one]
     return FileAnswer(
-        file=shown, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes
+        file=readable, workbook=None, verdict=Rating.UNREADABLE, diagnosis=[], sheets=[], rubric=[], notes=notes
     )
 
 
@@ -189,11 +189,11 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
         file=name,
         workbook=workbook.value,
         verdict=worst_of(sheet.verdict for sheet in sheets),
-        diagnosis=_found(certain, language),
+        diagnosis=_diagnoses(certain, language),
         possible=_guessed(findings, language),
         sheets=sheets,
-        rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=one.said.said(language)) for one in rubric],
-        notes=[one.said(language) for one in notes],
+        rubric=[CriterionAnswer(criterion=one.name, met=one.met, words=one.sentence.text(language)) for one in rubric],
+        notes=[one.text(language) for one in notes],
     )
 
 
@@ -210,26 +210,26 @@ def typed(name: str, text: str, language: Language) -> TypedAnswer:
         raise InvalidValue(name, "must be more than 0 and less than 1e6", got=Quantity(value, UNITS[name]))
     mantissa = text.lower().partition("e")[0].strip()
     half_unit = 0.5 * 10.0 ** -min(len(mantissa.partition(".")[2]), 12)
-    graded_to = mantissa[: mantissa.find(".") + 1 + ASKED] if "." in mantissa else mantissa
-    found = graded_number(name, value, half_unit)
+    graded_to = mantissa[: mantissa.find(".") + 1 + DECIMALS_OF_CONTEST] if "." in mantissa else mantissa
+    grade = graded_number(name, value, half_unit)
     return TypedAnswer(
         answer=name,
-        verdict=found.verdict,
+        verdict=grade.verdict,
         found=value,
         expected=right_answer(name),
         unit=UNITS[name],
         digits=len(
-            (mantissa if found.verdict is Rating.WRONG else graded_to).lstrip("+-").replace(".", "").lstrip("0")
+            (mantissa if grade.verdict is Rating.WRONG else graded_to).lstrip("+-").replace(".", "").lstrip("0")
         ),
-        notes=[one.said(language) for one in found.notes],
-        diagnosis=_found([one for one in found.findings if one.chance <= CERTAIN], language),
-        possible=_guessed(found.findings, language),
+        notes=[one.text(language) for one in grade.notes],
+        diagnosis=_diagnoses([one for one in grade.findings if one.chance <= CERTAIN], language),
+        possible=_guessed(grade.findings, language),
     )
 
 
-def _found(findings: Sequence[Finding], language: Language) -> list[DiagnosisAnswer]:
+def _diagnoses(findings: Sequence[Finding], language: Language) -> list[DiagnosisAnswer]:
     return [
-        DiagnosisAnswer(error=one.error, words=one.said.said(language), evidence=one.evidence.said(language))
+        DiagnosisAnswer(error=one.error, words=one.sentence.text(language), evidence=one.evidence.text(language))
         for one in findings
     ]
 
@@ -239,8 +239,8 @@ def _guessed(findings: Sequence[Finding], language: Language) -> list[GuessAnswe
     return [
         GuessAnswer(
             error=one.error,
-            words=say("may_be", language, error=one.said.said(language)),
-            evidence=f"{one.evidence.said(language)} {say('chance', language, count=round(1.0 / one.chance))}",
+            words=say("may_be", language, error=one.sentence.text(language)),
+            evidence=f"{one.evidence.text(language)} {say('chance', language, count=round(1.0 / one.chance))}",
             probability=one.chance,
         )
         for one in findings
@@ -263,7 +263,7 @@ def _sheet(one: JudgedSheet, language: Language) -> SheetAnswer:
         worst=worst and _cell(one, worst, language),
         first=first and _cell(one, first, language),
         picture=one.picture(),
-        notes=[known.said(language) for known in notes],
+        notes=[known.text(language) for known in notes],
     )
 
 
@@ -288,8 +288,8 @@ def _cell(one: JudgedSheet, at: tuple[int, ...], language: Language) -> CellAnsw
 
 
 def _lacking(kind: TableKind, cells: int, language: Language) -> SheetAnswer:
-    said = say("no_sheet", language, kind=say(SHEETS[kind], language))
+    sentence = say("no_sheet", language, kind=say(SHEETS[kind], language))
     return SheetAnswer(
         sheet="", holds=kind.value, verdict=Rating.INCOMPLETE, decimals=None, cells=cells, right=0, missing=cells,
-        worst=None, first=None, picture=[], notes=[said],
+        worst=None, first=None, picture=[], notes=[sentence],
     )  # fmt: skip

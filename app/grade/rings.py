@@ -38,8 +38,8 @@ def wrong_ring(one: JudgedSheet) -> Finding | None:
         return None
     points, chords = one.values[:, order], dance.dragon.chords
     behind = -np.diff(places(dance.path, points), axis=1)
-    found = np.linalg.norm(np.diff(points, axis=1), axis=-1)
-    kept = (np.abs(found - chords) < ON_PATH) & np.isfinite(behind)
+    distances = np.linalg.norm(np.diff(points, axis=1), axis=-1)
+    kept = (np.abs(distances - chords) < ON_PATH) & np.isfinite(behind)
     wrong = np.any(one.off[:, order] > RIGHT, axis=-1)[:, 1:]
     other = np.argwhere((behind < 0.0) | (behind > CHORDS_MOST * chords))
     if not wrong.any() or kept[wrong].mean() < RING_SHARE or not other.size:
@@ -49,7 +49,7 @@ def wrong_ring(one: JudgedSheet) -> Finding | None:
     values = {
         "handle": k + 1,
         "time": f"{one.times[t]:g}",
-        "chord": f"{found[t, k]:.6f}",
+        "chord": f"{distances[t, k]:.6f}",
         "way": f"{abs(behind[t, k]):.3f}",
         "right": f"{right[0] - right[1]:.3f}",
         "count": len(other),
@@ -60,12 +60,12 @@ def wrong_ring(one: JudgedSheet) -> Finding | None:
 
 def places(path: Path, points: Floats) -> Floats:
     """Arc lengths of points on a spiral or a turn, (...) [m], NaN for others. points: (..., 2) [m]"""
-    found = np.full(points.shape[:-1], np.nan)
+    arc_lengths = np.full(points.shape[:-1], np.nan)
     for s in _candidates(path, points):
         inside = np.clip(np.nan_to_num(s), *path.drawn_between(-np.inf, path.end))
         on_path = np.linalg.norm(path.position(inside) - points, axis=-1) < ON_PATH
-        found = np.where(on_path, inside, found)
-    return found
+        arc_lengths = np.where(on_path, inside, arc_lengths)
+    return arc_lengths
 
 
 def _candidates(path: Path, points: Floats) -> list[Floats]:
@@ -76,13 +76,13 @@ def _candidates(path: Path, points: Floats) -> list[Floats]:
     turn = right_turn()
     growth = turn.pitch / (2.0 * np.pi)
     outside = _arc(radius, growth) - _arc(np.array(turn.entry_radius), growth)
-    found, begun = [-outside, turn.length + outside], 0.0
+    candidates, begun = [-outside, turn.length + outside], 0.0
     for centre, size, start, turned in arcs_of(turn):
         away = points[..., 0] + 1j * points[..., 1] - centre
         angle = np.angle(away * cmath.exp(-1j * start)) * np.sign(turned)
-        found.append(begun + size * (angle % (2.0 * np.pi)))
+        candidates.append(begun + size * (angle % (2.0 * np.pi)))
         begun += size * abs(turned)
-    return found
+    return candidates
 
 
 def _arc(radius: Floats, growth: float) -> Floats:

@@ -35,7 +35,7 @@ class Criterion:
 
     name: str
     met: bool | None
-    said: Note
+    sentence: Note
 
 
 def rubric_of(judgements: Sequence[JudgedSheet], findings: Sequence[Finding]) -> list[Criterion]:
@@ -56,15 +56,15 @@ def _criteria(by_kind: dict[TableKind, JudgedSheet], errors: set[str]) -> Iterat
     else:
         yield Criterion("speeds", consistent >= SHARE, note("rubric_speeds_share", share=f"{100 * consistent:.1f}"))
     # A rounded instant is refined or a step of a search: it does not show which.
-    refined = _shown(None if "rounded_instant" in errors else contact, errors & STEPPED)
-    overhang = _shown(contact, errors & NO_OVERHANG)
+    refined = _is_met(None if "rounded_instant" in errors else contact, errors & STEPPED)
+    overhang = _is_met(contact, errors & NO_OVERHANG)
     yield _criterion("overhang", overhang)
     yield _criterion("refined", refined)
     turning = placed if placed and placed.workbook is Workbook.RESULT4 else None
-    yield _criterion("tangents", _shown(turning, errors & NOT_SMOOTH))
+    yield _criterion("tangents", _is_met(turning, errors & NOT_SMOOTH))
 
 
-def _shown(one: JudgedSheet | None, against: set[str]) -> bool | None:
+def _is_met(one: JudgedSheet | None, against: set[str]) -> bool | None:
     """True if a point is met. An error against it counts more than numbers that are nearly right."""
     if one is None or against:
         return False if against else None

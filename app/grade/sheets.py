@@ -25,8 +25,8 @@ def tables_of(grid: Grid) -> list[Table]:
     if long := lists_of(grid, cells):
         return long
     turned = [list(line) for line in zip(*cells, strict=True)]
-    found = wide_table(grid, cells, turned=False) or wide_table(grid, turned, turned=True) or bare_table(grid, cells)
-    return [found] if found else []
+    table = wide_table(grid, cells, turned=False) or wide_table(grid, turned, turned=True) or bare_table(grid, cells)
+    return [table] if table else []
 
 
 def _rectangle(grid: Grid) -> list[list[Cell]]:

@@ -16,9 +16,9 @@ import numpy as np
 
 import core
 from app.grade import contacts
-from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, TURNING_RADIUS, Sampled
+from app.grade.contacts import EXACT_ANGLE, LOOSE_ANGLE, TURNING_RADIUS, StepKind
 from app.grade.expected import Motion, Workbook, contact_time, dance_of, of_dance, right_turn
-from app.grade.geometry import Seen, geometries
+from app.grade.geometry import SheetClues, geometries
 from app.grade.labels import SPEED
 from app.grade.words import Note
 from core import BenchDragonError, Dance, Dragon, Spiral
@@ -30,9 +30,9 @@ EVENT_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.04, 0.05, 0.08, 0.1, 0.2, 0.25
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
 # Steps of students' checks of the way to the circle: in time [s], radius [m] and angle of the head [rad].
 PITCH_SAMPLES = {
-    Sampled.TIME: (1.0, 0.5, 0.2, 0.1),
-    Sampled.RADIUS: (0.1, 0.05, 0.02, 0.01, 0.005),
-    Sampled.ANGLE: (0.2, 0.1, 0.05, 0.02, math.pi / 180.0),
+    StepKind.TIME: (1.0, 0.5, 0.2, 0.1),
+    StepKind.RADIUS: (0.1, 0.05, 0.02, 0.01, 0.005),
+    StepKind.ANGLE: (0.2, 0.1, 0.05, 0.02, math.pi / 180.0),
 }
 # Steps of students' searches for the pitch [m].
 PITCH_GRIDS = (0.01, 0.005, 0.001, 0.0005, 0.0001, 0.00005)
@@ -44,13 +44,13 @@ SMOOTH = ("head_as_body", "body_as_head", "ratio_inverted", "equal_arcs_of_turn"
 
 @dataclass(frozen=True)
 class Finding:
-    """A known error that explains numbers. error: its name; said: the error in words; evidence: the numbers
+    """A known error that explains numbers. error: its name; sentence: the error in words; evidence: the numbers
 
     chance: share of the numbers with as many digits that fit a known error too [1]; 0 for a sheet, whose digits decide
     """
 
     error: str
-    said: Note
+    sentence: Note
     evidence: Note
     chance: float = 0.0
 
@@ -129,12 +129,12 @@ def _pitches() -> Iterator[Shortcut]:
 def pitch_grids() -> tuple[Shortcut, ...]:
     """Pitches from a search in steps: the first step above the right pitch, or above that of a shortcut."""
     starts = (Shortcut("pitch_steps", right_answer("pitch"), {}), *shortcuts("pitch")[:3])
-    found = []
+    results = []
     for one in starts:
         for step in PITCH_GRIDS:
             values = {"grid": f"{step:g}", "source": one.value}
-            found.append(Shortcut(one.error, math.ceil(one.value / step) * step, values, exact=True))
-    return tuple(found)
+            results.append(Shortcut(one.error, math.ceil(one.value / step) * step, values, exact=True))
+    return tuple(results)
 
 
 def _speeds() -> Iterator[Shortcut]:
@@ -146,7 +146,7 @@ def _speeds() -> Iterator[Shortcut]:
         times = np.arange(0.0, PEAK_SPAN, step)
         moved = np.linalg.norm(right(times + step)[..., :2] - right(times)[..., :2], axis=-1) / step
         yield Shortcut("forward_difference", SPEED_LIMIT / float(moved.max()), {"step": f"{step:g}"})
-    for model in geometries(dance, np.zeros(1), Seen()):
+    for model in geometries(dance, np.zeros(1), SheetClues()):
         if model.error in SMOOTH:
             yield Shortcut(model.error, _fastest(model.motion, PEAK_STEP), model.values)
 

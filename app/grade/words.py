@@ -16,7 +16,7 @@ class Note:
     code: str
     values: dict[str, object] = field(default_factory=dict)
 
-    def said(self, language: Language) -> str:
+    def text(self, language: Language) -> str:
         return say(self.code, language, **self.values)
 
 
@@ -27,8 +27,8 @@ def note(code: str, **values: object) -> Note:
 def say(code: str, language: Language, **values: object) -> str:
     """A text of WORDS with its values, which may be notes themselves."""
     english, chinese = WORDS[code]
-    told = {name: value.said(language) if isinstance(value, Note) else value for name, value in values.items()}
-    return (chinese if language is Language.CHINESE else english).format(**told)
+    texts = {name: value.text(language) if isinstance(value, Note) else value for name, value in values.items()}
+    return (chinese if language is Language.CHINESE else english).format(**texts)
 
 
 # fmt: off

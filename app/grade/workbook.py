@@ -118,8 +118,8 @@ def _refuse_traps(archive: zipfile.ZipFile, budget: Budget) -> list[Note]:
 
     for part in parts:
         pieces = unpacking(part)
-        found, more = _survey(part.filename, pieces, ELEMENTS_MAX - elements)
-        notes, elements = notes + found, elements + more
+        remarks, more = _survey(part.filename, pieces, ELEMENTS_MAX - elements)
+        notes, elements = notes + remarks, elements + more
         for _ in pieces:
             pass  # What is no XML, such as a picture, counts too.
     return notes
@@ -136,13 +136,13 @@ def _survey(part: str, pieces: Iterator[bytes], most: int) -> tuple[list[Note], 
     def refuse(*_: object) -> None:
         raise UnreadableTable(note("declared", part=part))
 
-    def start(tag: str, given: dict[str, str]) -> None:
+    def start(tag: str, attributes: dict[str, str]) -> None:
         nonlocal elements, cell, in_row
         elements += 1
         if elements > most:
             raise UnreadableTable(note("too_many_elements", most=f"{ELEMENTS_MAX:,}"))
         if tag == CELL:
-            cell, in_row = given.get("r", ""), in_row + 1
+            cell, in_row = attributes.get("r", ""), in_row + 1
             if in_row > ROW_CELLS_MAX:
                 raise UnreadableTable(note("long_row", part=part, most=f"{ROW_CELLS_MAX:,}"))
         elif tag == ROW:
@@ -152,7 +152,7 @@ def _survey(part: str, pieces: Iterator[bytes], most: int) -> tuple[list[Note], 
         elif tag == VALUE and seen["unstored"][-1:] == [cell]:
             parser.CharacterDataHandler = stored
         elif tag == MERGED:
-            seen["merged"].append(given.get("ref", ""))
+            seen["merged"].append(attributes.get("ref", ""))
         elif part == MAIN and tag.startswith(STRICT):
             raise UnreadableTable(note("strict"))
 

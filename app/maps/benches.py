@@ -20,21 +20,21 @@ def benches_of(data: bytes, budget: Budget, say: Say) -> tuple[str, list[str]]:
         grids, notes = sheets_of(data, budget)
     except UnreadableTable as error:
         raise InvalidValue.in_words(
-            "file", "{sentence}", sentence=error.said.said(say.language).rstrip(".。")
+            "file", "{sentence}", sentence=error.reason.text(say.language).rstrip(".。")
         ) from error
-    filled = [grid for grid in grids if any(cell is not None for row in grid.rows for cell in row)]
-    if not filled:
+    sheets = [grid for grid in grids if any(cell is not None for row in grid.rows for cell in row)]
+    if not sheets:
         raise InvalidValue("file", "must have a sheet with benches, one in a line", got="empty sheets")
-    told = [note.said(say.language) for note in (*notes, *filled[0].notes)]
-    if len(filled) > 1:
-        others = ", ".join(grid.title for grid in filled[1:])
-        told.append(
+    remarks = [note.text(say.language) for note in (*notes, *sheets[0].notes)]
+    if len(sheets) > 1:
+        others = ", ".join(grid.title for grid in sheets[1:])
+        remarks.append(
             say(
-                f"The benches are those of sheet {filled[0].title}; left out: {others}.",
-                f"板凳取自工作表 {filled[0].title}；未读取：{others}。",
+                f"The benches are those of sheet {sheets[0].title}; left out: {others}.",
+                f"板凳取自工作表 {sheets[0].title}；未读取：{others}。",
             )
         )
-    return _csv(filled[0]), told
+    return _csv(sheets[0]), remarks
 
 
 def _csv(grid: Grid) -> str:

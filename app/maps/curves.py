@@ -40,13 +40,13 @@ def points_of(entity: Any, factor: float) -> Floats:
     sag = SAG / factor
     match entity.dxftype():
         case "LINE":
-            places = np.array([_plain(entity.dxf.start), _plain(entity.dxf.end)])
+            places = np.array([_xy(entity.dxf.start), _xy(entity.dxf.end)])
         case "ARC":
             start, end = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
             sweep = (end - start) % (2.0 * math.pi) or 2.0 * math.pi
             centre, radius = entity.dxf.center, abs(float(entity.dxf.radius))
             _refuse_radius(radius, factor)
-            flat = _plain(centre) + radius * _around(start, sweep, _count(sweep, radius, sag))
+            flat = _xy(centre) + radius * _around(start, sweep, _count(sweep, radius, sag))
             places = _in_world(entity, flat, float(centre[2]))
         case "ELLIPSE":
             places = _ellipse(entity, factor)
@@ -60,7 +60,7 @@ def points_of(entity: Any, factor: float) -> Floats:
     return metres
 
 
-def _plain(point: Any) -> Floats:
+def _xy(point: Any) -> Floats:
     return np.array([float(point[0]), float(point[1])])
 
 
@@ -69,7 +69,7 @@ def _in_world(entity: Any, flat: Floats, height: float) -> Floats:
     ocs = entity.ocs()
     if not ocs.transform:
         return flat
-    return np.array([_plain(ocs.to_wcs((x, y, height))) for x, y in flat.tolist()])
+    return np.array([_xy(ocs.to_wcs((x, y, height))) for x, y in flat.tolist()])
 
 
 def _refuse_radius(radius: float, factor: float) -> None:
@@ -110,7 +110,7 @@ def _ellipse(entity: Any, factor: float) -> Floats:
     if abs(abs(end - start) - 2.0 * math.pi) < 1e-6:  # Files have six to sixteen digits.
         sweep = 2.0 * math.pi
     along = _around(start, sweep, _count(sweep, radius, SAG / factor))
-    return _plain(entity.dxf.center) + along @ np.stack([_plain(long), _plain(short)])
+    return _xy(entity.dxf.center) + along @ np.stack([_xy(long), _xy(short)])
 
 
 def _polyline(entity: Any, factor: float) -> Floats:
@@ -120,7 +120,7 @@ def _polyline(entity: Any, factor: float) -> Floats:
         height, closed, flat = float(entity.dxf.elevation), bool(entity.closed), True
     else:
         vertices = [one for one in entity.vertices if not one.dxf.flags & CONTROL_POINT]
-        corners = [(_plain(one.dxf.location), float(one.dxf.get("bulge", 0.0))) for one in vertices]
+        corners = [(_xy(one.dxf.location), float(one.dxf.get("bulge", 0.0))) for one in vertices]
         flat, closed = bool(entity.is_2d_polyline), bool(entity.is_closed)
         height = float(vertices[0].dxf.location[2]) if vertices else 0.0
     if not corners:

@@ -7,7 +7,7 @@ from datetime import time
 from pathlib import Path
 from typing import Any
 
-from app.files.disk import ending_of, read_json, shown_name, standard_input
+from app.files.disk import display_name, ending_of, read_json, standard_input
 from app.files.tables import Language
 from app.files.words import Say
 from app.processes.limits import reading
@@ -32,26 +32,26 @@ def read_dance(file: Path) -> dict[str, Any]:
         raise InvalidValue.in_words("file", words, got=ending or "no ending", file=str(file), endings=endings)
     piped = standard_input() if str(file) == "-" else b""
     if ending != ".toml" and (not piped.strip() or piped.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")):
-        asked = read_json(file)
+        request = read_json(file)
     else:
         try:
-            asked = toml_of(piped or file.read_bytes())
+            request = toml_of(piped or file.read_bytes())
         except Unreadable as error:
-            raise error.of("file", shown_name(file)) from error
-    if not asked:
-        print(f"{shown_name(file)} is empty: the answer is for the contest's dance.", file=sys.stderr)
+            raise error.of("file", display_name(file)) from error
+    if not request:
+        print(f"{display_name(file)} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
     for name in ("venue", "path"):
-        if isinstance(asked.get(name), str):
-            asked[name] = _drawn(file, name, file.parent / asked[name], seen)
-    for place, found in seen.items():
-        for note in found.notes:
+        if isinstance(request.get(name), str):
+            request[name] = _drawn(file, name, file.parent / request[name], seen)
+    for place, drawing in seen.items():
+        for note in drawing.notes:
             print(f"{place}: {note}", file=sys.stderr)
-    if isinstance(asked.get("dragon"), str):
-        asked["dragon"] = {"csv": _table(file, file.parent / asked["dragon"])}
-    if isinstance(clock := asked.get("start_clock"), time):  # TOML has times of day
-        asked["start_clock"] = clock.replace(microsecond=0).isoformat()
-    return asked
+    if isinstance(request.get("dragon"), str):
+        request["dragon"] = {"csv": _table(file, file.parent / request["dragon"])}
+    if isinstance(clock := request.get("start_clock"), time):  # TOML has times of day
+        request["start_clock"] = clock.replace(microsecond=0).isoformat()
+    return request
 
 
 def _table(file: Path, table: Path) -> str:
@@ -60,8 +60,8 @@ def _table(file: Path, table: Path) -> str:
         data = table.read_bytes()
         text, notes = _of_workbook(table, data) if is_workbook(data) else _of_text(data)
     except OSError as error:
-        told = {"file": str(file), "table": str(table), "why": str(error.strerror)}
-        raise InvalidValue("dragon", "of {file}: {table}: {why}", **told) from error
+        values = {"file": str(file), "table": str(table), "why": str(error.strerror)}
+        raise InvalidValue("dragon", "of {file}: {table}: {why}", **values) from error
     except Unreadable as error:
         raise error.of("dragon", str(table)) from error
     for note in notes:
@@ -82,9 +82,9 @@ def _of_workbook(table: Path, data: bytes) -> tuple[str, list[str]]:
         with reading():
             text, notes = benches_of(data, Budget(), Say(Language.ENGLISH))
     except InvalidValue as error:
-        words, told = f"{{table}}: {error.template}", {"table": str(table)}
+        words, values = f"{{table}}: {error.template}", {"table": str(table)}
         raise InvalidValue.in_words(
-            "dragon", words, got=error.got, reason=error.reason, **error.values, **told
+            "dragon", words, got=error.got, reason=error.reason, **error.values, **values
         ) from error
     return text, [f": {note}" for note in notes]
 
@@ -97,20 +97,22 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
 
     try:
         if name == "venue" and ending_of(drawing) in (".json", ".geojson"):
-            told = read_json(drawing)
-            if is_of_polygons(told):  # Unchanged, because its unit may stand beside it.
-                return told
-        found = seen[drawing] = seen.get(drawing) or read_map(drawing)
+            values = read_json(drawing)
+            if is_of_polygons(values):  # Unchanged, because its unit may stand beside it.
+                return values
+        parts = seen[drawing] = seen.get(drawing) or read_map(drawing)
     except OSError as error:
-        told = {"file": str(file), "drawing": str(drawing), "why": str(error.strerror)}
-        raise InvalidValue(name, "of {file}: {drawing}: {why}", **told) from error
+        values = {"file": str(file), "drawing": str(drawing), "why": str(error.strerror)}
+        raise InvalidValue(name, "of {file}: {drawing}: {why}", **values) from error
     except InvalidValue as error:
         if error.field != "file":
             raise
-        words, told = f"{{part}} of {{dance}}: {error.template}", {"part": Parameter(name), "dance": str(file)}
-        raise InvalidValue.in_words(name, words, got=error.got, reason=error.reason, **error.values, **told) from error
-    part = found.geometry if name == "venue" else found.path
+        words, values = f"{{part}} of {{dance}}: {error.template}", {"part": Parameter(name), "dance": str(file)}
+        raise InvalidValue.in_words(
+            name, words, got=error.got, reason=error.reason, **error.values, **values
+        ) from error
+    part = parts.geometry if name == "venue" else parts.path
     if part is None:
-        told = {"file": str(file), "drawing": str(drawing), "part": name}
-        raise InvalidValue(name, "of {file}: {drawing} holds no {part}", **told)
+        values = {"file": str(file), "drawing": str(drawing), "part": name}
+        raise InvalidValue(name, "of {file}: {drawing} holds no {part}", **values)
     return part

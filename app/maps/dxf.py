@@ -78,23 +78,23 @@ def _refuse_many(data: bytes) -> None:
 def _drawing(document: Any, fixes: Iterable[str]) -> Drawing:
     """fixes: what ezdxf says of faults that it has mended"""
     code = int(document.header.get("$INSUNITS", 0))
-    told = _told(document)
-    entities = Entities(document, UNITS.get(code, 1.0), told)
+    record = _record_of(document)
+    entities = Entities(document, UNITS.get(code, 1.0), record)
     for fix in fixes:
         if deleted := DELETED.search(fix):
-            entities.counted.leave_out(f"damaged {deleted[1]}")
-    features, counted = tuple(entities.named()), entities.counted
+            entities.collector.leave_out(f"damaged {deleted[1]}")
+    features, collector = tuple(entities.named()), entities.collector
     if code not in UNITS:
-        _refuse_wide(counted.features)
-    path = told.get("path")
+        _refuse_wide(collector.features)
+    path = record.get("path")
     return Drawing(
         features,
         Unit.METRES if code in UNITS else Unit.ASSUMED_METRES,
-        origin_of(told.get("origin")),
+        origin_of(record.get("origin")),
         path if isinstance(path, dict) else None,
-        counted.left_out,
-        counted.hidden,
-        grid_of(told.get("grid")),
+        collector.left_out,
+        collector.hidden,
+        grid_of(record.get("grid")),
     )
 
 
@@ -108,14 +108,14 @@ def _refuse_wide(features: list[MapFeature]) -> None:
         raise InvalidValue("file", rule + advice, across=Quantity(across, "", 6))
 
 
-def _told(document: Any) -> Mapping[str, Any]:
+def _record_of(document: Any) -> Mapping[str, Any]:
     """Content of this program's record in a drawing; empty without one."""
     try:
         record = document.rootdict.get(RECORD)
-        told = orjson.loads("".join(tag.value for tag in record.tags if tag.code == 1))
+        content = orjson.loads("".join(tag.value for tag in record.tags if tag.code == 1))
     except (AttributeError, orjson.JSONDecodeError, TypeError):
         return {}
-    return told if isinstance(told, dict) else {}
+    return content if isinstance(content, dict) else {}
 
 
 def written(drawing: Drawing) -> bytes:
@@ -126,7 +126,7 @@ def written(drawing: Drawing) -> bytes:
     """
     document = new_dxf((f"{name}{holes}", colour) for name, colour in LAYERS.values() for holes in ("", "_HOLES"))
     space, names, radii = document.modelspace(), {}, {}
-    told: dict[str, object] = {}
+    content: dict[str, object] = {}
     for feature in drawing.features:
         layer = LAYERS[feature.role or "obstacle"][0]
         for k, ring in enumerate(feature.rings):
@@ -140,12 +140,12 @@ def written(drawing: Drawing) -> bytes:
             x, y = point if feature.role == "obstacle" else (point[0] + CROSS, point[1] + CROSS)
             space.add_text(feature.name, dxfattribs={"layer": layer, "height": WORDS, "insert": (x, y)})
         if feature.role == "path":
-            told["path"] = feature.properties["path"]
+            content["path"] = feature.properties["path"]
     if drawing.origin is not None:
-        told["origin"] = drawing.origin
+        content["origin"] = drawing.origin
     if drawing.grid is not None:
-        told["grid"] = dict(zip("xy", drawing.grid, strict=True))
-    text = orjson.dumps(told | {"names": names, "radii": radii}).decode()
+        content["grid"] = dict(zip("xy", drawing.grid, strict=True))
+    text = orjson.dumps(content | {"names": names, "radii": radii}).decode()
     # The format is text in lines of limited length, and a character outside ASCII takes several places.
     text = text.encode("ascii", "backslashreplace").decode().replace("\\x", "\\u00")
     record = document.rootdict.add_xrecord(RECORD)

@@ -13,7 +13,7 @@ from app.maps.features import (
     OBSTACLE,
     PATH,
     SQUARE,
-    Counted,
+    FeatureCollector,
     MapFeature,
     drawn_as,
     holds,
@@ -21,7 +21,7 @@ from app.maps.features import (
     round_area,
 )
 from app.maps.joined import APART, joined
-from app.maps.labels import Label, are_too_many, label_of, names_of
+from app.maps.labels import MapText, are_too_many, label_of, names_of
 from core import InvalidValue
 from core.values import Point
 
@@ -48,7 +48,7 @@ class Entities:
         """factor: metres in a unit; record: of this program; names, and radii of walls [m], by handle"""
         self.factor, self.names = factor, _mapping(record.get("names"))
         self.radii = {handle: one for handle, one in _mapping(record.get("radii")).items() if isinstance(one, float)}
-        self.counted, self.labels = Counted(), list[Label]()
+        self.collector, self.labels = FeatureCollector(), list[MapText]()
         self.layers = document.layers
         self.seen = 0
         for entity, layer in self._visible(document.modelspace()):
@@ -63,21 +63,21 @@ class Entities:
             is_off, is_frozen = self._state(layer)
             # A block on a frozen layer is hidden with all that is in it; on one that is off, only what takes its layer.
             if entity.dxf.get("invisible", 0) or is_frozen:
-                self.counted.hide(entity.dxftype())
+                self.collector.hide(entity.dxftype())
             elif entity.dxftype() == "INSERT" and depth < DEPTH_MAX:
                 yield from self._of_block(entity, depth, layer)
             elif is_off:
-                self.counted.hide(entity.dxftype())
+                self.collector.hide(entity.dxftype())
             else:
                 yield entity, layer
 
     def _of_block(self, insert: Any, depth: int, layer: str) -> Iterator[tuple[Any, str]]:
         def skipped(entity: Any, reason: str) -> None:
-            self.counted.leave_out(entity.dxftype())
+            self.collector.leave_out(entity.dxftype())
 
         block = insert.block()
         if block is None or block.block.dxf.flags & EXTERNAL:
-            self.counted.leave_out("missing block" if block is None else "block of another drawing")
+            self.collector.leave_out("missing block" if block is None else "block of another drawing")
             return
         copies = max(1, int(insert.mcount))
         if copies > 1:
@@ -107,17 +107,17 @@ class Entities:
         if kind in TEXTS:
             self._read_text(entity, kind)
         elif kind == "POINT":
-            self.counted.add(replace(feature, rings=((self._place(entity.dxf.location),),)))
+            self.collector.add(replace(feature, rings=((self._place(entity.dxf.location),),)))
         elif kind == "CIRCLE":
             centre = self._place(entity.ocs().to_wcs(entity.dxf.center))
             circle = replace(feature, rings=((centre,),), radius=float(entity.dxf.radius) * self.factor)
-            self.counted.add(round_area(circle) if circle.role == SQUARE else circle)
+            self.collector.add(round_area(circle) if circle.role == SQUARE else circle)
         elif mesh := next((word for test, word in MESHES if getattr(entity, test, False)), None):
-            self.counted.leave_out(mesh)
+            self.collector.leave_out(mesh)
         elif kind in CURVES:
             self._add_curve(entity, feature)
         elif layer != MARKS:
-            self.counted.leave_out(kind)
+            self.collector.leave_out(kind)
 
     def _read_text(self, entity: Any, kind: str) -> None:
         if kind == "MTEXT":
@@ -136,11 +136,11 @@ class Entities:
         try:
             places = [(x, y) for x, y in points_of(entity, self.factor).tolist()]
         except Damaged:
-            self.counted.leave_out(f"damaged {entity.dxftype()}")
+            self.collector.leave_out(f"damaged {entity.dxftype()}")
             return
         points = tuple(b for a, b in zip((None, *places), places, strict=False) if a is None or dist(a, b) > SAME)
         if len(points) < 2:
-            self.counted.leave_out(f"{entity.dxftype()} of one point")
+            self.collector.leave_out(f"{entity.dxftype()} of one point")
             return
         closed = bool(getattr(entity, "closed", False) or getattr(entity, "is_closed", False))
         if closed and points[0] != points[-1]:
@@ -155,22 +155,22 @@ class Entities:
         """Add a line; one with a width reaches to both sides of it, also where it is the outline of an area."""
         drawn = drawn_as(line)
         if half == 0.0:
-            self.counted.add(drawn)
+            self.collector.add(drawn)
         elif drawn.shape == "polygon":
-            self.counted.add(drawn)
+            self.collector.add(drawn)
             edge = f"edge of {drawn.name}" if drawn.name else None
-            self.counted.add(replace(line, shape="line", name=edge, role=OBSTACLE, radius=half))
+            self.collector.add(replace(line, shape="line", name=edge, role=OBSTACLE, radius=half))
         else:
-            self.counted.add(replace(line, shape="line", radius=half))
+            self.collector.add(replace(line, shape="line", radius=half))
 
     def _place(self, point: Any) -> Point:
         return float(point[0]) * self.factor, float(point[1]) * self.factor
 
     def named(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
-        features = list(_with_holes(joined(self.counted.features)))
+        features = list(_with_holes(joined(self.collector.features)))
         if are_too_many(features, self.labels):
-            self.counted.left_out["text"] = len(self.labels)
+            self.collector.left_out["text"] = len(self.labels)
             self.labels = []
         words = names_of(features, self.labels)
         for k, feature in enumerate(features):

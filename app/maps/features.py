@@ -42,8 +42,8 @@ def role_of(*words: object) -> str | None:
     >>> role_of(None, "Trees"), role_of("my house")
     ('obstacle', None)
     """
-    told = (ROLES.get(word.strip().lower()) for word in words if isinstance(word, str))
-    return next((role for role in told if role), None)
+    roles = (ROLES.get(word.strip().lower()) for word in words if isinstance(word, str))
+    return next((role for role in roles if role), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ def _numbers(stated: object, names: tuple[str, str], most: tuple[float, float]) 
     return (x, y) if abs(x) <= most[0] and abs(y) <= most[1] else None
 
 
-class Counted:
+class FeatureCollector:
     """Collector of features, with the limits of a map."""
 
     def __init__(self) -> None:

@@ -11,7 +11,18 @@ from typing import Any, TypeGuard
 
 import orjson
 
-from app.maps.features import PATH, Counted, Drawing, MapFeature, Shape, Unit, drawn_as, grid_of, origin_of, role_of
+from app.maps.features import (
+    PATH,
+    Drawing,
+    FeatureCollector,
+    MapFeature,
+    Shape,
+    Unit,
+    drawn_as,
+    grid_of,
+    origin_of,
+    role_of,
+)
 from app.wire.degrees import GEOGRAPHIC, named_system
 from app.wire.geojson import DEPTH_MAX
 from core import InvalidValue
@@ -30,63 +41,65 @@ GEOMETRIES: dict[str, tuple[Shape, int]] = {
 COLLECTIONS = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
 
 
-def read(told: Mapping[str, Any]) -> Drawing:
+def read(document: Mapping[str, Any]) -> Drawing:
     """The map in a GeoJSON object. raises: InvalidValue at the member at fault"""
-    counted = Counted()
-    for feature in _features("file", told, MapFeature("point", ()), counted):
-        counted.add(feature)
-    system = named_system(told)
+    collector = FeatureCollector()
+    for feature in _features("file", document, MapFeature("point", ()), collector):
+        collector.add(feature)
+    system = named_system(document)
     geographic = system is not None and GEOGRAPHIC.search(system) is not None
-    line: Mapping[str, object] = next((one.properties for one in counted.features if "path" in one.properties), {})
+    line: Mapping[str, object] = next((one.properties for one in collector.features if "path" in one.properties), {})
     path = line.get("path")
     return Drawing(
-        tuple(counted.features),
+        tuple(collector.features),
         Unit.UNKNOWN if system is None else Unit.DEGREES if geographic else Unit.METRES,
         # A map in metres has an origin only if this program wrote it.
-        origin_of(told.get("origin")),
+        origin_of(document.get("origin")),
         path if isinstance(path, Mapping) else None,
-        counted.left_out,
+        collector.left_out,
         grid=grid_of(line.get("grid")),
     )
 
 
-def is_of_polygons(told: object) -> bool:
+def is_of_polygons(document: object) -> bool:
     """True if a GeoJSON object holds no points and no lines."""
-    if isinstance(told, Mapping):
-        inside = (told.get(name) for name in ("geometry", "features", "geometries"))
+    if isinstance(document, Mapping):
+        inside = (document.get(name) for name in ("geometry", "features", "geometries"))
         lone = ("Point", "MultiPoint", "LineString", "MultiLineString", "MultiPolygon")
-        return told.get("type") not in lone and all(map(is_of_polygons, inside))
-    return not isinstance(told, list) or all(map(is_of_polygons, told))
+        return document.get("type") not in lone and all(map(is_of_polygons, inside))
+    return not isinstance(document, list) or all(map(is_of_polygons, document))
 
 
 def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _features(field: str, told: object, like: MapFeature, counted: Counted, depth: int = 0) -> Iterator[MapFeature]:
+def _features(
+    field: str, document: object, like: MapFeature, collector: FeatureCollector, depth: int = 0
+) -> Iterator[MapFeature]:
     """Every feature of a GeoJSON object in its order; `like` has the name and the role of the object around it."""
     if depth > DEPTH_MAX:
         raise InvalidValue(field, "must not nest objects deeper than {most}", most=DEPTH_MAX)
-    if told is None and depth:
-        counted.leave_out("feature without geometry")
+    if document is None and depth:
+        collector.leave_out("feature without geometry")
         return
-    kind = told.get("type") if isinstance(told, Mapping) else None
-    if not isinstance(told, Mapping) or not isinstance(kind, str):
-        raise InvalidValue(field, "must be a GeoJSON object with a type", got=Given(told))
+    kind = document.get("type") if isinstance(document, Mapping) else None
+    if not isinstance(document, Mapping) or not isinstance(kind, str):
+        raise InvalidValue(field, "must be a GeoJSON object with a type", got=Given(document))
     if kind == "Feature":
-        given = told.get("properties")
-        properties = {str(name): value for name, value in given.items()} if isinstance(given, Mapping) else {}
+        stated = document.get("properties")
+        properties = {str(name): value for name, value in stated.items()} if isinstance(stated, Mapping) else {}
         name, radius = properties.get("name"), properties.get("radius")
         own, role = name if isinstance(name, str) and name else None, role_of(properties.get("role"), name)
         around = MapFeature("point", (), own, role, float(radius) if _is_number(radius) else None, properties)
-        yield from _features(f"{field}.geometry", told.get("geometry"), around, counted, depth + 1)
+        yield from _features(f"{field}.geometry", document.get("geometry"), around, collector, depth + 1)
     elif kind in COLLECTIONS:
         member = COLLECTIONS[kind]
-        for k, one in enumerate(_listed(f"{field}.{member}", told.get(member))):
-            yield from _features(f"{field}.{member}.{k}", one, like, counted, depth + 1)
+        for k, one in enumerate(_listed(f"{field}.{member}", document.get(member))):
+            yield from _features(f"{field}.{member}.{k}", one, like, collector, depth + 1)
     elif kind in GEOMETRIES:
         shape, deep = GEOMETRIES[kind]
-        for rings in _parts(f"{field}.coordinates", told.get("coordinates"), shape, deep):
+        for rings in _parts(f"{field}.coordinates", document.get("coordinates"), shape, deep):
             one = replace(like, shape=shape, rings=rings)
             yield drawn_as(one) if shape == "line" else one  # Some programs draw a polygon as a line.
     else:

@@ -51,7 +51,7 @@ def _along(features: Sequence[MapFeature], chain: Iterable[tuple[int, bool]]) ->
 
 def _chains(lines: Sequence[Sequence[Point]]) -> list[list[tuple[int, bool]]]:
     """Lines that follow one another, each with True if it is walked backwards."""
-    corners = _Corners(point for line in lines for point in (line[0], line[-1]))
+    corners = _MeetingPoints(point for line in lines for point in (line[0], line[-1]))
     ends = [(corners.at[2 * k], corners.at[2 * k + 1]) for k in range(len(lines))]
     meeting = defaultdict[int, list[int]](list)
     for k, (a, b) in enumerate(ends):
@@ -79,7 +79,7 @@ def _chains(lines: Sequence[Sequence[Point]]) -> list[list[tuple[int, bool]]]:
     return chains
 
 
-class _Corners:
+class _MeetingPoints:
     """Numbers of points; points less than APART from one another have the same."""
 
     def __init__(self, points: Iterable[Point]) -> None:

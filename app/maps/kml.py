@@ -16,7 +16,17 @@ import orjson
 
 from app.files.archives import BadArchive, opened, pieces_of
 from app.files.markup import TAG_MAX, LongTag, as_utf8, in_pieces, new_parser, parse
-from app.maps.features import POINTS_MAX, Counted, Drawing, MapFeature, Shape, Unit, drawn_as, origin_of, role_of
+from app.maps.features import (
+    POINTS_MAX,
+    Drawing,
+    FeatureCollector,
+    MapFeature,
+    Shape,
+    Unit,
+    drawn_as,
+    origin_of,
+    role_of,
+)
 from core import InvalidValue
 from core.errors import Given
 from core.venue import Ring
@@ -48,8 +58,8 @@ def unpacked(data: bytes) -> bytes:
                 raise InvalidValue("file", "must be a KMZ file with a .kml document", got="an archive without one")
             return b"".join(pieces_of(archive, documents[0], UNPACKED_MAX))
     except BadArchive as error:
-        words, told = REFUSED[error.code], {"most": UNPACKED_MAX, "parts": PARTS_MAX}
-        raise InvalidValue("file", words, why=error.why, **told) from error
+        words, limits = REFUSED[error.code], {"most": UNPACKED_MAX, "parts": PARTS_MAX}
+        raise InvalidValue("file", words, why=error.why, **limits) from error
 
 
 def read(data: bytes) -> Drawing:
@@ -68,15 +78,15 @@ def read(data: bytes) -> Drawing:
         raise InvalidValue("file", rule, fault=fault, line=error.lineno) from error
     if not reader.is_kml:
         raise InvalidValue("file", "must be KML", got="XML of another kind")
-    told, counted = reader.told, reader.counted
-    path = told.get("path")
+    stored, collector = reader.stored, reader.collector
+    path = stored.get("path")
     return Drawing(
-        tuple(counted.features),
+        tuple(collector.features),
         Unit.DEGREES,
-        origin_of(told.get("origin")),
+        origin_of(stored.get("origin")),
         path if isinstance(path, dict) else None,
-        counted.left_out,
-        counted.hidden,
+        collector.left_out,
+        collector.hidden,
     )
 
 
@@ -91,10 +101,10 @@ class _Reader:
     """Collects the features of a document while expat reads it."""
 
     def __init__(self) -> None:
-        self.counted, self.told = Counted(), dict[str, object]()
+        self.collector, self.stored = FeatureCollector(), dict[str, object]()
         self.stack: list[str] = []
         self.folders: list[str] = []
-        self.shown: list[bool] = []
+        self.visible_folders: list[bool] = []
         self.name, self.visible = "", True
         self.data: dict[str, str] = {}
         self.shapes: list[tuple[Shape, tuple[Ring, ...]]] = []
@@ -110,7 +120,7 @@ class _Reader:
         self.text = []
         if local in ("Folder", "Document"):
             self.folders.append("")
-            self.shown.append(True)
+            self.visible_folders.append(True)
         elif local == "Placemark":
             self.name, self.data, self.shapes, self.visible = "", {}, [], True
         elif local in ("Data", "SimpleData"):
@@ -118,7 +128,7 @@ class _Reader:
         elif local == "Polygon":
             self.rings = []
         if local in OTHERS:
-            self.counted.leave_out(local)
+            self.collector.leave_out(local)
 
     def take(self, text: str) -> None:
         self.text.append(text)
@@ -133,8 +143,8 @@ class _Reader:
         elif local == "visibility" and text == "0":
             if around == "Placemark":
                 self.visible = False
-            elif self.shown and around in ("Folder", "Document"):
-                self.shown[-1] = False
+            elif self.visible_folders and around in ("Folder", "Document"):
+                self.visible_folders[-1] = False
         elif (local == "value" and around == "Data") or local == "SimpleData":
             self.data[self.key] = text
         elif local == "coordinates":
@@ -146,13 +156,13 @@ class _Reader:
             self._finish()
         elif local in ("Folder", "Document"):
             self.folders.pop()
-            self.shown.pop()
+            self.visible_folders.pop()
         self.text = []
 
     def _place(self, points: Ring) -> None:
         around = next((one for one in reversed(self.stack) if one in SHAPES and one != "LinearRing"), self.stack[-1])
         if not points:
-            self.counted.leave_out(f"empty {around}")
+            self.collector.leave_out(f"empty {around}")
         elif "Polygon" in self.stack:
             self.rings.append(points)
         elif self.stack[-1] in SHAPES:
@@ -160,24 +170,24 @@ class _Reader:
             self.shapes.append((shape, (points[:1] if shape == "point" else points,)))
 
     def _finish(self) -> None:
-        told = self.data
+        data = self.data
         for key in ("path", "origin"):
-            if value := _json(told.get(key, "")):
-                self.told[key] = value
-        name = self.name or told.get("name") or None
-        role = role_of(told.get("role"), name, *reversed(self.folders))
-        feature = MapFeature("point", (), name, role, _number(told.get("radius", "")))
+            if value := _json(data.get(key, "")):
+                self.stored[key] = value
+        name = self.name or data.get("name") or None
+        role = role_of(data.get("role"), name, *reversed(self.folders))
+        feature = MapFeature("point", (), name, role, _number(data.get("radius", "")))
         for shape, rings in self.shapes:
-            if not (self.visible and all(self.shown)):
-                self.counted.hide(shape)
+            if not (self.visible and all(self.visible_folders)):
+                self.collector.hide(shape)
                 continue
             one = replace(feature, shape=shape, rings=rings)
-            self.counted.add(drawn_as(one) if shape == "line" else one)
+            self.collector.add(drawn_as(one) if shape == "line" else one)
 
 
 def _points(text: str) -> Ring:
     """Points of a text such as "120.1,30.2,0 120.2,30.2,0". raises: InvalidValue"""
-    found: list[tuple[float, float]] = []
+    points: list[tuple[float, float]] = []
     if text.count(",") > 3 * POINTS_MAX:
         raise InvalidValue("file", "must draw no line of more than {most} points", most=POINTS_MAX)
     for word in text.split():
@@ -188,8 +198,8 @@ def _points(text: str) -> Ring:
         numbers = [_number(part) for part in parts[:2]]
         if len(numbers) < 2 or None in numbers:
             raise InvalidValue("file", "must have coordinates such as 120.1,30.2 in degrees", got=Given(word))
-        found.append((numbers[0] or 0.0, numbers[1] or 0.0))
-    return tuple(found)
+        points.append((numbers[0] or 0.0, numbers[1] or 0.0))
+    return tuple(points)
 
 
 def _number(text: str) -> float | None:
@@ -201,10 +211,10 @@ def _number(text: str) -> float | None:
 
 def _json(text: str) -> Mapping[str, object] | None:
     try:
-        found = orjson.loads(text)
+        value = orjson.loads(text)
     except orjson.JSONDecodeError:
         return None
-    return found if isinstance(found, dict) else None
+    return value if isinstance(value, dict) else None
 
 
 def written(drawing: Drawing) -> bytes:
@@ -216,14 +226,14 @@ def written(drawing: Drawing) -> bytes:
             f"<PolyStyle><color>40{colour[2:]}</color></PolyStyle></Style>\n"
         )
     for feature in drawing.features:
-        told: dict[str, object] = {"role": feature.role}
+        data_of: dict[str, object] = {"role": feature.role}
         if feature.radius is not None:
-            told["radius"] = feature.radius
-        told |= {name: value for name, value in feature.properties.items() if name != "path"}
+            data_of["radius"] = feature.radius
+        data_of |= {name: value for name, value in feature.properties.items() if name != "path"}
         if feature.role == "path":
             kept = ({} if drawing.origin is None else {"origin": drawing.origin}) | {"path": feature.properties["path"]}
-            told |= {name: orjson.dumps(value).decode() for name, value in kept.items()}
-        data = "".join(f'<Data name="{name}"><value>{_words(str(one))}</value></Data>' for name, one in told.items())
+            data_of |= {name: orjson.dumps(value).decode() for name, value in kept.items()}
+        data = "".join(f'<Data name="{name}"><value>{_words(str(one))}</value></Data>' for name, one in data_of.items())
         parts.append(
             f"<Placemark><name>{_words(feature.name or '')}</name><styleUrl>#{feature.role}</styleUrl>"
             f"<ExtendedData>{data}</ExtendedData>{_geometry(feature)}</Placemark>\n"

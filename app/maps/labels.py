@@ -17,7 +17,7 @@ PAIRS_MAX = 3_000_000
 
 
 @dataclass(frozen=True)
-class Label:
+class MapText:
     """A text. places: its beginning, its middle and its end [m]; height: of its letters [m]"""
 
     text: str
@@ -25,21 +25,21 @@ class Label:
     height: float
 
 
-def label_of(text: str, at: Point, height: float, turned: float, align: float) -> Label:
+def label_of(text: str, at: Point, height: float, turned: float, align: float) -> MapText:
     """A text at a place. turned: its direction [rad]; align: share of it before the place [1]"""
     letters = max((len(line) for line in text.splitlines()), default=0)
     length = LETTER * height * letters
     shares = [(share - align) * length for share in (0.0, 0.5, 1.0)]
     places = ((at[0] + share * math.cos(turned), at[1] + share * math.sin(turned)) for share in shares)
-    return Label(text, tuple(places), height)
+    return MapText(text, tuple(places), height)
 
 
-def are_too_many(features: Sequence[MapFeature], labels: Sequence[Label]) -> bool:
+def are_too_many(features: Sequence[MapFeature], labels: Sequence[MapText]) -> bool:
     """True if the texts are not compared with the things."""
     return sum(len(ring) for one in features for ring in one.rings) * len(labels) > PAIRS_MAX
 
 
-def names_of(features: Sequence[MapFeature], labels: Sequence[Label]) -> dict[int, str]:
+def names_of(features: Sequence[MapFeature], labels: Sequence[MapText]) -> dict[int, str]:
     """Names of things by their places in the list.
 
     A text names the smallest thing that it stands in; but if that holds other things too, the nearest one beside it.
@@ -54,7 +54,7 @@ def names_of(features: Sequence[MapFeature], labels: Sequence[Label]) -> dict[in
     return names
 
 
-def _nearest(features: Sequence[MapFeature], label: Label, own: int | None) -> int | None:
+def _nearest(features: Sequence[MapFeature], label: MapText, own: int | None) -> int | None:
     """The thing beside a text; None without one, and if the text stands in a thing that holds no other one."""
     others = [k for k, one in enumerate(features) if k != own and one.role != "mark"]
     if own is not None:
@@ -66,7 +66,7 @@ def _nearest(features: Sequence[MapFeature], label: Label, own: int | None) -> i
     return nearest if nearest is not None and apart[nearest] <= BESIDE * label.height else None
 
 
-def _distance(one: MapFeature, label: Label) -> float:
+def _distance(one: MapFeature, label: MapText) -> float:
     """Distance of a text from a thing, 0 on it [m]."""
     return max(0.0, min(_from_point(one, place) for place in label.places) - (one.radius or 0.0))
 

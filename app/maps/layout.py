@@ -62,10 +62,10 @@ class DanceParts:
             return None
         origin = {} if self.origin is None else {"origin": asdict(self.origin)}
         grid = {} if self.grid is None else {"grid": dict(zip("xy", self.grid, strict=True))}
-        return {"type": "FeatureCollection", **origin, **grid, "features": [_told(one) for one in self.things]}
+        return {"type": "FeatureCollection", **origin, **grid, "features": [_geojson_of(one) for one in self.things]}
 
 
-def _told(one: MapFeature) -> dict[str, Any]:
+def _geojson_of(one: MapFeature) -> dict[str, Any]:
     properties = {"name": one.name} | ({} if one.radius is None else {"radius": one.radius})
     return {"type": "Feature", "properties": properties, "geometry": geojson.geometry_of(one)}
 
@@ -80,10 +80,10 @@ def refuse_many_edges_of(things: Iterable[MapFeature]) -> None:
 
 def _checked(things: list[MapFeature]) -> Venue:
     """The venue of features, checked like a request, so that a request can use them."""
-    told = {"type": "FeatureCollection", "features": [_told(one) for one in things]}
+    collection = {"type": "FeatureCollection", "features": [_geojson_of(one) for one in things]}
     refuse_many_edges_of(things)
     try:
-        return venue_of(outlined(read_things(told)))
+        return venue_of(outlined(read_things(collection)))
     except InvalidValue as error:
         raise error.named("file") from error
 
@@ -108,20 +108,20 @@ class Reading:
                 f"Left out, because hidden: {format_count(count, kind)}.", f"未读取（已隐藏）：{kind}，{count} 个。"
             )
 
-    def found(self) -> DanceParts:
+    def parts(self) -> DanceParts:
         # Before anything is compared with every edge.
         refuse_many_edges_of(one for one in self.features if one.shape == "polygon")
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
-        told = [one for one in lines if one.role == PATH]
+        paths = [one for one in lines if one.role == PATH]
         # If no line has the role of the path, it is the longest line without a width.
         free = [one for one in lines if one.role is None and one.radius is None]
-        danced = told[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
+        danced = paths[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
-        if more := told[1:]:
+        if more := paths[1:]:
             self._note(
-                f"{len(told)} lines are called path; the first is the path, and the others are left out.",
-                f"有 {len(told)} 条线名为路径：取第一条，其余未读取。",
+                f"{len(paths)} lines are called path; the first is the path, and the others are left out.",
+                f"有 {len(paths)} 条线名为路径：取第一条，其余未读取。",
             )
         taken = [*danced, *more]
         others = [one for one in self.features if one is not square and not any(one is line for line in taken)]
@@ -208,8 +208,8 @@ class Reading:
         x, y = self.grid
         across = float(np.ptp(points, axis=0).max())
         if across > ACROSS_MAX:
-            told = quantities("km", 6, most=ACROSS_MAX / 1000.0) | quantities("km", 4, across=across / 1000.0)
-            raise InvalidValue("file", "must be at most {most} across, got about {across}", **told)
+            values = quantities("km", 6, most=ACROSS_MAX / 1000.0) | quantities("km", 4, across=across / 1000.0)
+            raise InvalidValue("file", "must be at most {most} across, got about {across}", **values)
         moved = np.array(self.grid)
         self.features = [one.moved(lambda places: places - moved) for one in self.features]
         self._note(
@@ -238,15 +238,15 @@ class Reading:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
         polygons = [one for one in self.features if one.shape == "polygon"]
         named = [one for one in polygons if one.role == SQUARE]
-        told = next(iter(named), None)
+        first = next(iter(named), None)
         if len(named) > 1:
             self._note(
                 f"{len(named)} areas are called square; the first is the square, and the others are obstacles.",
                 f"有 {len(named)} 个区域名为广场：取第一个，其余作为障碍。",
             )
         free = [one for one in polygons if one.role is None]
-        if told or not free:
-            return told
+        if first or not free:
+            return first
         largest = max(free, key=area_of)
         # The edge of a wide outline lies on the outline itself.
         others = (one for one in self.features if one.rings[0] != largest.rings[0])
@@ -288,10 +288,10 @@ class Reading:
 
     def _path(self, line: MapFeature) -> Mapping[str, Any]:
         points = np.array(line.rings[0])
-        told = self.drawing.path
-        if told is not None:
-            if is_along(told, points):
-                return told
+        stored = self.drawing.path
+        if stored is not None:
+            if is_along(stored, points):
+                return stored
             self._note(
                 "The line of the path was edited, so the new path goes through the points of the line.",
                 "路径的线已被移动，因此路径改为通过其各点。",
@@ -321,15 +321,15 @@ class _Names:
     """Names of areas, each unique and valid in a venue."""
 
     def __init__(self) -> None:
-        self.given: set[str] = set()
+        self.used: set[str] = set()
 
     def new(self, name: str) -> str:
-        plain = "".join(" " if category(one) in NOT_PLAIN else one for one in name)[: NAME_MAX - 8].strip() or "area"
-        found, k = plain, 2
-        while found in self.given:
-            found, k = f"{plain} {k}", k + 1
-        self.given.add(found)
-        return found
+        bare = "".join(" " if category(one) in NOT_PLAIN else one for one in name)[: NAME_MAX - 8].strip() or "area"
+        unique, k = bare, 2
+        while unique in self.used:
+            unique, k = f"{bare} {k}", k + 1
+        self.used.add(unique)
+        return unique
 
 
 def _closed(feature: MapFeature) -> MapFeature:

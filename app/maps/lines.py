@@ -28,14 +28,16 @@ TRIED = 200
 def checked_path(path: object) -> Spiral | Route:
     """The path of core that a request describes. raises: InvalidValue"""
     try:
-        found: Spiral | Route = TypeAdapter[Any](AnyPath).validate_python(path).to_path()
+        checked: Spiral | Route = TypeAdapter[Any](AnyPath).validate_python(path).to_path()
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         fault = fault_of({**first, "loc": ("file", "path", *first["loc"])}, None)
-        told = {**fault.values, "file": Parameter("file")}
+        values = {**fault.values, "file": Parameter("file")}
         why = f"{fault.template}: {fault.reason}".removesuffix(": ")
-        raise InvalidValue.in_words("file", "{file} must describe a path", got=fault.got, reason=why, **told) from error
-    return found
+        raise InvalidValue.in_words(
+            "file", "{file} must describe a path", got=fault.got, reason=why, **values
+        ) from error
+    return checked
 
 
 def length_of(line: MapFeature) -> float:
@@ -54,10 +56,10 @@ def thinned(points: Floats) -> Floats:
     return few
 
 
-def is_along(told: Mapping[str, Any], points: Floats) -> bool:
+def is_along(stored: Mapping[str, Any], points: Floats) -> bool:
     """True if the line still follows the path that is stored with it."""
     try:
-        path = checked_path(told)
+        path = checked_path(stored)
     except InvalidValue:
         return False
     drawn = line_of(path, path.drawn_begin(points), path.end)

@@ -69,13 +69,15 @@ def line_of(path: Path, low: float, high: float) -> Floats:
     return points
 
 
-def drawing_of(dance: Dance, place: Place, marks: Marks, told: Mapping[str, object], origin: Origin | None) -> Drawing:
-    """The dance as a map in metres. place: the venue; told: the path as a request describes it"""
+def drawing_of(
+    dance: Dance, place: Place, marks: Marks, path_fields: Mapping[str, object], origin: Origin | None
+) -> Drawing:
+    """The dance as a map in metres. place: the venue; path_fields: the path as a request describes it"""
     features = features_of(place.things)
     path = dance.path
     low, high = path.drawn_between(min(float(marks.s[0]), path.begin), path.end)
     line = tuple(map(tuple, line_of(path, low, high).tolist()))
-    features.append(MapFeature("line", (line,), "path", "path", properties={"path": told}))
+    features.append(MapFeature("line", (line,), "path", "path", properties={"path": path_fields}))
     for name, s, point in zip(marks.names, marks.s.tolist(), marks.points.tolist(), strict=True):
         properties = {"s": round(s, 6), "x": round(point[0], 4), "y": round(point[1], 4)}
         features.append(MapFeature("point", (((point[0], point[1]),),), name, "mark", properties=properties))

@@ -55,8 +55,8 @@ class Places(Answer):
     notes: list[str] = Field(description="Assumptions, and things left out, in sentences")
 
     @classmethod
-    def of(cls, found: DanceParts) -> Self:
-        return cls(path=found.path, venue=found.geometry, dance=found.dance, notes=list(found.notes))
+    def of(cls, parts: DanceParts) -> Self:
+        return cls(path=parts.path, venue=parts.geometry, dance=parts.dance, notes=list(parts.notes))
 
 
 def read_places(
@@ -92,13 +92,13 @@ def places_of(data: bytes, units: Coordinates | None, say: Say, budget: Budget |
         start = kml.unpacked(data)
     if is_archive or start.startswith((b"<", b"\0<")):
         start, notes = (start, []) if states_encoding(start) else _in_utf8(start, say)
-        found = Reading(kml.read(start), units, say).found()
-        return replace(found, notes=[*notes, *found.notes])
+        parts = Reading(kml.read(start), units, say).parts()
+        return replace(parts, notes=[*notes, *parts.notes])
     if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
-        return Reading(dxf.read(data), units, say).found()
+        return Reading(dxf.read(data), units, say).parts()
     start, notes = _in_utf8(start, say)
-    found = _of_text(start, units, say)
-    return replace(found, notes=[*notes, *found.notes])
+    parts = _of_text(start, units, say)
+    return replace(parts, notes=[*notes, *parts.notes])
 
 
 def _in_utf8(data: bytes, say: Say) -> tuple[bytes, list[str]]:
@@ -129,22 +129,22 @@ def _of_text(start: bytes, units: Coordinates | None, say: Say) -> DanceParts:
         raise InvalidValue("file", rule, got=parts, most=PARTS_MAX)
     if start.startswith(b"{"):
         try:
-            told = orjson.loads(start)
+            content = orjson.loads(start)
         except orjson.JSONDecodeError as error:
             raise InvalidValue("file", "must be JSON without a fault: {why}", why=str(error)) from error
-        if "type" in told:
-            return Reading(geojson.read(told), units, say).found()
+        if "type" in content:
+            return Reading(geojson.read(content), units, say).parts()
         _refuse_long(start)
-        return _of_dance(told, say)
+        return _of_dance(content, say)
     _refuse_long(start)
     if LONG_KEY.search(start):
         raise InvalidValue("file", "must not have a name of more than {most} parts", most=KEY_PARTS_MAX)
     try:
         return _of_dance(toml_of(start), say)
     except Unreadable as error:
-        told = error.of("file", "it")
-        rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {told.template}: {told.reason}"
-        raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **told.values) from error
+        content = error.of("file", "it")
+        rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {content.template}: {content.reason}"
+        raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **content.values) from error
 
 
 def _refuse_long(data: bytes) -> None:
@@ -153,10 +153,10 @@ def _refuse_long(data: bytes) -> None:
         raise InvalidValue("file", "must have at most {most} bytes if it is no map", got=len(data), most=DANCE_MAX)
 
 
-def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
+def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
     """A file that describes a dance, as `check` takes it."""
-    path, venue, notes = told.get("path"), told.get("venue"), []
-    others = {name: value for name, value in told.items() if name not in ("path", "venue", "coordinates")}
+    path, venue, notes = content.get("path"), content.get("venue"), []
+    others = {name: value for name, value in content.items() if name not in ("path", "venue", "coordinates")}
     if path is not None:
         checked_path(path)
     place = None
@@ -165,7 +165,7 @@ def _of_dance(told: Mapping[str, Any], say: Say) -> DanceParts:
     elif not isinstance(venue, Mapping | None):
         raise InvalidValue("file", "must have a venue that is GeoJSON or the name of a file", got=Given(venue))
     elif venue is not None:
-        place = place_of(venue, told.get("coordinates"), Dragon())
+        place = place_of(venue, content.get("coordinates"), Dragon())
     place = place or Place()
     return DanceParts(path, place.venue, place.origin, others, notes, features_of(place.things), place.grid)
 

@@ -142,8 +142,8 @@ def _inside(ring: Floats, beside: float) -> list[tuple[float, float]]:
     area = float((ring[:-1, 0] * ring[1:, 1] - ring[1:, 0] * ring[:-1, 1]).sum())
     inwards = np.sign(area) * np.stack([-along[:, 1], along[:, 0]], axis=1) / np.hypot(*along.T)[:, None]
     places = ring[:-1] + 0.5 * along + inwards * (beside * np.abs(inwards[:, :1]) + 2.5 * np.abs(inwards[:, 1:]))
-    found: list[tuple[float, float]] = [tuple(places[k].tolist()) for k in np.argsort(-np.hypot(*along.T))]
-    return found
+    middles: list[tuple[float, float]] = [tuple(places[k].tolist()) for k in np.argsort(-np.hypot(*along.T))]
+    return middles
 
 
 def _draw_arrows(sheet: Sheet, line: Floats, frame: Rectangle) -> None:

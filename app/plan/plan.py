@@ -18,7 +18,7 @@ from app.files.drawing import in_turn
 from app.files.words import Say
 from app.plan.ground import GroundMap, draw_benches, draw_ground, draw_legend, scale_for
 from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title, title_block
-from app.plan.tables import Table, draw_tables
+from app.plan.tables import PlanTable, draw_tables
 from app.plan.timing import TimeFormat, points_of
 
 # Fonts as outlines with a table of their characters: every machine draws them alike, and the text can be searched.
@@ -62,8 +62,8 @@ def plan_pdf(plan: Plan, say: Say, progress: Callable[[float], None] = lambda sh
     def drawn() -> bytes:
         with matplotlib.rc_context({"font.family": plan.family, **FONTS}):
             pages = [*_maps(plan, scale, say), *_tables(plan, scale.paper, say)]
-            told = {"Title": plan.title.title, "Creator": "Bench Dragon", "CreationDate": None}
-            with PdfPages(sink, metadata=told) as file:
+            metadata = {"Title": plan.title.title, "Creator": "Bench Dragon", "CreationDate": None}
+            with PdfPages(sink, metadata=metadata) as file:
                 for k, page in enumerate(pages, start=1):
                     cell = title_block(page.sheet, plan.title, page.subtitle, f"{k}/{len(pages)}", page.scale)
                     if page.scale is not None:
@@ -117,7 +117,7 @@ def _notes(sheet: Sheet, plan: Plan, left: float, right: float) -> None:
         sheet.words(left + 2.0, MARGIN + BLOCK - 5.0 - 4.3 * k, line, 6.5, within=right - left - 4.0)
 
 
-def _points(plan: Plan, say: Say) -> Table:
+def _points(plan: Plan, say: Say) -> PlanTable:
     ground, marks = plan.ground, plan.ground.timing.marks
     spiral = [say("radius [m]", "半径 [m]"), say("angle [°]", "角度 [°]")]
     columns = [say("mark [m]", "标记 [m]"), "x [m]", "y [m]", *spiral]
@@ -125,18 +125,18 @@ def _points(plan: Plan, say: Say) -> Table:
         [name, *(f"{value:.3f}" for value in values[:3]), *(f"{value:.2f}" for value in values[3:])]
         for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
     ]
-    return Table(say("Points to paint", "放样点"), columns[: len(rows[0])], rows)
+    return PlanTable(say("Points to paint", "放样点"), columns[: len(rows[0])], rows)
 
 
-def _marks(plan: Plan, say: Say) -> Table:
+def _marks(plan: Plan, say: Say) -> PlanTable:
     timing, words = plan.ground.timing, plan.clock.words
     passed = zip(timing.marks.names, timing.head, timing.tail, strict=True)
     rows = [[name, words(head), words(tail)] for name, head, tail in passed]
     columns = [say("mark [m]", "标记 [m]"), say("head", "龙头"), say("tail", "龙尾")]
-    return Table(say("Head and tail at the marks", "龙头与龙尾经过标记的时间"), columns, rows)
+    return PlanTable(say("Head and tail at the marks", "龙头与龙尾经过标记的时间"), columns, rows)
 
 
-def _benches(plan: Plan, say: Say) -> Table:
+def _benches(plan: Plan, say: Say) -> PlanTable:
     timing, words = plan.ground.timing, plan.clock.words
     moments = (say(f"at {words(one)}", words(one)) for one in timing.moments)
     columns = [say("bench", "板凳"), say("enters", "进入"), *moments]
@@ -144,10 +144,10 @@ def _benches(plan: Plan, say: Say) -> Table:
         [name, words(passes), *(f"{place:.1f}" for place in places)]
         for name, passes, places in zip(plan.names, timing.passes, timing.handles[:, :-1].T.tolist(), strict=True)
     ]
-    return Table(say("Front handles of benches [m]", "各节前把手 [m]"), columns, rows, frozenset({0}))
+    return PlanTable(say("Front handles of benches [m]", "各节前把手 [m]"), columns, rows, frozenset({0}))
 
 
-def _events(plan: Plan, say: Say) -> Table:
+def _events(plan: Plan, say: Say) -> PlanTable:
     """A few events of the dance with their times."""
     timing, words = plan.ground.timing, plan.clock.words
     last = timing.handles[-1]
@@ -159,7 +159,7 @@ def _events(plan: Plan, say: Say) -> Table:
         [say("the dance ends, tail at", "结束，龙尾在"), f"{last[-1]:.1f} m", words(timing.moments[-1])],
     ]
     columns = [say("event", "事件"), say("along the path", "沿路线"), say("time", "时间")]
-    return Table(say("In short", "概要"), columns, rows, frozenset({0}))
+    return PlanTable(say("In short", "概要"), columns, rows, frozenset({0}))
 
 
 def _speeds(plan: Plan, say: Say) -> Iterator[list[str]]:

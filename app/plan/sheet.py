@@ -83,9 +83,9 @@ def scale_of(name: PaperName, low: Floats, high: Floats) -> Scale:
             room = np.array([right - left, top - bottom]) - 2.0 * PAD
             if (size / ratio <= room).all():
                 return Scale(paper, ratio, (middle[0], middle[1]))
-    told = quantities("m", 6, got=max(size) / 1000.0, most=min(PAPERS[name]) * RATIOS[-1] / 1000.0)
+    values = quantities("m", 6, got=max(size) / 1000.0, most=min(PAPERS[name]) * RATIOS[-1] / 1000.0)
     rule = "must be less than {most} across, to fit on {paper} at 1:{ratio}"
-    raise InvalidValue("path", rule, paper=name, ratio=RATIOS[-1], **told)
+    raise InvalidValue("path", rule, paper=name, ratio=RATIOS[-1], **values)
 
 
 Box = tuple[float, float, float, float]
@@ -141,8 +141,8 @@ class Sheet:
 
     def line(self, points: Any, clip: Rectangle | None = None, **look: Any) -> None:
         x, y = np.asarray(points, dtype=np.float64).T
-        given: dict[str, Any] = {"color": "black", "linewidth": 0.5, "solid_capstyle": "butt"} | look
-        (drawn,) = self.axes.plot(x, y, **given)
+        options: dict[str, Any] = {"color": "black", "linewidth": 0.5, "solid_capstyle": "butt"} | look
+        (drawn,) = self.axes.plot(x, y, **options)
         if clip is not None:
             drawn.set_clip_path(clip)
 
@@ -263,8 +263,8 @@ def _scale_bar(sheet: Sheet, scale: Scale, x: float, bottom: float, top: float) 
     for share in (0.0, 0.5, 1.0):
         words = f"{length * share:g}" + (" m" if share == 1.0 else "")
         sheet.words(x + share * wide, y + 2.4, words, 6.0, ha="center")
-    told = say(f"print at 100 %: this bar is {wide:g} mm long", f"请按 100 % 打印：此线段长 {wide:g} mm")
-    sheet.words(x - 3.0, bottom + 3.0, told, 6.0, within=56.0)
+    note = say(f"print at 100 %: this bar is {wide:g} mm long", f"请按 100 % 打印：此线段长 {wide:g} mm")
+    sheet.words(x - 3.0, bottom + 3.0, note, 6.0, within=56.0)
 
 
 def north_arrow(sheet: Sheet, x: float, y: float, geographic: bool) -> None:

@@ -20,7 +20,7 @@ WIDEST = 45.0
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class PlanTable:
     """A table: heading, names of the columns, rows of text. A column of words is aligned left, one of numbers right."""
 
     heading: str
@@ -29,7 +29,7 @@ class Table:
     left: frozenset[int] = frozenset()
 
 
-def widths_of(sheet: Sheet, table: Table) -> list[float]:
+def widths_of(sheet: Sheet, table: PlanTable) -> list[float]:
     """Width of each column [mm]."""
     heads = [sheet.width(word, TYPE, bold=True) for word in table.columns]
     widest = [max(sheet.width(word, TYPE) for word in column) for column in zip(*table.rows, strict=True)]
@@ -40,7 +40,7 @@ def widths_of(sheet: Sheet, table: Table) -> list[float]:
     return [width + more / len(widths) for width in widths]
 
 
-def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list[Sheet]:
+def draw_tables(tables: Sequence[PlanTable], new_sheet: Callable[[], Sheet]) -> list[Sheet]:
     """Draw tables in order, in blocks side by side, on as many sheets as they need."""
     sheets = [new_sheet()]
     room = sheets[0].paper.room
@@ -72,7 +72,7 @@ def draw_tables(tables: Sequence[Table], new_sheet: Callable[[], Sheet]) -> list
 
 
 def _draw_block(
-    sheet: Sheet, table: Table, rows: Sequence[Sequence[str]], widths: Sequence[float], at: tuple[float, float]
+    sheet: Sheet, table: PlanTable, rows: Sequence[Sequence[str]], widths: Sequence[float], at: tuple[float, float]
 ) -> float:
     """Draw some rows of a table below and right of a corner; returns where the next block may begin."""
     x, y = at

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import core
-from app.files.film import Stage
+from app.files.film import FilmPicture
 from app.files.film_spec import FilmSpec
 from app.wire.benches import bench_table
 from app.wire.clocks import time_of_day
@@ -234,6 +234,6 @@ def test_the_day_begins_again_at_midnight() -> None:
 
 
 def test_a_film_shows_the_time_of_day() -> None:
-    stage = Stage(PLACED, FilmSpec(0.0, 130.0, height=90, start_clock="19:30"), None, "")
+    stage = FilmPicture(PLACED, FilmSpec(0.0, 130.0, height=90, start_clock="19:30"), None, "")
     stage.frame(101.5, core.bench_outlines(PLACED.dragon, core.trajectory(PLACED, 101.5).position))
     assert stage.time.get_text() == "19:31:41  101.50 s"

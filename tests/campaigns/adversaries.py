@@ -52,7 +52,7 @@ def to_circle(pitch: float) -> tuple[Dance, float]:
 
 
 @dataclass
-class Place:
+class PairAtTime:
     """Two benches of a dance at a time. stray: largest distance of their holes from their places [m]"""
 
     dance: Dance
@@ -127,13 +127,13 @@ def seek(dance: Dance, known: Tolerance, part: float = 0.999, draws: int = DRAWS
     stray, rng, sought = part * known.stray, np.random.default_rng(7), Sought()
     at = known.time
     for time, pair in [(at, (0, 19)), (at - 1.0, (0, 19)), (known.stop, (0, 18)), (322.9, (0, 17)), (320.0, (1, 20))]:
-        place = Place(dance, time, pair, stray)
+        place = PairAtTime(dance, time, pair, stray)
         strays = place.drawn(rng, draws)
         gaps = sought.add(place.gaps(strays))
         place.vary(rng, place.downhill(strays[np.argsort(gaps)[:DOWNHILL]], sought), sought)
     others = clearance_profile(dance, rng.uniform(0.0, known.stop, ANY_TIMES))
     for time, (a, b) in zip(others.time.tolist(), others.benches.tolist(), strict=True):
-        place = Place(dance, time, (a, b), stray)
+        place = PairAtTime(dance, time, (a, b), stray)
         sought.add(place.gaps(place.drawn(rng, ANY_DRAWS)))
     return sought
 

@@ -17,7 +17,7 @@ import httpx
 from app.files.tables import XLSX_TYPE
 from app.jobs.job import JobState
 from app.jobs.store import Store
-from tests.support.job_service import Service, direct, wait_for
+from tests.support.job_service import JobService, direct, wait_for
 
 ROLES = ("child", "spare", "runner", "worker", "parent")
 # Between two kills, at most [s].
@@ -43,7 +43,7 @@ def wanted(chance: random.Random) -> Any:
     )
 
 
-def post(service: Service, asked: Any) -> str:
+def post(service: JobService, asked: Any) -> str:
     """Address of a new job, also where a process dies while it is asked for."""
     while True:
         try:
@@ -52,7 +52,7 @@ def post(service: Service, asked: Any) -> str:
             time.sleep(0.1)
 
 
-def kill_one(service: Service, chance: random.Random) -> str:
+def kill_one(service: JobService, chance: random.Random) -> str:
     """Kills one process and says what it was; the parent is started again."""
     role = chance.choice(ROLES)
     # A spare process may be a job's by the time it is killed, and a job whose process dies three times has failed.
@@ -70,7 +70,7 @@ def kill_one(service: Service, chance: random.Random) -> str:
     return role
 
 
-def survive(service: Service, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
+def survive(service: JobService, kills: int, seed: int, pause: float = PAUSE, busy: int = BUSY) -> dict[str, int]:
     """Kill a number of processes; then all jobs must be done, with the bytes of the direct calls.
 
     returns: number of processes killed, by role
@@ -100,7 +100,7 @@ def survive(service: Service, kills: int, seed: int, pause: float = PAUSE, busy:
 if __name__ == "__main__":
     with (
         tempfile.TemporaryDirectory() as name,
-        Service(
+        JobService(
             Path(name) / "data", workers=2, jobs_client_max=1000, jobs_client_kept_max=1000, deadline_seconds=600
         ) as service,
     ):

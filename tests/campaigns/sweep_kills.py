@@ -78,7 +78,7 @@ def free_port() -> int:
         return port
 
 
-class Cluster:
+class KilledCluster:
     """A scheduler on a port of its own and workers, kept alive."""
 
     def __init__(self, folder: Path, workers: int = 2) -> None:
@@ -108,7 +108,7 @@ def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> C
     chance, killed = random.Random(seed), Counter[str]()
     (folder / "spec.json").write_bytes(orjson.dumps(told))
     spec, output = Spec.of(told), folder / "out"
-    cluster = Cluster(folder)
+    cluster = KilledCluster(folder)
     sweep = ("run", str(folder / "spec.json"), "--output", str(output), "--dask", cluster.address)
     client = Kept(folder / "client.log", COMMAND, "sweep", *sweep)
     kinds = (KINDS * kills)[:kills]

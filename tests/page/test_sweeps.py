@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from tests.support import polite
 from tests.support.axe import serious
-from tests.support.job_service import SHORT, Service, wait_for
+from tests.support.job_service import SHORT, JobService, wait_for
 from tests.support.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
@@ -23,12 +23,12 @@ MARGINS = {"left": 64, "right": 16, "top": 12, "bottom": 44}
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(tmp_path_factory.mktemp("page"), sweep_processes=1, deadline_seconds=50) as service:
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+    with JobService(tmp_path_factory.mktemp("page"), sweep_processes=1, deadline_seconds=50) as service:
         yield service
 
 
-def base(service: Service) -> str:
+def base(service: JobService) -> str:
     return f"http://127.0.0.1:{service.port}"
 
 
@@ -61,7 +61,7 @@ def drawn(page: Any) -> set[tuple[int, ...]]:
     return {tuple(map(int, text.split())) for text in page.locator("#map canvas").evaluate(code)}
 
 
-def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: Service) -> None:
+def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: Any, service: JobService) -> None:
     page = open_page("?benches=40&margin=0.05", base=base(service))
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
     page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
@@ -81,7 +81,7 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
 
 
 def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum_pitch_is_danced(
-    open_page: Any, service: Service
+    open_page: Any, service: JobService
 ) -> None:
     page = open_page("?benches=30", base=base(service), locale="zh-CN")
     ask(page, "minimum_pitch", ("turning_diameter", 8, 10, 3))
@@ -98,7 +98,7 @@ def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum
     expect(page.locator("#turning_diameter")).to_have_value("10")
 
 
-def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page: Any, service: Service) -> None:
+def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page: Any, service: JobService) -> None:
     page = open_page("?benches=41", base=base(service), timezone_id="UTC")
     ask(page, "shortest_turn", ("pitch", 1.6, 1.8, 90))
     running = page.locator("#jobs li[data-state=running]")
@@ -156,7 +156,7 @@ def is_for_everyone(page: Any) -> None:
 
 def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any, tmp_path: Path) -> None:
     limits = {"token": TOKEN, "sweep_processes": 1, "sweep_designs_max": 100, "deadline_seconds": 50}
-    with Service(tmp_path, **limits) as guarded:
+    with JobService(tmp_path, **limits) as guarded:
         guarded.client.headers["Authorization"] = f"Bearer {TOKEN}"
         address = guarded.post(SHORT)
         page = open_page("?benches=12", base=base(guarded), failing=True, viewport=PHONE, is_mobile=True)
@@ -180,7 +180,7 @@ def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any,
         refuses_in_words(page)
 
 
-def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: Service) -> None:
+def test_a_film_is_a_job_whose_result_is_a_file(open_page: Any, service: JobService) -> None:
     page = open_page("?path=route&benches=3&route=-5,0_6,0", base=base(service))
     page.locator("#judgement .value", has_text="Can be danced").wait_for()
     reached(page.locator("#keep"))

@@ -45,7 +45,7 @@ class Process:
             os.kill(self.pid, signal.SIGKILL)
 
 
-class Service:
+class JobService:
     """`bench-dragon serve` on a free port, with this data folder and these settings."""
 
     def __init__(self, folder: Path, workers: int = 1, **settings: object) -> None:

@@ -12,7 +12,7 @@ from app.sweeps.questions import Question
 from core import InvalidValue
 
 
-class Place(BaseModel, extra="forbid"):
+class OddRequest(BaseModel, extra="forbid"):
     """A place."""
 
     x: float = Field(0.0, le=100.0)
@@ -30,7 +30,7 @@ class Height(BaseModel):
     digits: list[int]
 
 
-def height(asked: Place) -> Height:
+def height(asked: OddRequest) -> Height:
     """x times y; refused at x = 13, a mistake at x = 14, the end of the process at the deadly places."""
     if asked.x == 13.0:
         raise InvalidValue("x", "must not be 13 m")
@@ -44,13 +44,13 @@ def height(asked: Place) -> Height:
     )
 
 
-def slow_height(asked: Place) -> Height:
+def slow_height(asked: OddRequest) -> Height:
     """The same after a while, long enough to be killed in between."""
     time.sleep(0.02)
     return height(asked)
 
 
-def interrupted_height(asked: Place) -> Height:
+def interrupted_height(asked: OddRequest) -> Height:
     """Killed by another one at the deadly places, as by the kernel of a machine that is out of memory."""
     if asked.x in asked.deadly:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -60,7 +60,7 @@ def interrupted_height(asked: Place) -> Height:
 class Unanswerable:
     """A question that no other process can unpack."""
 
-    def __call__(self, asked: Place) -> Height:
+    def __call__(self, asked: OddRequest) -> Height:
         """The height."""
         return height(asked)
 
@@ -73,7 +73,7 @@ def _missing(what: str) -> None:
     raise ImportError(what)
 
 
-LAND = Question("height", Place, Height, height, 1e-3, "height")
-SLOW = Question("slow_height", Place, Height, slow_height, 2e-2, "height")
-UNANSWERABLE = Question("height", Place, Height, Unanswerable(), 1e-3, "height")
-INTERRUPTED = Question("interrupted_height", Place, Height, interrupted_height, 1e-3, "height")
+LAND = Question("height", OddRequest, Height, height, 1e-3, "height")
+SLOW = Question("slow_height", OddRequest, Height, slow_height, 2e-2, "height")
+UNANSWERABLE = Question("height", OddRequest, Height, Unanswerable(), 1e-3, "height")
+INTERRUPTED = Question("interrupted_height", OddRequest, Height, interrupted_height, 1e-3, "height")

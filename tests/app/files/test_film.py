@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from app.files.film import Stage, film
+from app.files.film import FilmPicture, film
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
 from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, first_contact, trajectory
 from tests.support.command import run
@@ -32,7 +32,7 @@ def is_like(pixel: np.ndarray, colour: tuple[int, int, int]) -> bool:
     return bool(np.abs(pixel.astype(int) - colour).max() < NEAR)
 
 
-def centres(stage: Stage, dance: Dance, instant: float) -> np.ndarray:
+def centres(stage: FilmPicture, dance: Dance, instant: float) -> np.ndarray:
     """Rows and columns of the middle of every bench at one instant."""
     middle = bench_poses(trajectory(dance, [instant]).position[0])[:, :2]
     columns, rows = stage.axes.transData.transform(middle).T
@@ -52,7 +52,7 @@ def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path
     assert done.returncode == 0, done.stderr
     found = decoded(file.read_bytes())
     spec = FilmSpec(0.0, 90.0, 1.0, 5)
-    stage = Stage(dance, spec, None, "")
+    stage = FilmPicture(dance, spec, None, "")
     assert len(found) == spec.times.size == 5
     for instant, picture in zip(spec.times, found, strict=True):
         assert picture.shape == (1080, 1920, 3)
@@ -79,7 +79,7 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_pat
     else:
         with Image.open(file) as picture:
             before, last = (np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture))
-    stage = Stage(dance, FilmSpec(0.0, found.time), None, "")
+    stage = FilmPicture(dance, FilmSpec(0.0, found.time), None, "")
     for instant, picture, marked in ((0.0, before, {0}), (found.time, last, {0, 1, 8})):
         places = centres(stage, dance, instant)
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
@@ -92,7 +92,7 @@ def test_the_contest_s_turn_is_filmed_by_its_name(tmp_path: Path) -> None:
     done = run("film", "--path", "turn", "--benches", "30", *times, "--output", str(file))
     assert done.returncode == 0, done.stderr
     dance, spec = Dance(Dragon(benches=30), Turn(1.7)), FilmSpec(-20.0, 40.0, 1.0, 4)
-    stage = Stage(dance, spec, None, "")
+    stage = FilmPicture(dance, spec, None, "")
     for instant, picture in zip(spec.times, decoded(file.read_bytes()), strict=True):
         places = centres(stage, dance, float(instant))
         assert is_like(picture[tuple(places[0])], HEAD), instant

@@ -12,7 +12,7 @@ from app.files.tables import Language
 from app.grade import words
 from app.grade.diagnosis import speed_errors
 from app.grade.expected import Workbook, dance_of, of_dance
-from app.grade.geometry import Seen, geometries
+from app.grade.geometry import SheetClues, geometries
 from app.grade.shortcuts import UNITS, shortcuts
 
 GRADE = Path(words.__file__).parent
@@ -26,7 +26,7 @@ def test_every_known_error_has_words(language: Language) -> None:
     known = [
         (model.error, model.values)
         for workbook, head in heads.items()
-        for model in geometries(dance_of(workbook), np.zeros(1), Seen(np.array(head), (2.96, 1.75)))
+        for model in geometries(dance_of(workbook), np.zeros(1), SheetClues(np.array(head), (2.96, 1.75)))
     ]
     known += [(model.error, model.values) for model in speed_errors(of_dance(dance_of(Workbook.RESULT1)))]
     known += [(one.error, one.values) for name in UNITS for one in shortcuts(name)]

@@ -16,14 +16,14 @@ import pytest
 from app.jobs.places import OfService
 from core import BenchDragonError
 from tests.support import command
-from tests.support.job_service import ENDLESS, SHORT, Service, direct, wait_for
+from tests.support.job_service import ENDLESS, SHORT, JobService, direct, wait_for
 
 TOKEN = "correct horse"
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(tmp_path_factory.mktemp("jobs"), token=TOKEN) as service:
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+    with JobService(tmp_path_factory.mktemp("jobs"), token=TOKEN) as service:
         service.client.headers["Authorization"] = f"Bearer {TOKEN}"
         yield service
 
@@ -33,13 +33,13 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.fixture(params=["folder", "service"])
-def place(request: pytest.FixtureRequest, service: Service) -> list[str]:
+def place(request: pytest.FixtureRequest, service: JobService) -> list[str]:
     if request.param == "folder":
         return ["--data", str(service.folder)]
     return ["--url", f"http://127.0.0.1:{service.port}", "--token", TOKEN]
 
 
-def test_a_job_is_listed_shown_answered_and_removed(service: Service, place: list[str], tmp_path: Path) -> None:
+def test_a_job_is_listed_shown_answered_and_removed(service: JobService, place: list[str], tmp_path: Path) -> None:
     address = service.post(SHORT)
     job = address.rpartition("/")[2]
     service.finished(address)
@@ -56,7 +56,7 @@ def test_a_job_is_listed_shown_answered_and_removed(service: Service, place: lis
     assert f"there is no job {job}" in gone.stderr.lower().replace('"', "")
 
 
-def test_all_jobs_or_the_old_ones_are_cancelled(service: Service, place: list[str]) -> None:
+def test_all_jobs_or_the_old_ones_are_cancelled(service: JobService, place: list[str]) -> None:
     def listed() -> dict[str, str]:
         return {job["jobID"]: job["status"] for job in service.client.get("/jobs").json()["jobs"]}
 
@@ -80,7 +80,7 @@ def test_all_jobs_or_the_old_ones_are_cancelled(service: Service, place: list[st
     assert list((service.folder / "results").iterdir()) == []
 
 
-def test_a_result_goes_to_standard_output(service: Service) -> None:
+def test_a_result_goes_to_standard_output(service: JobService) -> None:
     address = service.post(SHORT)
     service.finished(address)
     done = run("result", address.rpartition("/")[2], "--data", str(service.folder))
@@ -144,7 +144,7 @@ def test_a_damaged_store_is_refused_in_one_line(tmp_path: Path) -> None:
     assert f"--data {tmp_path} cannot be used: file is not a database" in done.stderr
 
 
-def test_a_service_says_what_it_refuses(service: Service) -> None:
+def test_a_service_says_what_it_refuses(service: JobService) -> None:
     done = run("list", "--url", f"http://127.0.0.1:{service.port}")
     assert done.returncode == 2
     assert "Jobs and uploads need the token" in done.stderr

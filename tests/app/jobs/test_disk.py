@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.job_service import ENDLESS, SHORT, Service
+from tests.support.job_service import ENDLESS, SHORT, JobService
 
 DISK_BYTES = 1_000_000
 # About 1.3 MB of JSON, which the disk does not hold.
@@ -40,7 +40,7 @@ def fill(folder: Path, name: str = "filler") -> Path:
 
 @pytest.mark.root
 def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> None:
-    with Service(small_disk / "data") as service:
+    with JobService(small_disk / "data") as service:
         first = service.post(SHORT)
         assert service.finished(first)["status"] == "successful"
         too_big = service.post(BIG)
@@ -66,7 +66,7 @@ def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> 
 
 @pytest.mark.root
 def test_jobs_can_be_removed_one_after_the_other_while_the_disk_stays_full(small_disk: Path) -> None:
-    with Service(small_disk / "data") as service:
+    with JobService(small_disk / "data") as service:
         made = [service.post(BIG) for _ in range(3)]  # They fail, so that no result is removed with them.
         for address in made:
             assert service.finished(address)["status"] == "failed"

@@ -13,7 +13,7 @@ import httpx
 import pytest
 
 from app.jobs.room import DAY, FRESH
-from tests.support.job_service import ENDLESS, LONG, PATIENCE, SHORT, Service, wait_for
+from tests.support.job_service import ENDLESS, LONG, PATIENCE, SHORT, JobService, wait_for
 
 TOKEN = "correct horse"
 BEARER = {"Authorization": f"Bearer {TOKEN}"}
@@ -22,7 +22,7 @@ AGE = 2.0  # [s] that a finished job is kept
 
 
 @pytest.fixture(scope="module")
-def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
     """A service with small limits, and a token that its client has."""
     limits = {
         "token": TOKEN,
@@ -32,18 +32,18 @@ def strict(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         "jobs_listeners_max": 1,
         "job_result_bytes_max": RESULT_BYTES_MAX,
     }
-    with Service(tmp_path_factory.mktemp("strict"), **limits) as service:
+    with JobService(tmp_path_factory.mktemp("strict"), **limits) as service:
         service.client.headers.update(BEARER)
         yield service
 
 
-def remove(service: Service, address: str) -> None:
+def remove(service: JobService, address: str) -> None:
     while service.client.delete(address).status_code == 200:
         pass
 
 
 @pytest.mark.parametrize("headers", [{}, {"Authorization": "Bearer wrong"}, {"Authorization": TOKEN}], ids=str)
-def test_without_the_token_no_job_is_made_and_none_is_listed(strict: Service, headers: dict[str, str]) -> None:
+def test_without_the_token_no_job_is_made_and_none_is_listed(strict: JobService, headers: dict[str, str]) -> None:
     given = {"Authorization": "", **headers}
     answers = [
         strict.client.post("/jobs", json=SHORT, headers=given),
@@ -62,12 +62,12 @@ def test_without_the_token_no_job_is_made_and_none_is_listed(strict: Service, he
 
 
 @pytest.mark.parametrize("call", ["/grade?name=result1.csv", "/places"])
-def test_who_has_the_token_may_send_a_file(strict: Service, call: str) -> None:
+def test_who_has_the_token_may_send_a_file(strict: JobService, call: str) -> None:
     headers = {**BEARER, "Content-Type": "application/octet-stream"}
     assert strict.client.post(call, content=b"1,2", headers=headers).status_code in {200, 422}
 
 
-def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict: Service) -> None:
+def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(strict: JobService) -> None:
     address = strict.post(SHORT)
     listed = strict.client.get("/jobs").json()["jobs"]
     assert [f"/jobs/{job['jobID']}" for job in listed] == [address]
@@ -77,7 +77,7 @@ def test_who_has_the_token_sees_all_jobs_and_who_has_an_address_sees_that_job(st
     remove(strict, address)
 
 
-def test_a_client_has_only_so_many_unfinished_jobs_and_then_what_is_finished_gives_way(strict: Service) -> None:
+def test_a_client_has_only_so_many_unfinished_jobs_and_then_what_is_finished_gives_way(strict: JobService) -> None:
     small = {"question": "trajectory", "request": {"dragon": {"benches": 2}, "times": [0]}}
     addresses = [strict.post(small), strict.post(ENDLESS)]
     strict.finished(addresses[0])
@@ -100,7 +100,7 @@ def test_a_client_has_only_so_many_unfinished_jobs_and_then_what_is_finished_giv
     remove(strict, strict.post(small))
 
 
-def test_a_result_that_is_too_long_is_not_kept(strict: Service) -> None:
+def test_a_result_that_is_too_long_is_not_kept(strict: JobService) -> None:
     address = strict.post({"question": "trajectory", "request": {"times": [0]}})
     assert strict.finished(address)["status"] == "failed"
     answer = strict.client.get(f"{address}/result")
@@ -110,7 +110,7 @@ def test_a_result_that_is_too_long_is_not_kept(strict: Service) -> None:
     remove(strict, address)
 
 
-def test_only_so_many_clients_may_listen(strict: Service) -> None:
+def test_only_so_many_clients_may_listen(strict: JobService) -> None:
     address = strict.post(LONG)
     with strict.client.stream("GET", f"{address}/events") as first:
         lines = first.iter_lines()
@@ -126,7 +126,7 @@ def test_only_so_many_clients_may_listen(strict: Service) -> None:
 
 
 @pytest.fixture(scope="module")
-def brief(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def brief(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
     """A service whose jobs have little memory and are soon forgotten."""
     limits = {
         "job_memory_max": 2**31,
@@ -134,11 +134,11 @@ def brief(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
         "jobs_bytes_max": 1_000,
         "cells_max": 10**9,
     }
-    with Service(tmp_path_factory.mktemp("brief"), **limits) as service:
+    with JobService(tmp_path_factory.mktemp("brief"), **limits) as service:
         yield service
 
 
-def test_results_expire_and_then_all_that_is_known_of_the_job(brief: Service) -> None:
+def test_results_expire_and_then_all_that_is_known_of_the_job(brief: JobService) -> None:
     address = brief.post(SHORT)
     assert brief.finished(address)["status"] == "successful"
     assert brief.client.get(f"{address}/result").status_code == 200
@@ -152,7 +152,7 @@ def test_results_expire_and_then_all_that_is_known_of_the_job(brief: Service) ->
     wait_for(lambda: brief.client.get(address).status_code == 404, 20 * AGE)
 
 
-def at(service: Service, address: str) -> httpx.Client:
+def at(service: JobService, address: str) -> httpx.Client:
     """A client of the service at another address of this machine."""
     transport = httpx.HTTPTransport(local_address=address)
     return httpx.Client(base_url=f"http://127.0.0.1:{service.port}", transport=transport, timeout=PATIENCE)
@@ -160,7 +160,7 @@ def at(service: Service, address: str) -> httpx.Client:
 
 def test_one_client_with_eight_long_jobs_keeps_nobody_waiting(tmp_path: Path) -> None:
     """With the default settings, and beside it how full the store is."""
-    with Service(tmp_path) as service, at(service, "127.0.0.2") as other:
+    with JobService(tmp_path) as service, at(service, "127.0.0.2") as other:
         long = [service.post(ENDLESS) for _ in range(8)]
         wait_for(lambda: [service.status(one)["status"] for one in long].count("running") == 2)
         address = other.post("/jobs", json=SHORT).headers["location"]
@@ -177,7 +177,7 @@ def test_one_client_with_eight_long_jobs_keeps_nobody_waiting(tmp_path: Path) ->
 
 
 def test_a_service_with_one_place_runs_the_jobs_of_each_client_in_turn(tmp_path: Path) -> None:
-    with Service(tmp_path, jobs_running_max=1) as service, at(service, "127.0.0.2") as other:
+    with JobService(tmp_path, jobs_running_max=1) as service, at(service, "127.0.0.2") as other:
         first = service.post(ENDLESS)
         service.until(first, "running")
         samples = service.post({"question": "contact_probability", "request": {"samples": 100_000}})
@@ -192,7 +192,11 @@ def test_a_service_with_one_place_runs_the_jobs_of_each_client_in_turn(tmp_path:
 
 def test_a_client_that_fills_the_store_closes_it_for_nobody(tmp_path: Path) -> None:
     limits = {"jobs_max": 12, "jobs_client_kept_max": 8, "jobs_client_max": 100}
-    with Service(tmp_path, **limits) as service, at(service, "127.0.0.2") as other, at(service, "127.0.0.3") as third:
+    with (
+        JobService(tmp_path, **limits) as service,
+        at(service, "127.0.0.2") as other,
+        at(service, "127.0.0.3") as third,
+    ):
         theirs = other.post("/jobs", json=SHORT).headers["location"]
         wait_for(lambda: other.get(f"{theirs}/result").status_code == 200)
         greedy = []
@@ -210,7 +214,7 @@ def test_a_client_that_fills_the_store_closes_it_for_nobody(tmp_path: Path) -> N
 
 
 def test_where_nothing_may_give_way_the_wait_is_known(tmp_path: Path) -> None:
-    with Service(tmp_path, jobs_max=2, jobs_client_max=2) as service, at(service, "127.0.0.2") as other:
+    with JobService(tmp_path, jobs_max=2, jobs_client_max=2) as service, at(service, "127.0.0.2") as other:
         for _ in range(2):
             service.post(ENDLESS)
         own = service.client.post("/jobs", json=SHORT)
@@ -222,7 +226,7 @@ def test_where_nothing_may_give_way_the_wait_is_known(tmp_path: Path) -> None:
         assert FRESH <= int(full.headers["retry-after"]) <= FRESH + 5
 
 
-def test_a_job_that_wants_too_much_memory_fails_in_words(brief: Service) -> None:
+def test_a_job_that_wants_too_much_memory_fails_in_words(brief: JobService) -> None:
     wanted = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 1e-4}}}
     address = brief.post(wanted)
     assert brief.finished(address)["status"] == "failed"
@@ -233,7 +237,7 @@ def test_a_job_that_wants_too_much_memory_fails_in_words(brief: Service) -> None
 
 def test_a_job_that_runs_too_long_is_ended(tmp_path: Path) -> None:
     wanted = LONG | {"request": {"times": {"stop": 400, "step": 0.1}}}
-    with Service(tmp_path, job_seconds_max=1, workbook_cells_max=10**7) as service:
+    with JobService(tmp_path, job_seconds_max=1, workbook_cells_max=10**7) as service:
         status = service.finished(service.post(wanted))
         assert status["status"] == "failed"
         assert "took longer than 1 s" in status["message"]
@@ -243,7 +247,7 @@ def test_a_job_that_runs_too_long_is_ended(tmp_path: Path) -> None:
 def test_a_data_folder_that_cannot_be_used_costs_the_jobs_alone(tmp_path: Path) -> None:
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
-    with Service(blocked) as service:
+    with JobService(blocked) as service:
         refused = service.client.post("/jobs", json=SHORT)
         assert refused.status_code == 503
         assert "data folder cannot be used" in refused.json()["detail"]
@@ -269,7 +273,7 @@ def test_a_store_that_fails_while_the_service_runs_promises_nothing(
     tmp_path: Path, harm: Callable[[Path], None]
 ) -> None:
     folder = tmp_path / "data"
-    with Service(folder) as service:
+    with JobService(folder) as service:
         assert service.finished(service.post(SHORT))["status"] == "successful"
         assert service.client.get("/readyz").status_code == 200
         harm(folder)
@@ -290,6 +294,6 @@ def test_a_store_that_fails_while_the_service_runs_promises_nothing(
         assert max(faults.values()) <= 2  # of the keeper and of the runner
 
 
-def test_other_users_of_the_machine_cannot_read_the_data_folder(strict: Service) -> None:
+def test_other_users_of_the_machine_cannot_read_the_data_folder(strict: JobService) -> None:
     assert (os.stat(strict.folder / "jobs.sqlite").st_mode & 0o077) == 0
     assert (os.stat(strict.folder / "results").st_mode & 0o077) == 0

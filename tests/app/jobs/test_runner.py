@@ -20,19 +20,19 @@ from app.jobs.store import Store
 from app.processes.messages import Kind, send
 from app.settings import Settings
 from tests.campaigns.job_kills import post, survive
-from tests.support.job_service import ENDLESS, LINGER, SCAN, SHORT, Service, direct, wait_for
+from tests.support.job_service import ENDLESS, LINGER, SCAN, SHORT, JobService, direct, wait_for
 
 KILLS, SEED = 4, 1
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
     settings = {"jobs_client_max": 1000, "deadline_seconds": 600}
-    with Service(tmp_path_factory.mktemp("jobs"), workers=2, **settings) as service:
+    with JobService(tmp_path_factory.mktemp("jobs"), workers=2, **settings) as service:
         yield service
 
 
-def begun(service: Service, wanted: Any = SCAN) -> str:
+def begun(service: JobService, wanted: Any = SCAN) -> str:
     """Address of a new job that has a process by now."""
     address = service.post(wanted)
     service.until(address, "running")
@@ -40,7 +40,7 @@ def begun(service: Service, wanted: Any = SCAN) -> str:
     return address
 
 
-def kill(service: Service, role: str) -> None:
+def kill(service: JobService, role: str) -> None:
     """Kills the processes of this role, of which there is one at least, and returns when they are gone."""
     wait_for(lambda: service.of(role))
     killed = {process.pid for process in service.of(role) if process.kill() is None}
@@ -48,11 +48,11 @@ def kill(service: Service, role: str) -> None:
 
 
 @pytest.mark.deep  # The next one kills each of them once.
-def test_processes_may_be_killed_at_any_moment(service: Service) -> None:
+def test_processes_may_be_killed_at_any_moment(service: JobService) -> None:
     assert sum(survive(service, KILLS, SEED, pause=0.5, busy=1).values()) == KILLS
 
 
-def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: Service) -> None:
+def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: JobService) -> None:
     done = service.post(SHORT)
     service.finished(done)  # Its process waits for another job.
     result = service.client.get(f"{done}/result").content
@@ -78,7 +78,7 @@ def test_jobs_go_on_when_a_process_or_all_of_the_service_is_killed(service: Serv
 
 def test_a_process_does_one_job_after_another_until_one_needs_much_memory(tmp_path: Path) -> None:
     large = {"question": "trajectory", "request": {"times": {"stop": 400, "step": 0.04}}, "accept": ARROW_TYPE}
-    with Service(tmp_path, cells_max=10**7) as service:
+    with JobService(tmp_path, cells_max=10**7) as service:
         done = set()
         for pitch in (0.5, 0.51):
             service.finished(service.post(SHORT | {"request": {"pitch": pitch}}))
@@ -89,7 +89,7 @@ def test_a_process_does_one_job_after_another_until_one_needs_much_memory(tmp_pa
         wait_for(lambda: not service.of("child") + service.of("spare"), 0.5 * runner.IDLE_SECONDS)
 
 
-def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) -> None:
+def test_a_job_that_ends_its_process_three_times_has_failed(service: JobService) -> None:
     address = begun(service, ENDLESS)
     for _ in range(3):
         kill(service, "child")
@@ -101,7 +101,7 @@ def test_a_job_that_ends_its_process_three_times_has_failed(service: Service) ->
 
 
 def test_two_services_with_one_folder_have_one_runner(tmp_path: Path) -> None:
-    with Service(tmp_path) as one, Service(tmp_path) as two:
+    with JobService(tmp_path) as one, JobService(tmp_path) as two:
         addresses = [one.post(SHORT), two.post(SHORT | {"request": {"pitch": 0.51}})]
         for address in addresses:
             assert two.finished(address)["status"] == "successful"

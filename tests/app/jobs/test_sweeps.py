@@ -16,7 +16,7 @@ from app.sweeps.shards import ShardPiece, write_part
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from app.wire.question import JSON
-from tests.support.job_service import LINGER, SHORT, Service, wait_for
+from tests.support.job_service import LINGER, SHORT, JobService, wait_for
 
 TOKEN = "correct horse"
 SPEC: dict[str, Any] = {
@@ -41,14 +41,14 @@ ENDLESS_SPEC: dict[str, Any] = {
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
     limits = {
         "token": TOKEN,
         "sweep_designs_max": 500,
         "sweep_shards_max": 100,
         "sweep_processes": 1,
     }
-    with Service(tmp_path_factory.mktemp("sweeps"), **limits) as service:
+    with JobService(tmp_path_factory.mktemp("sweeps"), **limits) as service:
         service.client.headers.update({"Authorization": f"Bearer {TOKEN}"})
         yield service
 
@@ -62,7 +62,7 @@ def undisturbed(folder: Path, told: dict[str, Any]) -> Sweep:
     return Sweep(folder, spec)
 
 
-def parts(service: Service) -> dict[str, tuple[int, int]]:
+def parts(service: JobService) -> dict[str, tuple[int, int]]:
     """The shards of all sweeps: which file each is, and when it was written."""
     found = sorted((service.folder / "sweeps").glob("*/part-*"))
     return {file.name: (file.stat().st_ino, file.stat().st_mtime_ns) for file in found}
@@ -75,12 +75,12 @@ def followed(client: httpx.Client, address: str) -> tuple[Any, list[Any]]:
     return told[-1], [status for status in told if status["done"] is not None]
 
 
-def metric(service: Service, name: str) -> float:
+def metric(service: JobService, name: str) -> float:
     lines = service.client.get("/metrics").text.splitlines()
     return next(float(line.removeprefix(name)) for line in lines if line.startswith(f"{name} "))
 
 
-def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: Service, tmp_path: Path) -> None:
+def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobService, tmp_path: Path) -> None:
     """The tests of killed sweeps and of the cluster compare Parquet."""
     expected = undisturbed(tmp_path / "a", SPEC)
     expected.to_csv(tmp_path / "a.csv")
@@ -108,7 +108,7 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: Service
 
 
 def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_its_shards(
-    service: Service, tmp_path: Path
+    service: JobService, tmp_path: Path
 ) -> None:
     address = service.post(LONG_SPEC, "/sweeps")
     for kill in range(3):
@@ -139,7 +139,9 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
     assert answer.content == expected
 
 
-def test_a_dismissed_sweep_leaves_no_shard_and_no_process_and_others_are_answered_meanwhile(service: Service) -> None:
+def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_meanwhile(
+    service: JobService,
+) -> None:
     address, waits = service.post(ENDLESS_SPEC, "/sweeps"), service.post(ENDLESS_SPEC, "/sweeps")
     wait_for(lambda: parts(service))
     assert service.finished(service.post(SHORT))["status"] == "successful"
@@ -188,7 +190,7 @@ def test_a_dismissed_sweep_leaves_no_shard_and_no_process_and_others_are_answere
     ids=lambda part: part if isinstance(part, str) else None,
 )
 def test_what_is_wrong_is_refused_at_once_by_its_place(
-    service: Service, wanted: Any, status: int, pointer: str, words: str
+    service: JobService, wanted: Any, status: int, pointer: str, words: str
 ) -> None:
     answer = service.client.post("/sweeps", json={"question": "collision_time"} | wanted)
     assert answer.status_code == status
@@ -197,5 +199,5 @@ def test_what_is_wrong_is_refused_at_once_by_its_place(
     assert (error["pointer"][: len(pointer)], error["detail"][: len(words)]) == (pointer, words)
 
 
-def test_the_token_guards_sweeps(service: Service) -> None:
+def test_the_token_guards_sweeps(service: JobService) -> None:
     assert service.client.post("/sweeps", json=SPEC, headers={"Authorization": ""}).status_code == 401

@@ -16,7 +16,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.support.job_service import ENDLESS, LONG, PATIENCE, SCAN, SHORT, Service, direct, wait_for
+from tests.support.job_service import ENDLESS, LONG, PATIENCE, SCAN, SHORT, JobService, direct, wait_for
 
 ANSWERED = [
     SHORT,
@@ -33,12 +33,12 @@ HELD = 1.0
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    with Service(tmp_path_factory.mktemp("jobs")) as service:
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
+    with JobService(tmp_path_factory.mktemp("jobs")) as service:
         yield service
 
 
-def events_of(service: Service, address: str, last: int | None = None) -> list[tuple[int, Any]]:
+def events_of(service: JobService, address: str, last: int | None = None) -> list[tuple[int, Any]]:
     """Numbers and statuses, until the service ends the stream."""
     headers = {} if last is None else {"Last-Event-ID": str(last)}
     numbers, found = [], []
@@ -53,7 +53,7 @@ def events_of(service: Service, address: str, last: int | None = None) -> list[t
     return list(zip(numbers, found, strict=True))
 
 
-def test_a_job_answers_what_its_call_answers_to_the_byte(service: Service) -> None:
+def test_a_job_answers_what_its_call_answers_to_the_byte(service: JobService) -> None:
     addresses = [service.post(wanted) for wanted in ANSWERED]
     for wanted, address in zip(ANSWERED, addresses, strict=True):
         assert service.finished(address)["status"] == "successful"
@@ -63,7 +63,7 @@ def test_a_job_answers_what_its_call_answers_to_the_byte(service: Service) -> No
         assert kept.content == asked.content
 
 
-def test_any_question_is_answered_later_for_who_prefers_that(service: Service) -> None:
+def test_any_question_is_answered_later_for_who_prefers_that(service: JobService) -> None:
     query = {"params": {"pitch": 0.51}}
     later = service.client.get("/collision-time", headers={"Prefer": "wait=5, respond-async"}, **query)
     assert later.status_code == 202
@@ -75,15 +75,15 @@ def test_any_question_is_answered_later_for_who_prefers_that(service: Service) -
 
 
 @pytest.mark.parametrize("path", ["/healthz", "/metrics", "/docs", "/page/main.js"])
-def test_what_is_no_question_is_answered_at_once(service: Service, path: str) -> None:
+def test_what_is_no_question_is_answered_at_once(service: JobService, path: str) -> None:
     assert service.client.get(path, headers={"Prefer": "respond-async"}).status_code == 200
 
 
-def test_head_makes_no_job(service: Service) -> None:
+def test_head_makes_no_job(service: JobService) -> None:
     assert service.client.head("/collision-time", headers={"Prefer": "respond-async"}).status_code == 200
 
 
-def test_what_the_client_has_already_needs_no_job(service: Service) -> None:
+def test_what_the_client_has_already_needs_no_job(service: JobService) -> None:
     tag = service.client.get("/collision-time").headers["etag"]
     headers = {"Prefer": "respond-async", "If-None-Match": tag}
     assert service.client.get("/collision-time", headers=headers).status_code == 304
@@ -104,14 +104,14 @@ def test_what_the_client_has_already_needs_no_job(service: Service) -> None:
     ],
     ids=lambda part: part if isinstance(part, str) else None,
 )
-def test_what_is_wrong_is_refused_at_once_by_its_place(service: Service, wanted: Any, pointer: str) -> None:
+def test_what_is_wrong_is_refused_at_once_by_its_place(service: JobService, wanted: Any, pointer: str) -> None:
     answer = service.client.post("/jobs", json=wanted)
     assert answer.status_code in (406, 422)
     assert answer.headers["content-type"] == "application/problem+json"
     assert answer.json()["errors"][0]["pointer"] == pointer
 
 
-def test_a_job_that_fails_answers_the_problem_of_its_call(service: Service) -> None:
+def test_a_job_that_fails_answers_the_problem_of_its_call(service: JobService) -> None:
     wanted = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1e-3}}}
     address, asked = service.post(wanted), direct(service.client, wanted)
     status, kept = service.finished(address), service.client.get(f"{address}/result")
@@ -123,7 +123,7 @@ def test_a_job_that_fails_answers_the_problem_of_its_call(service: Service) -> N
     assert kept.content == asked.content
 
 
-def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: Service) -> None:
+def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: JobService) -> None:
     address = service.post({"question": "trajectory", "request": {"times": {"stop": 90}}})
     service.finished(address)
     whole = service.client.get(f"{address}/result")
@@ -137,7 +137,7 @@ def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: Se
         assert (answer.status_code, answer.content == content) == (status, True), wanted
 
 
-def test_head_of_events_ends_at_once(service: Service) -> None:
+def test_head_of_events_ends_at_once(service: JobService) -> None:
     address = service.post(ENDLESS)
     answer = service.client.head(f"{address}/events", timeout=5.0)
     assert (answer.status_code, answer.content) == (200, b"")
@@ -145,7 +145,7 @@ def test_head_of_events_ends_at_once(service: Service) -> None:
 
 
 @pytest.fixture(scope="module")
-def followed(service: Service) -> tuple[str, list[tuple[int, Any]]]:
+def followed(service: JobService) -> tuple[str, list[tuple[int, Any]]]:
     """The address of a job that takes a moment, and its events after the first one, with which a stream broke."""
     address = service.post(SCAN)
     with service.client.stream("GET", f"{address}/events") as answer:
@@ -154,7 +154,7 @@ def followed(service: Service) -> tuple[str, list[tuple[int, Any]]]:
 
 
 def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_broke(
-    service: Service, followed: tuple[str, list[tuple[int, Any]]]
+    service: JobService, followed: tuple[str, list[tuple[int, Any]]]
 ) -> None:
     address, after_first = followed
     told = events_of(service, address)
@@ -174,7 +174,7 @@ def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_
 @pytest.mark.parametrize(
     "last", ["9" * 18, "9" * 30, "9" * 5000, "-1", "a"], ids=lambda last: last[:2] + str(len(last))
 )
-def test_a_number_of_no_event_is_no_mistake_of_the_service(service: Service, last: str) -> None:
+def test_a_number_of_no_event_is_no_mistake_of_the_service(service: JobService, last: str) -> None:
     address = service.post(SHORT)
     service.finished(address)
     assert service.client.get(f"{address}/events", headers={"Last-Event-ID": last}).status_code in (200, 204)
@@ -189,7 +189,7 @@ def test_progress_comes_with_a_rate_and_the_time_left(followed: tuple[str, list[
         assert status["time_left"] == pytest.approx(left, abs=1.5 / status["rate"])
 
 
-def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(service: Service) -> None:
+def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(service: JobService) -> None:
     wait_for(lambda: not service.of("child"))
     address = service.post(LONG)
     service.until(address, "running")
@@ -207,7 +207,7 @@ def test_a_dismissed_job_ends_its_process_and_a_second_word_removes_it_wholly(se
 
 
 @pytest.mark.parametrize("is_copied", [False, True])
-def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: Service, is_copied: bool) -> None:
+def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: JobService, is_copied: bool) -> None:
     """is_copied: meanwhile another process copies SQLite's log, as its lock tells."""
     wanted = {"question": "collision_time", "request": {"pitch": 0.512345678901}}
     address = service.post(wanted)
@@ -232,19 +232,19 @@ def test_a_removed_job_leaves_no_byte_of_its_call_and_result(service: Service, i
         wait_for(lambda: not kept())
 
 
-def test_nobody_is_shown_the_jobs_of_others(service: Service) -> None:
+def test_nobody_is_shown_the_jobs_of_others(service: JobService) -> None:
     assert service.client.get("/jobs").status_code == 403
     assert service.client.get(f"/jobs/{'a' * 48}").status_code == 404
 
 
-def test_asking_for_a_job_later_makes_one_job(service: Service) -> None:
+def test_asking_for_a_job_later_makes_one_job(service: JobService) -> None:
     answer = service.client.post("/jobs", json=SHORT, headers={"Prefer": "respond-async"})
     assert answer.status_code == 202
     assert answer.json()["processID"] == "collision_time"
     service.finished(answer.headers["location"])
 
 
-def test_other_calls_answer_while_jobs_run(service: Service) -> None:
+def test_other_calls_answer_while_jobs_run(service: JobService) -> None:
     addresses = [service.post(LONG), service.post(LONG)]
     for address in addresses:
         service.until(address, "running")
@@ -256,7 +256,7 @@ def test_other_calls_answer_while_jobs_run(service: Service) -> None:
 
 
 def test_a_service_that_ends_tells_its_listeners_so(tmp_path: Path) -> None:
-    with Service(tmp_path, workers=1) as service:
+    with JobService(tmp_path, workers=1) as service:
         address = service.post(LONG)
         with service.client.stream("GET", f"{address}/events", timeout=PATIENCE) as answer:
             lines = answer.iter_lines()
@@ -280,7 +280,7 @@ def test_a_service_without_a_data_folder_keeps_jobs_while_it_lives(server: str) 
         assert client.delete(address).status_code == 204
 
 
-def test_a_store_that_is_slow_keeps_nobody_else_waiting(service: Service) -> None:
+def test_a_store_that_is_slow_keeps_nobody_else_waiting(service: JobService) -> None:
     """Another process writes to the store; a quick question that is to become a job waits for it, and no one else."""
     with ThreadPoolExecutor(1) as thread:
         with closing(sqlite3.connect(service.folder / "jobs.sqlite", isolation_level=None)) as other:
@@ -295,7 +295,7 @@ def test_a_store_that_is_slow_keeps_nobody_else_waiting(service: Service) -> Non
         assert later.result().status_code == 202
 
 
-def test_many_removals_keep_no_page_waiting(service: Service) -> None:
+def test_many_removals_keep_no_page_waiting(service: JobService) -> None:
     """Another process writes to the store, so that every removal waits: more of them than the service has threads."""
     addresses = [service.post(SHORT) for _ in range(10)]
     for address in addresses:
