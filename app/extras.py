@@ -35,5 +35,5 @@ def require(extra: str, field: str, what: str) -> None:
     """raises: MissingPackage, at the field and with what to install, when a module of the extra is missing"""
     for module in MODULES[extra]:
         if find_spec(module) is None:
-            words, told = not_installed("{what}", "{package}", "{extra}"), {"package": module, "extra": extra}
-            raise MissingPackage.in_words(field, words, what=what, **told)
+            words, values = not_installed("{what}", "{package}", "{extra}"), {"package": module, "extra": extra}
+            raise MissingPackage.in_words(field, words, what=what, **values)

@@ -27,8 +27,8 @@ PORT_MAX = 65535
 
 
 def _scheduler(address: str) -> str:
-    found = SCHEDULER.fullmatch(address)
-    if found is None or not 1 <= int(found[1] or 1) <= PORT_MAX:
+    match = SCHEDULER.fullmatch(address)
+    if match is None or not 1 <= int(match[1] or 1) <= PORT_MAX:
         raise PydanticCustomError("rule", "must be the address of a scheduler, as tcp://scheduler:8786")
     return address
 
@@ -81,12 +81,12 @@ def unknown_variables() -> list[str]:
     Such a variable is no error: Kubernetes gives a program variables that begin with the name of its service.
     """
     known = [PREFIX + name.upper() for name in Settings.model_fields]
-    said = []
+    messages = []
     for name in sorted(set(os.environ) - set(known)):
         if name.startswith(PREFIX):
             meant = "".join(f"; did you mean {one}?" for one in get_close_matches(name, known, 1, 0.8))
-            said.append(f"The environment variable {name} is not a setting and has no effect{meant}")
-    return said
+            messages.append(f"The environment variable {name} is not a setting and has no effect{meant}")
+    return messages
 
 
 # What a variable must be, by pydantic's type of fault.
@@ -111,14 +111,14 @@ class Settings(BaseModel):
 
     model_config = ConfigDict(frozen=True, defer_build=True)
 
-    def __init__(self, **given: Any) -> None:
+    def __init__(self, **values: Any) -> None:
         """raises: InvalidValue naming the variable"""
         # pydantic-settings does the same, but its import takes a fifth of a cold command (measured 2026-11-22).
         variables = {name: PREFIX + name.upper() for name in type(self).model_fields}
         # An empty variable counts as unset, because compose.yaml passes an unset variable on as an empty one.
-        told = {name: os.environ[key] for name, key in variables.items() if os.environ.get(key)}
+        from_environment = {name: os.environ[key] for name, key in variables.items() if os.environ.get(key)}
         try:
-            super().__init__(**told | given)
+            super().__init__(**from_environment | values)
         except ValidationError as error:
             first = error.errors()[0]
             name = variables[str(first["loc"][0])]

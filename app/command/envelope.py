@@ -12,7 +12,7 @@ from app.command.options import Json, asks
 from app.extras import require
 from app.files.disk import checked_output, ending_of
 from app.files.outlines import WRITERS
-from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, swept
+from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, envelope_of
 from app.wire.question import Terms
 
 
@@ -29,7 +29,7 @@ def envelope(
     if output and ending_of(output) == ".dxf":
         require("dxf", "output", "DXF")
     with show.waiting("envelope"):
-        result = swept(request, Terms())
+        result = envelope_of(request, Terms())
         answer, data = Envelope.of(result, request), write(result) if write else b""
     if output:
         show.write(output, data)

@@ -85,7 +85,7 @@ def figures(
     drawings = {}
     for one, request in requests.items():
         with refusing(request), show.waiting(f"figure {one.value}") as progress:
-            drawings[one] = FIGURES[one].whole(request, Terms(progress=progress), format.media_type)
+            drawings[one] = FIGURES[one].to_bytes(request, Terms(progress=progress), format.media_type)
     folder.mkdir(parents=True, exist_ok=True)
     for one, data in drawings.items():
         show.write(files[one], data)
@@ -111,5 +111,5 @@ def film(
     form = GIF_TYPE if gif else films.FORM
     with show.waiting(f"film {output}") as progress:
         terms = Terms(progress=progress)
-        data = films.filmed(request, dance_of(request, context, terms.settings.drawn_benches_max), terms, form)
+        data = films.film_of(request, dance_of(request, context, terms.settings.drawn_benches_max), terms, form)
     show.write(output, data)

@@ -12,7 +12,7 @@ from typing import Any
 
 from app.files.flush import new_file
 from app.wire.messages import OBJECT
-from app.wire.question import shown
+from app.wire.question import short_json
 from app.wire.texts import Unreadable, json_of
 from core import InvalidValue
 from core.errors import Given
@@ -91,7 +91,7 @@ def read_json(file: Path) -> dict[str, Any]:
         raise error.of("file", display_name(file)) from error
     if not isinstance(value, dict):
         words = "{file} must hold a JSON object"
-        raise InvalidValue.in_words("file", words, got=Given(value, shown(value)), file=display_name(file))
+        raise InvalidValue.in_words("file", words, got=Given(value, short_json(value)), file=display_name(file))
     return value
 
 

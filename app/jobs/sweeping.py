@@ -19,7 +19,7 @@ from app.sweeps.processes import CannotStart
 from app.sweeps.run import SPEC_FILE, Progress, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
-from app.wire.faults import in_body, refused
+from app.wire.faults import in_body, refusal_problem
 from app.wire.problem import Problem, problem_of
 from app.wire.question import JSON
 from core import BenchDragonError
@@ -56,7 +56,7 @@ def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Pat
     except TooManyBytes as error:
         return problem_of(413, error.code, error)
     except BenchDragonError as error:
-        return refused(error, in_body(task.request))
+        return refusal_problem(error, in_body(task.request))
     except OSError as error:
         words = "The sweep could not be written into the data folder: {why}. Make room and ask again."
         return problem_of(507, "insufficient-storage", words, why=str(error.strerror))

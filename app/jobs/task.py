@@ -10,7 +10,7 @@ from typing import Any, Self
 
 from app.questions.registry import CALLS
 from app.settings import Settings
-from app.wire.faults import in_body, in_query, refused
+from app.wire.faults import in_body, in_query, refusal_problem
 from app.wire.problem import Problem
 from app.wire.question import UNKNOWN_COST, Call, Terms, Wire
 from app.wire.refusals import reworded
@@ -35,12 +35,12 @@ class Task:
     def answer(self, settings: Settings, progress: Callable[[float], None]) -> bytes | Problem:
         """The answer of the service to the call."""
         call = CALLS[self.call]
-        asked = call.asked.model_validate(self.request)
+        request = call.request_type.model_validate(self.request)
         try:
-            return call.question.whole(asked, Terms(settings, Budget(math.inf), progress), self.form)
+            return call.question.to_bytes(request, Terms(settings, Budget(math.inf), progress), self.form)
         except BenchDragonError as error:
             item = in_query if call.method == "GET" else in_body(self.request)
-            return refused(reworded(error, asked), item)
+            return refusal_problem(reworded(error, request), item)
 
 
 def cost_of(call: Call, request: Wire, form: str) -> float:

@@ -138,11 +138,11 @@ class Failure(Answer):
     peak_time: float | None = measure("s", "For a speed: the time of the highest, or of the fold")
 
     @classmethod
-    def of(cls, found: core.Failure, dragon: core.Dragon, start_clock: str | None) -> Self:
-        clock = None if start_clock is None else time_of_day(found.time, start_clock)
+    def of(cls, result: core.Failure, dragon: core.Dragon, start_clock: str | None) -> Self:
+        clock = None if start_clock is None else time_of_day(result.time, start_clock)
         # A handle has the number of the bench behind it; the last handle is at the rear of the last bench.
-        benches = [min(bench, dragon.benches - 1) for bench in found.benches]
-        return cls.known(found, names=[dragon.names[bench] for bench in benches if dragon.names], clock=clock)
+        benches = [min(bench, dragon.benches - 1) for bench in result.benches]
+        return cls.from_result(result, names=[dragon.names[bench] for bench in benches if dragon.names], clock=clock)
 
 
 class Origin(Answer):
@@ -185,31 +185,31 @@ class Report(Answer):
     )
 
 
-def check(asked: CheckRequest, terms: Terms) -> Report:
+def check(request: CheckRequest, terms: Terms) -> Report:
     """Verdict on a dance in its venue: first contact, least clearance, venue, speed, sharpest bend."""
-    dance = asked.to_dance(terms.settings.checked_benches_max)
-    place = asked.to_place(dance.dragon)
-    found = judged(asked, dance, place.venue, asked.start, terms, details=asked.details)
-    contact = CollisionTime.of(found.first_contact, asked, terms)
-    failures = [Failure.of(failure, dance.dragon, asked.start_clock) for failure in found.failures]
-    venue = None if found.venue is None else VenueClearance.known(found.venue, stray=found.venue.misplaced)
-    return Report.known(found, failures=failures, first_contact=contact, venue=venue, origin=place.origin)
+    dance = request.to_dance(terms.settings.checked_benches_max)
+    place = request.to_place(dance.dragon)
+    result = verdict_of(request, dance, place.venue, request.start, terms, details=request.details)
+    contact = CollisionTime.of(result.first_contact, request, terms)
+    failures = [Failure.of(failure, dance.dragon, request.start_clock) for failure in result.failures]
+    venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
+    return Report.from_result(result, failures=failures, first_contact=contact, venue=venue, origin=place.origin)
 
 
-def judged(
-    asked: CheckRequest, dance: Dance, venue: Venue | None, start: float | None, terms: Terms, *, details: bool = True
+def verdict_of(
+    request: CheckRequest, dance: Dance, venue: Venue | None, start: float | None, terms: Terms, *, details: bool = True
 ) -> core.Report:
     """The verdict as an object of core. start: of the time checked [s]; raises: InvalidValue"""
-    limits: dict[str, Any] = {"margin": asked.margin, "stray": asked.to_stray(), "speed_limit": asked.speed_limit}
-    ask = core.check if details else core.quick_check
-    return ask(dance, venue=venue, start=start, stop=asked.stop, budget=terms.budget, **limits)
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+    question = core.check if details else core.quick_check
+    return question(dance, venue=venue, start=start, stop=request.stop, budget=terms.budget, **limits)
 
 
-def _cost(asked: CheckRequest) -> float:
+def _cost(request: CheckRequest) -> float:
     """A drawn dance of 60 benches through 20 waypoints takes 0.011 s, with four areas 0.016 s (measured 2026-11-22)."""
-    if asked.details or asked.path.kind != "waypoints":
+    if request.details or request.path.kind != "waypoints":
         return UNKNOWN_COST
-    return 0.02 + 4e-4 * asked.benches + 5e-4 * len(asked.path.points)
+    return 0.02 + 4e-4 * request.benches + 5e-4 * len(request.path.points)
 
 
 QUESTION = Question(check, Report, body=CheckRequest, cost=_cost)

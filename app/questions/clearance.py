@@ -30,22 +30,22 @@ class ClearanceTable(Answer):
     grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
 
 
-def clearance(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> Columns:
+def clearance(request: ClearanceQuery | ClearanceRequest, terms: Terms) -> Columns:
     """Smallest separation of two benches that are not neighbours, and the pair, at every instant."""
-    found = profile(asked, terms)
-    columns = {"time": found.time, "clearance": found.clearance, "benches": found.benches}
-    return Columns(columns | {"grazes": found.grazes})
+    result = profile_of(request, terms)
+    columns = {"time": result.time, "clearance": result.clearance, "benches": result.benches}
+    return Columns(columns | {"grazes": result.grazes})
 
 
-def profile(asked: ClearanceQuery | ClearanceRequest, terms: Terms) -> core.ClearanceProfile:
+def profile_of(request: ClearanceQuery | ClearanceRequest, terms: Terms) -> core.ClearanceProfile:
     """The clearance as an object of core. raises: TooLarge, InvalidValue"""
-    flat = isinstance(asked, ClearanceQuery)
-    dance = asked.to_dance(terms.settings.benches_max if flat else terms.settings.checked_benches_max)
-    return core.clearance_profile(dance, asked.times_of(dance, terms.settings.cells_max), budget=terms.budget)
+    flat = isinstance(request, ClearanceQuery)
+    dance = request.to_dance(terms.settings.benches_max if flat else terms.settings.checked_benches_max)
+    return core.clearance_profile(dance, request.times_of(dance, terms.settings.cells_max), budget=terms.budget)
 
 
-def _cost(asked: ClearanceQuery | ClearanceRequest) -> float:
-    return asked.instants() * asked.benches * SECONDS_PER_CELL
+def _cost(request: ClearanceQuery | ClearanceRequest) -> float:
+    return request.instants() * request.benches * SECONDS_PER_CELL
 
 
 QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost)

@@ -99,35 +99,35 @@ class CollisionTime(Answer):
     )
 
     @classmethod
-    def of(cls, contact: core.FirstContact, asked: Contact, terms: Terms) -> Self:
+    def of(cls, contact: core.FirstContact, request: Contact, terms: Terms) -> Self:
         check = None
-        if asked.cross_check != "none":
-            whole = asked.cross_check == "dragon"
+        if request.cross_check != "none":
+            whole = request.cross_check == "dragon"
             check = core.contact_check(contact, whole=whole, budget=terms.budget)
-        return cls.known(contact, margin=asked.margin, stray=asked.total_stray, cross_check=check)
+        return cls.from_result(contact, margin=request.margin, stray=request.total_stray, cross_check=check)
 
 
-def collision_time(asked: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:
+def collision_time(request: CollisionQuery | CollisionRequest, terms: Terms) -> CollisionTime:
     """First time that two benches that share no handle touch or come within a margin, with the evidence."""
-    dance, start, stop = asked.to_dance(asked.most_benches(terms.settings)), 0.0, None
-    if isinstance(asked, CollisionRequest):
-        start, stop = dance.begin if asked.start is None else asked.start, asked.stop
-    found = core.first_contact(
-        dance, margin=asked.margin, stray=asked.to_stray(), start=start, stop=stop, budget=terms.budget
+    dance, start, stop = request.to_dance(request.most_benches(terms.settings)), 0.0, None
+    if isinstance(request, CollisionRequest):
+        start, stop = dance.begin if request.start is None else request.start, request.stop
+    result = core.first_contact(
+        dance, margin=request.margin, stray=request.to_stray(), start=start, stop=stop, budget=terms.budget
     )
-    return CollisionTime.of(found, asked, terms)
+    return CollisionTime.of(result, request, terms)
 
 
-def _cost(asked: CollisionQuery | CollisionRequest) -> float:
+def _cost(request: CollisionQuery | CollisionRequest) -> float:
     """Estimated time [s]: a search on a spiral does not grow with the benches; a judgement of the whole dragon does."""
-    if isinstance(asked, CollisionRequest):
-        repeats = asked.path.kind == "spiral" and isinstance(asked.dragon, UniformDragon)
+    if isinstance(request, CollisionRequest):
+        repeats = request.path.kind == "spiral" and isinstance(request.dragon, UniformDragon)
         if not repeats:
             return UNKNOWN_COST
-    if asked.strays:
+    if request.has_stray:
         return UNKNOWN_COST
-    judged = min(asked.benches, JUDGED_MOST) if asked.cross_check == "dragon" else 0
-    return 0.003 + 5e-5 * judged + 2e-6 * asked.benches
+    judged = min(request.benches, JUDGED_MOST) if request.cross_check == "dragon" else 0
+    return 0.003 + 5e-5 * judged + 2e-6 * request.benches
 
 
 QUESTION = Question(collision_time, CollisionTime, flat=CollisionQuery, body=CollisionRequest, cost=_cost)

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.questions.tolerance import CircleQuery, SpanOrCircle, span_asked
+from app.questions.tolerance import CircleQuery, SpanOrCircle, span_of
 from app.wire.answers import Pair
 from app.wire.claims import ProbabilityClaim
 from app.wire.dances import DanceFields
@@ -92,29 +92,38 @@ class ContactProbability(Answer):
     claim: ProbabilityClaim = Field(description="The claim as a kind and values")
 
 
-def contact_probability(asked: ContactProbabilityQuery | ContactProbabilityRequest, terms: Terms) -> ContactProbability:
+def contact_probability(
+    request: ContactProbabilityQuery | ContactProbabilityRequest, terms: Terms
+) -> ContactProbability:
     """Probability that two benches touch when people wobble, from dances drawn at random, with its limits."""
     settings = terms.settings
-    check_limit("samples", "samples", asked.samples, settings.samples_max, "ask for fewer samples")
-    dance, model = asked.to_dance(settings.checked_benches_max), asked.to_model()
-    start, stop = span_asked(asked, dance)
-    found = core.contact_probability(
-        dance, model, asked.samples, asked.seed, start=start, stop=stop, budget=terms.budget, progress=terms.progress
+    check_limit("samples", "samples", request.samples, settings.samples_max, "ask for fewer samples")
+    dance, model = request.to_dance(settings.checked_benches_max), request.to_model()
+    start, stop = span_of(request, dance)
+    result = core.contact_probability(
+        dance,
+        model,
+        request.samples,
+        request.seed,
+        start=start,
+        stop=stop,
+        budget=terms.budget,
+        progress=terms.progress,
     )
     quantiles = benches = None
-    if found.contacts:
-        quantiles = tuple(np.quantile(found.time, QUANTILES).tolist())
-        pairs, counts = np.unique(found.benches, axis=0, return_counts=True)
+    if result.contacts:
+        quantiles = tuple(np.quantile(result.time, QUANTILES).tolist())
+        pairs, counts = np.unique(result.benches, axis=0, return_counts=True)
         benches = tuple(pairs[counts.argmax()].tolist())
-    return ContactProbability.known(found, confidence=CONFIDENCE, time_quantiles=quantiles, benches=benches)
+    return ContactProbability.from_result(result, confidence=CONFIDENCE, time_quantiles=quantiles, benches=benches)
 
 
 # Time of one dance that is drawn, of the default dragon, measured 2026-11-26 [s].
 SECONDS_PER_SAMPLE = 0.015
 
 
-def _cost(asked: ContactProbabilityRequest) -> float:
-    return max(UNKNOWN_COST, SECONDS_PER_SAMPLE * asked.samples)
+def _cost(request: ContactProbabilityRequest) -> float:
+    return max(UNKNOWN_COST, SECONDS_PER_SAMPLE * request.samples)
 
 
 QUESTION = Question(contact_probability, ContactProbability, body=ContactProbabilityRequest, cost=_cost)

@@ -44,12 +44,12 @@ class Course(Answer):
     bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
 
 
-def course(asked: CourseRequest, terms: Terms) -> Course:
+def course(request: CourseRequest, terms: Terms) -> Course:
     """The path from its beginning to its end, and its bends that are too tight for the dragon."""
-    found = core.course(asked.path.to_path(), asked.to_dragon(terms.settings.benches_max))
-    x, y = found.points.T.tolist()
-    bends = [TightBend.known(bend, points=bend.points.tolist()) for bend in found.bends]
-    return Course(s=found.s.tolist(), x=x, y=y, length=found.length, knots=found.knots.tolist(), bends=bends)
+    result = core.course(request.path.to_path(), request.to_dragon(terms.settings.benches_max))
+    x, y = result.points.T.tolist()
+    bends = [TightBend.from_result(bend, points=bend.points.tolist()) for bend in result.bends]
+    return Course(s=result.s.tolist(), x=x, y=y, length=result.length, knots=result.knots.tolist(), bends=bends)
 
 
-QUESTION = Question(course, Course, body=CourseRequest, cost=lambda asked: SECONDS)
+QUESTION = Question(course, Course, body=CourseRequest, cost=lambda request: SECONDS)

@@ -71,10 +71,10 @@ class Envelope(Answer):
     certificate: SweepProof = Field(description="Proven bounds of the envelope")
 
     @classmethod
-    def of(cls, found: core.Envelope, asked: EnvelopeQuery | EnvelopeRequest) -> Self:
-        line = asked.spectators if isinstance(asked, EnvelopeRequest) else None
-        distance = None if line is None else found.distance(line)
-        return cls.known(found, envelope=geometry_of(found), distance=distance)
+    def of(cls, result: core.Envelope, request: EnvelopeQuery | EnvelopeRequest) -> Self:
+        line = request.spectators if isinstance(request, EnvelopeRequest) else None
+        distance = None if line is None else result.distance(line)
+        return cls.from_result(result, envelope=geometry_of(result), distance=distance)
 
 
 # Forms of an envelope besides JSON: media type -> function of the envelope.
@@ -83,16 +83,16 @@ if find_spec("ezdxf"):
     FORMS[DXF_TYPE] = envelope_dxf
 
 
-def swept(asked: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope:
+def envelope_of(request: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope:
     """The envelope as an object of core. raises: TooLarge, InvalidValue"""
-    dance = asked.to_dance(terms.settings.checked_benches_max)
-    return core.envelope(dance, start=asked.start, stop=asked.stop, budget=terms.budget)
+    dance = request.to_dance(terms.settings.checked_benches_max)
+    return core.envelope(dance, start=request.start, stop=request.stop, budget=terms.budget)
 
 
-def envelope(asked: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | bytes:
+def envelope(request: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | bytes:
     """The ground that benches sweep, as polygons that hold every pose and reach at most 1 mm further."""
-    found = swept(asked, terms)
-    return FORMS[form](found) if form in FORMS else Envelope.of(found, asked)
+    result = envelope_of(request, terms)
+    return FORMS[form](result) if form in FORMS else Envelope.of(result, request)
 
 
-QUESTION = Question(envelope, Envelope, None, EnvelopeRequest, (JSON, *FORMS), lambda asked, *form: SECONDS)
+QUESTION = Question(envelope, Envelope, None, EnvelopeRequest, (JSON, *FORMS), lambda request, *form: SECONDS)

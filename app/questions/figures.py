@@ -63,38 +63,38 @@ class StaircaseRequest(ScanFields, DragonFields, strict=True):
     """First contact against the pitch, of any dragon, drawn."""
 
 
-def trajectory_figure(asked: TrajectoryFigureQuery | TrajectoryFigureRequest, terms: Terms, form: str) -> bytes:
+def trajectory_figure(request: TrajectoryFigureQuery | TrajectoryFigureRequest, terms: Terms, form: str) -> bytes:
     """Every handle at one instant, coloured by its speed, on the given path and in the given venue."""
     from app.files import figures
 
-    dance = asked.to_dance(terms.settings.drawn_benches_max)
-    venue = asked.to_place(dance.dragon).venue if isinstance(asked, PlacedDance) else None
-    time = dance.default_start if asked.time is None else asked.time
+    dance = request.to_dance(terms.settings.drawn_benches_max)
+    venue = request.to_place(dance.dragon).venue if isinstance(request, PlacedDance) else None
+    time = dance.default_start if request.time is None else request.time
     return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form])
 
 
-def contact_figure(asked: ContactQuery | ContactFigureRequest, terms: Terms, form: str) -> bytes:
+def contact_figure(request: ContactQuery | ContactFigureRequest, terms: Terms, form: str) -> bytes:
     """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
     from app.files import figures
 
     placed: dict[str, Any] = {}
-    if isinstance(asked, ContactQuery):
-        dance = asked.to_dance(terms.settings.drawn_benches_max)
+    if isinstance(request, ContactQuery):
+        dance = request.to_dance(terms.settings.drawn_benches_max)
     else:
-        dance = asked.to_dance(terms.settings.checked_benches_max)
-        placed = {"venue": asked.to_place(dance.dragon).venue, "start": asked.start, "stop": asked.stop}
-    return figures.contact_figure(dance, margin=asked.margin, format=FORMATS[form], budget=terms.budget, **placed)
+        dance = request.to_dance(terms.settings.checked_benches_max)
+        placed = {"venue": request.to_place(dance.dragon).venue, "start": request.start, "stop": request.stop}
+    return figures.contact_figure(dance, margin=request.margin, format=FORMATS[form], budget=terms.budget, **placed)
 
 
-def pitch_scan_figure(asked: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
+def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
     """Radius of the head at first contact, against the pitch, with its jumps and the minimum pitch."""
     from app.files import figures
 
-    dragon = asked.to_dragon(min(terms.settings.drawn_benches_max, asked.most_benches(terms.settings)))
-    found = scan_near_minimum(
-        dragon, samples=asked.samples, progress=terms.progress, budget=terms.budget, **asked.to_circle()
+    dragon = request.to_dragon(min(terms.settings.drawn_benches_max, request.most_benches(terms.settings)))
+    result = scan_near_minimum(
+        dragon, samples=request.samples, progress=terms.progress, budget=terms.budget, **request.to_circle()
     )
-    return figures.pitch_scan_figure(*found, format=FORMATS[form], **asked.to_circle())
+    return figures.pitch_scan_figure(*result, format=FORMATS[form], **request.to_circle())
 
 
 DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}

@@ -46,56 +46,56 @@ class FilmRequest(FilmFields, PlacedDance):
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
 
 
-def films(asked: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
+def films(request: FilmRequest, terms: Terms, form: str = FORM) -> bytes:
     """A film of the dance: every bench at every instant, as MP4 or GIF."""
-    return filmed(asked, asked.to_dance(terms.settings.drawn_benches_max), terms, form)
+    return film_of(request, request.to_dance(terms.settings.drawn_benches_max), terms, form)
 
 
-def filmed(asked: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes:
+def film_of(request: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes:
     """The film of a dance, in the venue and with the time of day of its request, if these are given."""
     from app.files import film
 
-    placed = asked if isinstance(asked, FilmRequest) else None
-    rate, height = look(asked, form)
-    megapixels = round(asked.seconds * rate * height * height * 16 / 9 / 1e6)
+    placed = request if isinstance(request, FilmRequest) else None
+    rate, height = rate_and_height(request, form)
+    megapixels = round(request.seconds * rate * height * height * 16 / 9 / 1e6)
     check_limit(
         "seconds", "millions of pixels", megapixels, terms.settings.film_megapixels_max, "take fewer or smaller"
     )
-    start, stop, touching = stretch(asked, dance, terms)
+    start, stop, touching = span_of(request, dance, terms)
     clock = placed.start_clock if placed else None
-    spec = FilmSpec(start, stop, asked.seconds, rate, height, asked.language, clock, touching)
+    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching)
     venue = placed.to_place(dance.dragon).venue if placed else None
-    return film.film(dance, spec, form, venue=venue, title=asked.title, budget=terms.budget, progress=terms.progress)
+    return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
 
 
-def look(asked: FilmFields, form: str) -> tuple[int, int]:
+def rate_and_height(request: FilmFields, form: str) -> tuple[int, int]:
     """Frames a second, and height [pixels]."""
     rate, height = LOOKS[form]
-    return asked.rate or rate, asked.height or height
+    return request.rate or rate, request.height or height
 
 
-def stretch(asked: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float, tuple[int, int] | None]:
+def span_of(request: FilmFields, dance: Dance, terms: Terms) -> tuple[float, float, tuple[int, int] | None]:
     """First and last instant of the film [s], and the benches that touch at the last.
 
     raises: InvalidValue; OutsideRun
     """
-    if asked.stop is not None:
-        return *dance.span(asked.start, asked.stop), None
-    start = dance.default_start if asked.start is None else asked.start
+    if request.stop is not None:
+        return *dance.span(request.start, request.stop), None
+    start = dance.default_start if request.start is None else request.start
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:
-        told = quantities("s", got=start, end=until) | end.told
-        raise InvalidValue("start", f"must be before {{end}}, when {end.template}", **told)
-    found = first_contact(dance, start=start, stop=until, budget=terms.budget)
-    if found.outcome is Outcome.CONTACT and found.time is not None:
-        return *dance.span(start, found.time), found.benches
+        values = quantities("s", got=start, end=until) | end.told
+        raise InvalidValue("start", f"must be before {{end}}, when {end.template}", **values)
+    contact = first_contact(dance, start=start, stop=until, budget=terms.budget)
+    if contact.outcome is Outcome.CONTACT and contact.time is not None:
+        return *dance.span(start, contact.time), contact.benches
     return *dance.span(start, until), None
 
 
-def _cost(asked: FilmFields, form: str = FORM) -> float:
-    rate, height = look(asked, form)
-    return asked.seconds * rate * height * height * 16 / 9 / 1e6 * SECONDS_PER_MEGAPIXEL[form]
+def _cost(request: FilmFields, form: str = FORM) -> float:
+    rate, height = rate_and_height(request, form)
+    return request.seconds * rate * height * height * 16 / 9 / 1e6 * SECONDS_PER_MEGAPIXEL[form]
 
 
 QUESTION = Question(films, None, body=FilmRequest, forms=tuple(ENDINGS), cost=_cost, at="/films")

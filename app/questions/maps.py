@@ -44,23 +44,23 @@ class Marked(CheckRequest, strict=True):
         description="Place of x = y = 0; null: as the venue states it. KML needs it; GeoJSON is in metres without it",
     )
 
-    def told_origin(self, place: degrees.Place) -> degrees.Origin | None:
+    def origin_at(self, place: degrees.Place) -> degrees.Origin | None:
         """The origin in the request, else that of the venue."""
-        own = self.origin
-        return degrees.Origin(own.longitude, own.latitude) if own else place.origin
+        origin = self.origin
+        return degrees.Origin(origin.longitude, origin.latitude) if origin else place.origin
 
 
 class MapsRequest(Marked, strict=True):
     """The dance as a map."""
 
 
-def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
+def maps(request: MapsRequest, terms: Terms, form: str) -> bytes:
     """The square, the path and the chalk marks as GeoJSON, KML or DXF, which POST /places reads again."""
-    dance = asked.to_dance(terms.settings.checked_benches_max)
-    place = asked.to_place(dance.dragon)
-    origin = asked.told_origin(place)
-    marks = marks_of(dance, *dance.span(asked.start, asked.stop), asked.spacing)
-    drawing = drawing_of(dance, place, marks, asked.path.model_dump(mode="json", exclude_none=True), origin)
+    dance = request.to_dance(terms.settings.checked_benches_max)
+    place = request.to_place(dance.dragon)
+    origin = request.origin_at(place)
+    marks = marks_of(dance, *dance.span(request.start, request.stop), request.spacing)
+    drawing = drawing_of(dance, place, marks, request.path.model_dump(mode="json", exclude_none=True), origin)
     if form == DXF_TYPE:
         return dxf.written(on_grid(drawing))
     if form == GEOJSON_TYPE:
@@ -72,5 +72,5 @@ def maps(asked: MapsRequest, terms: Terms, form: str) -> bytes:
 
 
 QUESTION = Question(
-    maps, None, None, MapsRequest, FORMS, lambda asked, form: SECONDS, at="/maps.{format}", formats=MapFormat
+    maps, None, None, MapsRequest, FORMS, lambda request, form: SECONDS, at="/maps.{format}", formats=MapFormat
 )

@@ -10,13 +10,13 @@ from app.wire.paths import AnyPath, TurnFields, TurnPath
 from app.wire.question import Answer, Instant, Question, SpeedLimit, Terms, UniformDragon, Wire, measure
 
 
-class Limit(Wire):
+class SpeedLimitField(Wire):
     """Speed limit for every handle."""
 
     speed_limit: SpeedLimit = measure("m/s", "Highest speed allowed for any handle", 2.0)
 
 
-class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
+class MaximumHeadSpeedQuery(SpeedLimitField, TurnFields, UniformDragon):
     """Highest head speed through a turn that keeps a limit."""
 
     def to_dance(self, benches_max: int) -> core.Dance:
@@ -24,7 +24,7 @@ class MaximumHeadSpeedQuery(Limit, TurnFields, UniformDragon):
         return core.Dance(self.to_dragon(benches_max), self.to_turn())
 
 
-class MaximumHeadSpeedRequest(Limit, DanceFields, strict=True):
+class MaximumHeadSpeedRequest(SpeedLimitField, DanceFields, strict=True):
     """Highest head speed that keeps a limit, on any path."""
 
     path: AnyPath = Field(default_factory=lambda: TurnPath(kind="turn"), description="The path; a turn by default")
@@ -48,15 +48,15 @@ class MaximumHeadSpeed(Answer):
     passage: int | None = Field(description="Index of the passage in which they reach it; null: in none")
 
 
-def maximum_head_speed(asked: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, terms: Terms) -> MaximumHeadSpeed:
+def maximum_head_speed(request: MaximumHeadSpeedQuery | MaximumHeadSpeedRequest, terms: Terms) -> MaximumHeadSpeed:
     """The largest constant head speed at which no handle ever exceeds the limit."""
-    dance, limit = asked.to_dance(terms.settings.checked_benches_max), asked.speed_limit
-    if isinstance(asked, MaximumHeadSpeedQuery):
+    dance, limit = request.to_dance(terms.settings.checked_benches_max), request.speed_limit
+    if isinstance(request, MaximumHeadSpeedQuery):
         return MaximumHeadSpeed.model_validate(core.maximum_head_speed(dance, limit, budget=terms.budget))
     # Core takes times at a head speed of 1 m/s.
-    start, stop = (None if time is None else time * asked.head_speed for time in (asked.start, asked.stop))
-    found = core.maximum_head_speed(dance, limit, start=start, stop=stop, budget=terms.budget)
-    return MaximumHeadSpeed.model_validate(found)
+    start, stop = (None if time is None else time * request.head_speed for time in (request.start, request.stop))
+    result = core.maximum_head_speed(dance, limit, start=start, stop=stop, budget=terms.budget)
+    return MaximumHeadSpeed.model_validate(result)
 
 
 QUESTION = Question(maximum_head_speed, MaximumHeadSpeed, flat=MaximumHeadSpeedQuery, body=MaximumHeadSpeedRequest)

@@ -77,46 +77,46 @@ class MinimumPitch(Answer):
     )
 
 
-def allowed(found: core.MinimumPitch, asked: WayToCircle, dragon: Dragon) -> core.MinimumPitch:
+def checked_pitch(result: core.MinimumPitch, request: WayToCircle, dragon: Dragon) -> core.MinimumPitch:
     """The minimum pitch, if other questions accept it. raises: InvalidValue naming what makes it too large"""
-    if found.pitch <= PITCH_MAX:
-        return found
+    if result.pitch <= PITCH_MAX:
+        return result
     why = "the minimum pitch is {pitch}, and pitches are at most {most} here"
-    told = quantities("m", 9, pitch=found.pitch) | quantities("m", most=PITCH_MAX)
-    if found.limited_by is LimitedBy.START and found.benches is None:
-        told |= quantities("turns", got=asked.start_turns, least=asked.turning_diameter / 2 / PITCH_MAX)
-        raise InvalidValue("start_turns", f"must be at least {{least}}, or the turning circle smaller: {why}", **told)
-    if found.benches is None or found.benches[1] - found.benches[0] > 2:
-        got = Quantity(asked.turning_diameter, "m")
-        raise InvalidValue("turning_diameter", f"must be larger: {why}", got=got, **told)
+    values = quantities("m", 9, pitch=result.pitch) | quantities("m", most=PITCH_MAX)
+    if result.limited_by is LimitedBy.START and result.benches is None:
+        values |= quantities("turns", got=request.start_turns, least=request.turning_diameter / 2 / PITCH_MAX)
+        raise InvalidValue("start_turns", f"must be at least {{least}}, or the turning circle smaller: {why}", **values)
+    if result.benches is None or result.benches[1] - result.benches[0] > 2:
+        got = Quantity(request.turning_diameter, "m")
+        raise InvalidValue("turning_diameter", f"must be larger: {why}", got=got, **values)
     # The benches are hardly apart even on a straight line.
-    if isinstance(asked, Circle) and asked.margin:
-        raise InvalidValue("margin", f"must be smaller: {why}", got=Quantity(asked.margin, "m"), **told)
-    bench, one_by_one = found.benches[0], isinstance(getattr(asked, "dragon", None), BenchByBench)
+    if isinstance(request, Circle) and request.margin:
+        raise InvalidValue("margin", f"must be smaller: {why}", got=Quantity(request.margin, "m"), **values)
+    bench, one_by_one = result.benches[0], isinstance(getattr(request, "dragon", None), BenchByBench)
     field = f"dragon.overhangs.{bench}" if one_by_one else "dragon.overhang"
     narrower = f"must be smaller, or the benches narrower: {why}"
-    raise InvalidValue(field, narrower, got=Quantity(float(dragon.overhangs[bench]), "m"), **told)
+    raise InvalidValue(field, narrower, got=Quantity(float(dragon.overhangs[bench]), "m"), **values)
 
 
-def minimum_pitch(asked: MinimumPitchQuery | MinimumPitchRequest, terms: Terms) -> MinimumPitch:
+def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, terms: Terms) -> MinimumPitch:
     """The smallest pitch such that at every larger one the head reaches the circle without a contact."""
-    dragon = asked.to_dragon(asked.most_benches(terms.settings))
-    stray, check = asked.to_stray(), None
-    least = core.minimum_pitch(dragon, **asked.to_circle(), stray=stray, budget=terms.budget)
-    found = allowed(least, asked, dragon)
-    if asked.cross_check != "none":
-        whole = asked.cross_check == "dragon"
-        check = core.pitch_check(found, dragon, margin=asked.margin, stray=stray, whole=whole, budget=terms.budget)
-    return MinimumPitch.known(found, stray=asked.total_stray, cross_check=check)
+    dragon = request.to_dragon(request.most_benches(terms.settings))
+    stray, check = request.to_stray(), None
+    least = core.minimum_pitch(dragon, **request.to_circle(), stray=stray, budget=terms.budget)
+    result = checked_pitch(least, request, dragon)
+    if request.cross_check != "none":
+        whole = request.cross_check == "dragon"
+        check = core.pitch_check(result, dragon, margin=request.margin, stray=stray, whole=whole, budget=terms.budget)
+    return MinimumPitch.from_result(result, stray=request.total_stray, cross_check=check)
 
 
-def _cost(asked: MinimumPitchQuery | MinimumPitchRequest) -> float:
+def _cost(request: MinimumPitchQuery | MinimumPitchRequest) -> float:
     """Estimated time [s]: very short benches on a large circle take thousands of times as long as ordinary ones."""
-    dragon = asked if isinstance(asked, MinimumPitchQuery) else asked.dragon
-    if asked.strays or not isinstance(dragon, UniformDragon):
+    dragon = request if isinstance(request, MinimumPitchQuery) else request.dragon
+    if request.has_stray or not isinstance(dragon, UniformDragon):
         return UNKNOWN_COST
     chord = min(dragon.head_length, dragon.body_length) - 2 * dragon.overhang
-    if chord < CHORD_ORDINARY or asked.turning_diameter > CIRCLE_ORDINARY:
+    if chord < CHORD_ORDINARY or request.turning_diameter > CIRCLE_ORDINARY:
         return UNKNOWN_COST
     return 0.02 + 1e-4 * dragon.benches
 

@@ -62,38 +62,38 @@ class OverlapsAnswer(Answer):
     cross_check: OverlapsCheck = Field(description="Independent engines side by side")
 
 
-def overlaps(asked: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
+def overlaps(request: OverlapsRequest, terms: Terms) -> OverlapsAnswer:
     """Benches that overlap or come within a margin, with depth and place, according to four engines."""
-    poses, lengths, widths = asked.to_poses(terms.settings.poses_max)
-    return _judged(poses, lengths, widths, terms, margin=asked.margin, chained=asked.chained)
+    poses, lengths, widths = request.to_poses(terms.settings.poses_max)
+    return _overlaps_of(poses, lengths, widths, terms, margin=request.margin, chained=request.chained)
 
 
-def of_dance(asked: InstantQuery, terms: Terms) -> OverlapsAnswer:
+def of_dance(request: InstantQuery, terms: Terms) -> OverlapsAnswer:
     """The overlaps of the benches of a dance at one instant."""
-    dance = asked.to_dance(terms.settings.poses_max)
-    handles = core.trajectory(dance, [asked.time], budget=terms.budget).position[0]
+    dance = request.to_dance(terms.settings.poses_max)
+    handles = core.trajectory(dance, [request.time], budget=terms.budget).position[0]
     dragon, poses = dance.dragon, core.bench_poses(handles)
-    return _judged(poses, dragon.lengths, dragon.widths, terms, margin=asked.margin, chained=True)
+    return _overlaps_of(poses, dragon.lengths, dragon.widths, terms, margin=request.margin, chained=True)
 
 
-def _judged(
+def _overlaps_of(
     poses: Floats, lengths: Floats, widths: Floats, terms: Terms, *, margin: float, chained: bool
 ) -> OverlapsAnswer:
     """The overlaps of benches, and the verdict of each engine on them. raises: TooLarge, InvalidValue"""
-    found = core.overlaps(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
-    check_limit("benches", "overlapping pairs", len(found.pairs), terms.settings.pairs_max, "move them apart")
+    result = core.overlaps(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
+    check_limit("benches", "overlapping pairs", len(result.pairs), terms.settings.pairs_max, "move them apart")
     check = core.cross_check(poses, lengths, widths, margin=margin, chained=chained, budget=terms.budget)
-    names, contact = tuple(Overlap.model_fields), found.contact
+    names, contact = tuple(Overlap.model_fields), result.contact
     columns = (contact.separation, contact.witness_a, contact.witness_b, contact.normal)
     # Adding 0.0 turns -0.0 into 0.0.
-    rows = zip(found.pairs.tolist(), *((column + 0.0).tolist() for column in columns), strict=True)
+    rows = zip(result.pairs.tolist(), *((column + 0.0).tolist() for column in columns), strict=True)
     pairs = [Overlap(**dict(zip(names, row, strict=True))) for row in rows]
     engines = {engine: known.tolist() for engine, known in check.pairs.items()}
-    return OverlapsAnswer(overlaps=pairs, cross_check=OverlapsCheck.known(check, engines=engines))
+    return OverlapsAnswer(overlaps=pairs, cross_check=OverlapsCheck.from_result(check, engines=engines))
 
 
-def _cost(asked: OverlapsRequest) -> float:
-    benches = len(asked.benches)
+def _cost(request: OverlapsRequest) -> float:
+    benches = len(request.benches)
     return 4e-5 * benches + 5e-6 * min(benches * benches / 2, 20_000)
 
 

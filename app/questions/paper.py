@@ -105,7 +105,7 @@ class _Number:
     values: dict[str, float]
     evidence: dict[str, tuple[float, str]]
 
-    def said(self, language: Language) -> PaperNumber:
+    def in_words(self, language: Language) -> PaperNumber:
         def words(code: str) -> str:
             return say(f"paper_{self.name}{code}", language, **self.values)
 
@@ -124,14 +124,14 @@ class _Number:
 @cache
 def comparison(language: Language = Language.ENGLISH) -> tuple[PaperNumber, ...]:
     """The four numbers that the paper reports, for its own dragon and spiral."""
-    return tuple(number.said(language) for number in _numbers())
+    return tuple(number.in_words(language) for number in _numbers())
 
 
 @cache
 def _numbers() -> tuple[_Number, ...]:
-    found = first_contact(Dance(Dragon(), Spiral()))
+    contact = first_contact(Dance(Dragon(), Spiral()))
     length = _Number("length", "m", PAPER_LENGTH, Spiral().length, {}, {})
-    return (length, _collision_time(found), _collision_radius(found), _minimum_pitch())
+    return (length, _collision_time(contact), _collision_radius(contact), _minimum_pitch())
 
 
 @cache
@@ -152,8 +152,8 @@ def literature(language: Language = Language.ENGLISH) -> tuple[PublishedNumber, 
     )
 
 
-def _collision_time(found: FirstContact) -> _Number:
-    assert found.time is not None
+def _collision_time(contact: FirstContact) -> _Number:
+    assert contact.time is not None
     loose = angle_sum_time(corners, LOOSE_ANGLE)
     there = clearance_profile(Dance(Dragon(), Spiral()), np.array([PAPER_TIME]))
     a, b = (int(bench) for bench in there.benches[0])
@@ -166,22 +166,22 @@ def _collision_time(found: FirstContact) -> _Number:
         "literal": (angle_sum_time(literal_corners, EXACT_ANGLE), "s"),
     }
     values = {"angle": LOOSE_ANGLE, "loose": loose, "a": a, "b": b, "gap": 1000 * gap}
-    return _Number("time", "s", PAPER_TIME, found.time, values, evidence)
+    return _Number("time", "s", PAPER_TIME, contact.time, values, evidence)
 
 
-def _collision_radius(found: FirstContact) -> _Number:
-    assert found.head is not None
+def _collision_radius(contact: FirstContact) -> _Number:
+    assert contact.head is not None
     head = trajectory_of(Dance(Dragon(benches=1), Spiral()), [PAPER_TIME]).position[0, 0]
     radius = float(np.hypot(*head))
     # The length of a spiral that starts at that radius equals the remaining way.
     passed = Spiral().length - Spiral(start_turns=PAPER_RADIUS / Spiral().pitch).length
     evidence = {"there": (radius, "m"), "passed": (passed, "s")}
     values = {"time": PAPER_TIME, "radius": radius, "paper": PAPER_RADIUS, "passed": passed}
-    return _Number("radius", "m", PAPER_RADIUS, found.head.radius, values, evidence)
+    return _Number("radius", "m", PAPER_RADIUS, contact.head.radius, values, evidence)
 
 
 def _minimum_pitch() -> _Number:
-    found = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
+    result = minimum_pitch(Dragon(), turning_radius=TURNING_RADIUS)
     # The bisection of section 3.3, for a head that stops at the circle.
     just_below, jump = bisect(lambda pitch: _contact_radius(pitch) <= TURNING_RADIUS, *PITCH_RANGE, width=RESOLUTION)
     below, above = _contact_radius(just_below), _contact_radius(jump)
@@ -196,7 +196,7 @@ def _minimum_pitch() -> _Number:
         "head": (circle_pitch(head_touches_at_start), "m"),
     }
     values = {"circle": TURNING_RADIUS, "below": below, "above": above, "jump": jump, "reached": reached}
-    return _Number("pitch", "m", PAPER_PITCH, found.pitch, values, evidence)
+    return _Number("pitch", "m", PAPER_PITCH, result.pitch, values, evidence)
 
 
 def _contact_radius(pitch: float) -> float:
@@ -204,9 +204,9 @@ def _contact_radius(pitch: float) -> float:
     return Stops(Dragon(), 0.0).radius(Spiral(pitch)) or 0.0
 
 
-def paper(asked: PaperQuery, terms: Terms) -> PaperTable:
+def paper(request: PaperQuery, terms: Terms) -> PaperTable:
     """The paper's reported numbers beside ours, with the reason for each difference."""
-    return PaperTable(rows=list(comparison(asked.language)), literature=list(literature(asked.language)))
+    return PaperTable(rows=list(comparison(request.language)), literature=list(literature(request.language)))
 
 
 QUESTION = Question(paper, PaperTable, flat=PaperQuery)

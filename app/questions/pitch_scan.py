@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from pydantic import Field
 
-from app.questions.minimum_pitch import allowed
+from app.questions.minimum_pitch import checked_pitch
 from app.wire.answers import Columns, Pair, Point
 from app.wire.dances import DragonFields
 from app.wire.paths import Circle
@@ -57,29 +57,29 @@ class PitchScanTable(Answer):
     minimum_pitch: float = measure("m", "Minimum pitch, around which the scanned pitches lie")
 
 
-def pitch_scan(asked: PitchScanQuery | PitchScanRequest, terms: Terms) -> Columns:
+def pitch_scan(request: PitchScanQuery | PitchScanRequest, terms: Terms) -> Columns:
     """Radius of the head at first contact, against the pitch, around the minimum pitch."""
-    dragon = asked.to_dragon(min(terms.settings.scanned_benches_max, asked.most_benches(terms.settings)))
+    dragon = request.to_dragon(min(terms.settings.scanned_benches_max, request.most_benches(terms.settings)))
     scan, least = scan_near_minimum(
         dragon,
-        samples=asked.samples,
-        locate=asked.locate,
+        samples=request.samples,
+        locate=request.locate,
         progress=terms.progress,
         budget=terms.budget,
-        **asked.to_circle(),
+        **request.to_circle(),
     )
     # The answer has only the samples, not the other pitches computed on the way to the jumps.
-    sampled = np.isin(scan.pitch, pitches_near(least, asked.samples))
+    sampled = np.isin(scan.pitch, pitches_near(least, request.samples))
     before = np.concatenate([[0], np.cumsum(sampled)])
     pieces = [(int(before[a]), int(before[b])) for a, b in scan.pieces if before[a] < before[b]]
-    sides = [list(jump) for jump in scan.jumps] if asked.locate else []
+    sides = [list(jump) for jump in scan.jumps] if request.locate else []
     jumps = [{"pitch": scan.pitch[two].tolist(), "radius": scan.radius[two].tolist()} for two in sides]
     table = {"pitch": scan.pitch[sampled], "radius": scan.radius[sampled], "pieces": pieces, "jumps": jumps}
-    return Columns(table | {"minimum_pitch": allowed(least, asked, dragon).pitch})
+    return Columns(table | {"minimum_pitch": checked_pitch(least, request, dragon).pitch})
 
 
-def _cost(asked: PitchScanQuery | PitchScanRequest) -> float:
-    return UNKNOWN_COST if asked.locate else SECONDS_PER_SAMPLE * asked.samples
+def _cost(request: PitchScanQuery | PitchScanRequest) -> float:
+    return UNKNOWN_COST if request.locate else SECONDS_PER_SAMPLE * request.samples
 
 
 QUESTION = Question(pitch_scan, PitchScanTable, flat=PitchScanQuery, body=PitchScanRequest, cost=_cost)

@@ -12,7 +12,7 @@ import core
 from app.files.tables import Language
 from app.files.words import Say
 from app.maps.marks import marks_of
-from app.questions.check import judged
+from app.questions.check import verdict_of
 from app.questions.maps import Marked
 from app.wire.degrees import Place
 from app.wire.question import Question, Terms, measure
@@ -56,7 +56,7 @@ class PlanRequest(Marked):
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
 
-def plan(asked: PlanRequest, terms: Terms) -> bytes:
+def plan(request: PlanRequest, terms: Terms) -> bytes:
     """The dance on paper as PDF: a map true to scale, the place of each bench, the points to paint and the times."""
     from app.files.fonts import families
     from app.plan.ground import GroundMap
@@ -64,19 +64,19 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     from app.plan.sheet import Title
     from app.plan.timing import TimeFormat, timing_of
 
-    dance, budget, say = asked.to_dance(terms.settings.checked_benches_max), terms.budget, Say(asked.language)
-    place, clock = asked.to_place(dance.dragon), TimeFormat(asked.start_clock)
-    start, stop = dance.span(asked.start, asked.stop)
-    marks = marks_of(dance, start, stop, asked.spacing)
+    dance, budget, say = request.to_dance(terms.settings.checked_benches_max), terms.budget, Say(request.language)
+    place, clock = request.to_place(dance.dragon), TimeFormat(request.start_clock)
+    start, stop = dance.span(request.start, request.stop)
+    marks = marks_of(dance, start, stop, request.spacing)
     timing = timing_of(dance, marks, start, stop, budget)
     swept = core.envelope(dance, start=start, stop=stop, excess=EXCESS, budget=budget).polygons
-    width = asked.clear if asked.clear is not None else asked.margin or CLEAR
+    width = request.clear if request.clear is not None else request.margin or CLEAR
     clear = widened(swept, width) if width else swept
-    geographic = asked.told_origin(place) is not None
-    report = judged(asked, dance, place.venue, start, terms)
+    geographic = request.origin_at(place) is not None
+    report = verdict_of(request, dance, place.venue, start, terms)
     title = Title(
-        asked.title or say("Bench dragon", "板凳龙"),
-        [*_facts(dance, asked.margin, start, stop, clock.words, say), *_grid(place, say)],
+        request.title or say("Bench dragon", "板凳龙"),
+        [*_facts(dance, request.margin, start, stop, clock.words, say), *_grid(place, say)],
         _verdict(report, clock.words, say),
         report.verdict is Judgement.PASSES,
         geographic,
@@ -84,10 +84,10 @@ def plan(asked: PlanRequest, terms: Terms) -> bytes:
     ground = GroundMap(dance, place.venue, swept, clear, width, timing, geographic)
     numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
     names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
-    told = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
+    texts = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
     # Chinese names may stand in an English plan.
-    family = families(Language.CHINESE if max(told) >= FIRST_CHINESE else asked.language)
-    return _drawn(dance, Plan(ground, family, names, clock, title, asked.paper, budget), say, terms)
+    family = families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
+    return _drawn(dance, Plan(ground, family, names, clock, title, request.paper, budget), say, terms)
 
 
 @question_about("dance", Dance, "the plan was not drawn")
@@ -132,8 +132,8 @@ def _verdict(report: core.Report, words: Callable[[float], str], say: Say) -> st
     if not report.failures:
         return say("Checked: passes", "检查：通过")
     first = report.failures[0]
-    told = say(*FAILURES[first.kind])
-    return say(f"Checked: {told} at {words(first.time)}", f"检查：{words(first.time)} {told}")
+    failure = say(*FAILURES[first.kind])
+    return say(f"Checked: {failure} at {words(first.time)}", f"检查：{words(first.time)} {failure}")
 
 
-QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=lambda asked: SECONDS, at="/plan")
+QUESTION = Question(plan, None, body=PlanRequest, forms=(PDF_TYPE,), cost=lambda request: SECONDS, at="/plan")

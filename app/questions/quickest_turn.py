@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import core
-from app.questions.maximum_head_speed import Limit
+from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn_time import TurnTime
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnCircle
@@ -11,7 +11,7 @@ from app.wire.question import Margin, Question, Terms, UniformDragon, measure
 from core.design.quickest_turn import GRID
 
 
-class QuickestTurnFields(Limit, TurnCircle):
+class QuickestTurnFields(SpeedLimitField, TurnCircle):
     """The circle and the coils of the turn, and the limit of speed."""
 
     margin: Margin = 0.0
@@ -34,14 +34,14 @@ class QuickestTurn(TurnTime):
     )
 
 
-def quickest_turn(asked: QuickestTurnQuery | QuickestTurnRequest, terms: Terms) -> QuickestTurn:
+def quickest_turn(request: QuickestTurnQuery | QuickestTurnRequest, terms: Terms) -> QuickestTurn:
     """The turn of those in a scan that takes the head the shortest time, if no handle exceeds the limit."""
-    dragon, radius = asked.to_dragon(terms.settings.checked_benches_max), asked.turning_diameter / 2
-    found = core.quickest_turn(
-        dragon, asked.pitch, radius, asked.ratio, speed_limit=asked.speed_limit, start_turns=asked.start_turns,
-        margin=asked.margin, budget=terms.budget,
+    dragon, radius = request.to_dragon(terms.settings.checked_benches_max), request.turning_diameter / 2
+    result = core.quickest_turn(
+        dragon, request.pitch, radius, request.ratio, speed_limit=request.speed_limit, start_turns=request.start_turns,
+        margin=request.margin, budget=terms.budget,
     )  # fmt: skip
-    return QuickestTurn.timed(found, scan_step=GRID * radius)
+    return QuickestTurn.from_core(result, scan_step=GRID * radius)
 
 
 QUESTION = Question(quickest_turn, QuickestTurn, flat=QuickestTurnQuery, body=QuickestTurnRequest)

@@ -68,24 +68,24 @@ class ShortestTurn(Turn):
     stray: float | None = TOTAL_STRAY
 
 
-def shortest_turn(asked: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
+def shortest_turn(request: ShortestTurnQuery | ShortestTurnRequest, terms: Terms) -> ShortestTurn:
     """The shortest turn inside the circle that the dragon can dance, with a proven bracket, and what limits it."""
-    dragon = asked.to_dragon(terms.settings.checked_benches_max)
-    about = {"start_turns": asked.start_turns, "margin": asked.margin, "stray": asked.to_stray()}
-    circle = (asked.pitch, asked.turning_diameter / 2)
-    found: core.ShortestTurn | core.DeepestTurn
-    if asked.exit_opposite:
-        if asked.any_ratio:
+    dragon = request.to_dragon(terms.settings.checked_benches_max)
+    about = {"start_turns": request.start_turns, "margin": request.margin, "stray": request.to_stray()}
+    circle = (request.pitch, request.turning_diameter / 2)
+    result: core.ShortestTurn | core.DeepestTurn
+    if request.exit_opposite:
+        if request.any_ratio:
             raise core.InvalidValue(
                 "any_ratio", "must be false with exit_opposite: only a free exit is searched over ratios"
             )
-        found = core.deepest_turn(dragon, *circle, asked.ratio, **about, budget=terms.budget)
+        result = core.deepest_turn(dragon, *circle, request.ratio, **about, budget=terms.budget)
         own: dict[str, float | None] = {"length_bracket": None, "exit_bracket": None}
     else:
-        ratio = None if asked.any_ratio else asked.ratio
-        found = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
+        ratio = None if request.any_ratio else request.ratio
+        result = core.shortest_turn(dragon, *circle, ratio, **about, budget=terms.budget)
         own = {"benches": None, "time": None, "scan_step": 0.0}
-    return ShortestTurn.known(found, stray=asked.total_stray, **own, **Turn.of(found.turn).model_dump())
+    return ShortestTurn.from_result(result, stray=request.total_stray, **own, **Turn.of(result.turn).model_dump())
 
 
 QUESTION = Question(shortest_turn, ShortestTurn, flat=ShortestTurnQuery, body=ShortestTurnRequest)

@@ -98,26 +98,28 @@ class Tolerance(Answer):
     certificate: StrayProof = Field(description="Proof of the safe stray")
 
 
-def tolerance(asked: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
+def tolerance(request: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
     """Largest proven stray of people without a contact, and a pose that touches with a slightly larger one."""
-    dance, budget = asked.to_dance(terms.settings.checked_benches_max), terms.budget
-    venue = asked.to_place(dance.dragon).venue if isinstance(asked, ToleranceRequest) else None
-    start, stop = span_asked(asked, dance)
-    with_errors = _with_errors(asked, dance, budget, placed=venue is not None)
-    found = core.tolerance(dance, venue, start=start, stop=stop, budget=budget)
-    pose = None if found.exhibit is None else Shown.known(found.exhibit, handles=found.exhibit.handles.tolist())
-    return Tolerance.known(found, exhibit=pose, stray_with_errors=with_errors)
+    dance, budget = request.to_dance(terms.settings.checked_benches_max), terms.budget
+    venue = request.to_place(dance.dragon).venue if isinstance(request, ToleranceRequest) else None
+    start, stop = span_of(request, dance)
+    with_errors = _with_errors(request, dance, budget, placed=venue is not None)
+    result = core.tolerance(dance, venue, start=start, stop=stop, budget=budget)
+    pose = (
+        None if result.exhibit is None else Shown.from_result(result.exhibit, handles=result.exhibit.handles.tolist())
+    )
+    return Tolerance.from_result(result, exhibit=pose, stray_with_errors=with_errors)
 
 
-def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[float | None, float | None]:
+def span_of(request: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[float | None, float | None]:
     """Start and stop of the time asked about [s]; None as for core. raises: InvalidValue"""
-    start, stop = (asked.start, asked.stop) if isinstance(asked, SpanOrCircle) else (None, None)
-    if asked.turning_diameter is None:
+    start, stop = (request.start, request.stop) if isinstance(request, SpanOrCircle) else (None, None)
+    if request.turning_diameter is None:
         return start, stop
     if dance.path.spiral is None or stop is not None:
         rule = "must be left out, unless the path is a spiral and stop is left out"
-        raise InvalidValue("turning_diameter", rule, got=Quantity(asked.turning_diameter, "m"))
-    circle = time_on_circle(dance, asked.turning_diameter / 2)
+        raise InvalidValue("turning_diameter", rule, got=Quantity(request.turning_diameter, "m"))
+    circle = time_on_circle(dance, request.turning_diameter / 2)
     if start is not None and start >= circle:
         rule = "must be before the head is on the turning circle, at {circle}"
         raise InvalidValue("start", rule, got=Quantity(start, "s"), circle=Quantity(round(circle, 6), "s"))
@@ -125,17 +127,17 @@ def span_asked(asked: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[fl
 
 
 def _with_errors(
-    asked: ToleranceQuery | ToleranceRequest, dance: core.Dance, budget: core.Budget, *, placed: bool
+    request: ToleranceQuery | ToleranceRequest, dance: core.Dance, budget: core.Budget, *, placed: bool
 ) -> float | None:
-    errors = {"length_error": asked.length_error, "pitch_error": asked.pitch_error}
+    errors = {"length_error": request.length_error, "pitch_error": request.pitch_error}
     if not any(errors.values()):
         return None
     spiral = dance.path.spiral
-    if asked.turning_diameter is None or placed or spiral is None:
+    if request.turning_diameter is None or placed or spiral is None:
         field = next(name for name, error in errors.items() if error)
         rule = "must be 0, unless the dance has no venue and ends on a circle of a spiral (turning_diameter)"
         raise InvalidValue(field, rule, got=Quantity(errors[field], "m"))
-    radius = asked.turning_diameter / 2
+    radius = request.turning_diameter / 2
     return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=radius, budget=budget)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field
 
 import core
-from app.questions.minimum_pitch import allowed
+from app.questions.minimum_pitch import checked_pitch
 from app.wire.answers import Columns
 from app.wire.dances import DragonFields
 from app.wire.paths import WayToCircle
@@ -35,10 +35,10 @@ class CurveFields(WayToCircle):
         if low is None:
             circle = {"turning_radius": self.turning_diameter / 2, "start_turns": self.start_turns}
             least = core.minimum_pitch(dragon, **circle, budget=terms.budget)
-            low = allowed(least, self, dragon).pitch * (1.0 + ABOVE_MINIMUM)
+            low = checked_pitch(least, self, dragon).pitch * (1.0 + ABOVE_MINIMUM)
         if high is not None and high <= low:
-            told = quantities("m", got=high, low=low)
-            raise InvalidValue("to_pitch", "must be larger than the lowest pitch ({low})", **told)
+            values = quantities("m", got=high, low=low)
+            raise InvalidValue("to_pitch", "must be larger than the lowest pitch ({low})", **values)
         return np.linspace(low, WIDEST * low if high is None else high, self.samples)
 
 
@@ -62,15 +62,15 @@ class ToleranceCurve(Answer):
     )
 
 
-def tolerance_curve(asked: ToleranceCurveQuery | ToleranceCurveRequest, terms: Terms) -> Columns:
+def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, terms: Terms) -> Columns:
     """Tolerance to strays on the way to a turning circle, against the pitch of the spiral."""
-    dragon = asked.to_dragon(terms.settings.checked_benches_max)
+    dragon = request.to_dragon(terms.settings.checked_benches_max)
     try:
         curve = core.tolerance_curve(
             dragon,
-            asked.pitches(dragon, terms),
-            turning_radius=asked.turning_diameter / 2,
-            start_turns=asked.start_turns,
+            request.pitches(dragon, terms),
+            turning_radius=request.turning_diameter / 2,
+            start_turns=request.start_turns,
             progress=terms.progress,
             budget=terms.budget,
         )

@@ -43,18 +43,18 @@ if find_spec("pyarrow"):
     FORMS[tables.ARROW_TYPE] = tables.trajectory_arrow
 
 
-def trajectory(asked: TrajectoryRequest, terms: Terms, form: str = JSON) -> bytes | Iterator[bytes]:
+def trajectory(request: TrajectoryRequest, terms: Terms, form: str = JSON) -> bytes | Iterator[bytes]:
     """Position and speed of every handle at every instant."""
     cells_max = terms.settings.workbook_cells_max if form == tables.XLSX_TYPE else terms.settings.cells_max
-    dance = asked.to_dance(terms.settings.benches_max)
-    found = core.trajectory(dance, asked.times_of(dance, cells_max), budget=terms.budget)
+    dance = request.to_dance(terms.settings.benches_max)
+    result = core.trajectory(dance, request.times_of(dance, cells_max), budget=terms.budget)
     if form == tables.CSV_TYPE:
-        return tables.csv_blocks(found, asked.decimals, asked.start_clock)
-    return FORMS[form](found, asked.decimals)
+        return tables.csv_blocks(result, request.decimals, request.start_clock)
+    return FORMS[form](result, request.decimals)
 
 
-def _cost(asked: TrajectoryRequest, form: str = JSON) -> float:
-    return asked.instants() * (asked.benches + 1) * SECONDS_PER_CELL.get(form, 1e-7)
+def _cost(request: TrajectoryRequest, form: str = JSON) -> float:
+    return request.instants() * (request.benches + 1) * SECONDS_PER_CELL.get(form, 1e-7)
 
 
 QUESTION = Question(trajectory, TrajectoryTable, body=TrajectoryRequest, forms=tuple(FORMS), cost=_cost)

@@ -39,13 +39,13 @@ class Turn(Answer):
     length: float = measure("m", "Total length of both arcs")
 
     @classmethod
-    def of(cls, found: core.Turn) -> Self:
-        return cls.known(found, turning_diameter=2 * found.turning_radius)
+    def of(cls, result: core.Turn) -> Self:
+        return cls.from_result(result, turning_diameter=2 * result.turning_radius)
 
 
-def turn(asked: TurnQuery | TurnRequest, terms: Terms) -> Turn:
+def turn(request: TurnQuery | TurnRequest, terms: Terms) -> Turn:
     """Two tangent arcs that lead from a spiral inwards to the same spiral, rotated by half a turn, outwards."""
-    return Turn.of(asked.to_turn() if isinstance(asked, TurnQuery) else asked.path.to_path())
+    return Turn.of(request.to_turn() if isinstance(request, TurnQuery) else request.path.to_path())
 
 
-QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest, cost=lambda asked: 1e-3)
+QUESTION = Question(turn, Turn, flat=TurnQuery, body=TurnRequest, cost=lambda request: 1e-3)

@@ -7,18 +7,18 @@ from typing import Self
 from pydantic import Field
 
 import core
-from app.questions.maximum_head_speed import Limit
+from app.questions.maximum_head_speed import SpeedLimitField
 from app.questions.turn import Turn
 from app.wire.dances import DragonFields
 from app.wire.paths import TurnFields, TurnPath
 from app.wire.question import Question, Terms, UniformDragon, measure
 
 
-class TurnTimeQuery(Limit, TurnFields, UniformDragon):
+class TurnTimeQuery(SpeedLimitField, TurnFields, UniformDragon):
     """Time of the head through a turn."""
 
 
-class TurnTimeRequest(Limit, DragonFields, strict=True):
+class TurnTimeRequest(SpeedLimitField, DragonFields, strict=True):
     """Time of the head through a turn, for any dragon."""
 
     path: TurnPath = Field(default_factory=lambda: TurnPath(kind="turn"), description="The turn")
@@ -32,15 +32,15 @@ class TurnTime(Turn):
     handles: list[int] = Field(description="Handles that reach the limit, all at once")
 
     @classmethod
-    def timed(cls, found: core.TurnTime, **own: float) -> Self:
-        return cls.known(found, **own, **Turn.of(found.turn).model_dump())
+    def from_core(cls, result: core.TurnTime, **own: float) -> Self:
+        return cls.from_result(result, **own, **Turn.of(result.turn).model_dump())
 
 
-def turn_time(asked: TurnTimeQuery | TurnTimeRequest, terms: Terms) -> TurnTime:
+def turn_time(request: TurnTimeQuery | TurnTimeRequest, terms: Terms) -> TurnTime:
     """How long the head takes through a turn at the highest speed at which no handle exceeds the limit."""
-    dragon = asked.to_dragon(terms.settings.checked_benches_max)
-    path = asked.to_turn() if isinstance(asked, TurnTimeQuery) else asked.path.to_path()
-    return TurnTime.timed(core.turn_time(dragon, path, asked.speed_limit, budget=terms.budget))
+    dragon = request.to_dragon(terms.settings.checked_benches_max)
+    path = request.to_turn() if isinstance(request, TurnTimeQuery) else request.path.to_path()
+    return TurnTime.from_core(core.turn_time(dragon, path, request.speed_limit, budget=terms.budget))
 
 
 QUESTION = Question(turn_time, TurnTime, flat=TurnTimeQuery, body=TurnTimeRequest)

@@ -22,7 +22,7 @@ from app.service.reply import Reply
 from app.service.request_limits import LARGE
 from app.settings import Settings
 from app.wire.problem import ERRORS_MAX
-from app.wire.question import JSON, shown
+from app.wire.question import JSON, short_json
 from app.wire.texts import Unreadable, json_of
 
 # Estimated time to answer a large body, for the Retry-After of a full lane [s].
@@ -79,7 +79,7 @@ class BodyRoute(WatchedRoute):
                 words = "The body must hold at most {most} objects and lists, got about {parts}."
                 raise Refused(422, words, {"pointer": ""}, most=settings.parts_max, parts=parts)
             lanes: Lanes = request.app.state.lanes
-            with lanes.large_bodies.taken(LARGE_COST, client_of(request)):
+            with lanes.large_bodies.place(LARGE_COST, client_of(request)):
                 # Threads separate from those that answer small requests.
                 return await to_thread.run_sync(asyncio.run, in_thread(request), limiter=CapacityLimiter(1))
 
@@ -99,8 +99,8 @@ def refuse_type(request: Request) -> None:
     """raises: Refused (415) for a body that is not JSON, or that is compressed"""
     kind = content_type(request)
     if has_body(request) and kind != JSON:
-        told = {"got": kind or "no Content-Type", "reason": "send the header Content-Type: {type}.", "type": JSON}
-        raise Refused(415, "The body must be {type}", {"name": "Content-Type"}, {"Accept-Post": JSON}, **told)
+        values = {"got": kind or "no Content-Type", "reason": "send the header Content-Type: {type}.", "type": JSON}
+        raise Refused(415, "The body must be {type}", {"name": "Content-Type"}, {"Accept-Post": JSON}, **values)
     if has_body(request):
         refuse_coded(request)
 
@@ -109,9 +109,9 @@ def refuse_coded(request: Request) -> None:
     """raises: Refused (415) for a body that is compressed"""
     coding = request.headers.get("content-encoding", "identity").strip()
     if coding.lower() != "identity":
-        told = {"got": f"Content-Encoding: {shown(coding)[1:-1]}", "reason": "send it as it is."}
+        values = {"got": f"Content-Encoding: {short_json(coding)[1:-1]}", "reason": "send it as it is."}
         place, plainly = {"name": "Content-Encoding"}, {"Accept-Encoding": "identity"}
-        raise Refused(415, "The body must not be compressed", place, plainly, **told)
+        raise Refused(415, "The body must not be compressed", place, plainly, **values)
 
 
 async def reply_body(request: Request) -> Reply:

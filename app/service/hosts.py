@@ -11,7 +11,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.service.middleware import Layer
 from app.service.problems import CLOSE, Refused
 from app.settings import Settings
-from app.wire.question import shown
+from app.wire.question import short_json
 
 # A target in absolute form, its host and its path.
 ABSOLUTE = re.compile(rb"https?://([^/]+)(/.*)?", re.IGNORECASE)
@@ -28,8 +28,8 @@ class OriginForm(Layer):
     """
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if found := ABSOLUTE.fullmatch(scope["raw_path"]):
-            host, path = found[1], found[2] or b"/"
+        if match := ABSOLUTE.fullmatch(scope["raw_path"]):
+            host, path = match[1], match[2] or b"/"
             headers = [(b"host", host), *(one for one in scope["headers"] if one[0] != b"host")]
             scope = {**scope, "raw_path": path, "path": unquote(path.decode("ascii")), "headers": headers}
         await self.app(scope, receive, send)
@@ -51,7 +51,7 @@ class Hosts(Layer):
             return await self.app(scope, receive, send)
         words = "This service is not {host}: ask it under one of its names."
         got = Headers(scope=scope).get("host", "")
-        refused = Refused(421, words, {"name": "Host"}, CLOSE, host=shown(got) if got else "a host without a name")
+        refused = Refused(421, words, {"name": "Host"}, CLOSE, host=short_json(got) if got else "a host without a name")
         return await self.refuse(refused, scope, receive, send)
 
     @staticmethod

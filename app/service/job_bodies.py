@@ -45,17 +45,17 @@ class SweepRequest(Spec):
     )
 
 
-def pointer_in_sweep(field: str, asked: SweepRequest) -> str:
+def pointer_in_sweep(field: str, sweep: SweepRequest) -> str:
     """JSON pointer to a field in the request of a sweep: its own, or a parameter of its question.
 
     >>> pointer_in_sweep("path.pitch", SweepRequest(question="check", over={"path.pitch": [-1]}))
     '/over/path.pitch'
     """
     if field.partition(".")[0] in SweepRequest.model_fields:
-        return pointer(field.split("."), asked.model_dump(mode="json"))
-    if over := next((name for name in asked.over if f"{name}.".startswith(f"{field}.")), ""):
+        return pointer(field.split("."), sweep.model_dump(mode="json"))
+    if over := next((name for name in sweep.over if f"{name}.".startswith(f"{field}.")), ""):
         return f"/over/{over}"
-    return f"/request{pointer(field.split('.'), asked.request)}"
+    return f"/request{pointer(field.split('.'), sweep.request)}"
 
 
 class Link(BaseModel):

@@ -31,9 +31,9 @@ class JobCalls(Layer):
         if not scope["path"].startswith("/jobs") or scope["method"] not in ("GET", "DELETE"):
             return await self.app(scope, receive, send)
         if self._waiting >= JOB_CALLS_WAITING:
-            told = {"most": limit(JOB_CALLS_WAITING, "waiting call"), "seconds": Quantity(self._retry_after, "s")}
+            values = {"most": limit(JOB_CALLS_WAITING, "waiting call"), "seconds": Quantity(self._retry_after, "s")}
             words, after = "The limit of {most} about jobs is reached", {"Retry-After": str(self._retry_after)}
-            refused = Refused(503, words, None, after, reason="try again in {seconds}.", **told)
+            refused = Refused(503, words, None, after, reason="try again in {seconds}.", **values)
             return await self.refuse(refused, scope, receive, send)
         self._waiting += 1
         try:
@@ -48,11 +48,11 @@ class JobCalls(Layer):
                 self._places.release()
             has_place = False
 
-        async def leaving(message: Message) -> None:
+        async def send_and_leave(message: Message) -> None:
             leave()
             await send(message)
 
         try:
-            await self.app(scope, receive, leaving)
+            await self.app(scope, receive, send_and_leave)
         finally:
             leave()

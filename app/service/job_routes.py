@@ -52,13 +52,13 @@ from app.service.job_bodies import (
 )
 from app.service.lanes import limit
 from app.service.negotiation import RESPOND_ASYNC, form_of
-from app.service.problems import Refused, answer_of, problem
+from app.service.problems import Refused, problem, response_of
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
 from app.sweeps.spec import Spec
-from app.wire.faults import in_body, unfit
+from app.wire.faults import in_body, misfit_problem
 from app.wire.problem import PROBLEM_TYPE, item_of
-from app.wire.question import JSON, FileFormat, check_limit, shown
+from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
 
@@ -174,7 +174,7 @@ router = APIRouter(prefix="/jobs", tags=["Jobs"])
 asking = APIRouter(tags=["Jobs"], route_class=BodyRoute)
 
 
-def told(
+def description_of(
     name: str, *statuses: int, model: type[BaseModel] | None = None, content: Any = None, empty: str = ""
 ) -> dict[str, Any]:
     """OpenAPI description of a call: operation id, problems, media type if not JSON, reason of an empty answer."""
@@ -193,17 +193,17 @@ def told(
 JobId = Annotated[str, Path(description="Name of the job, the last part of its address", pattern=f"^{ID_PATTERN}$")]
 
 
-def found(request: Request, job_id: JobId) -> Job:
+def job_of(request: Request, job_id: JobId) -> Job:
     """The job with that name. raises: Refused (404) if there is none"""
     job = keeper_of(request).store.get(job_id)
     if job is None:
         words = "There is no job {job}: it was removed, it has expired, or its ID is wrong."
-        raise Refused(404, words, job=shown(job_id))
+        raise Refused(404, words, job=short_json(job_id))
     return job
 
 
 KeptKeeper = Annotated[Keeper, Depends(keeper_of)]
-Found = Annotated[Job, Depends(found)]
+NamedJob = Annotated[Job, Depends(job_of)]
 no_query = Depends(refuse_query)
 
 
@@ -211,29 +211,29 @@ no_query = Depends(refuse_query)
     "/jobs",
     status_code=202,
     dependencies=[TOKEN, Depends(guard), Depends(reply_body)],
-    **told("ask_later", 400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
+    **description_of("ask_later", 400, 401, 404, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
 )
 def ask_later(
     request: Request,
-    wanted: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
+    inputs: Annotated[JobRequest, Body(examples=[{"question": "collision_time", "request": {"pitch": 0.5}}])],
 ) -> Response:
     """Asks a question to be answered later; Location is the address of its job."""
-    if wanted.question not in CALLS:
-        near = difflib.get_close_matches(wanted.question, CALLS, n=1)
+    if inputs.question not in CALLS:
+        near = difflib.get_close_matches(inputs.question, CALLS, n=1)
         advice = "did you mean {near}?" if near else "it must be one of {known}"
-        told: dict[str, Any] = {"near": near[0] if near else "", "known": ", ".join(sorted(CALLS))}
-        told["question"] = shown(wanted.question)
-        raise Refused(422, "question {question} is unknown here", {"pointer": "/question"}, reason=advice, **told)
-    call, values = CALLS[wanted.question], dict(wanted.request)
-    accept = wanted.accept
+        values: dict[str, Any] = {"near": near[0] if near else "", "known": ", ".join(sorted(CALLS))}
+        values["question"] = short_json(inputs.question)
+        raise Refused(422, "question {question} is unknown here", {"pointer": "/question"}, reason=advice, **values)
+    call, values = CALLS[inputs.question], dict(inputs.request)
+    accept = inputs.accept
     if call.question.formats and "format" in values:  # The format is part of the path of the call.
         accept = format_of(values.pop("format"), call.question.formats)
     form = form_of(accept, call.question.forms, {"pointer": "/accept"})
     try:
-        checked = call.asked.model_validate(values)
+        checked = call.request_type.model_validate(values)
     except ValidationError as error:
-        found = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
-        return answer_of(unfit(found, call.asked, in_body(values, "/request")))
+        faults = [{**one, "loc": ("body", *one["loc"])} for one in error.errors()]
+        return response_of(misfit_problem(faults, call.request_type, in_body(values, "/request")))
     return take(request, Task(call.name, values, form), cost_of(call, checked, form))
 
 
@@ -241,18 +241,18 @@ def ask_later(
     "/sweeps",
     status_code=202,
     dependencies=[TOKEN, Depends(guard), Depends(reply_body)],
-    **told(SWEEP, 400, 401, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
+    **description_of(SWEEP, 400, 401, 406, 413, 415, 422, 429, 500, 503, 507, model=JobStatus),
 )
-def sweep(request: Request, wanted: Annotated[SweepRequest, Body(examples=[SWEEP_EXAMPLE])]) -> Response:
+def sweep(request: Request, inputs: Annotated[SweepRequest, Body(examples=[SWEEP_EXAMPLE])]) -> Response:
     """Asks one question for many designs; Location is the address of the job whose result is their table."""
     limits: Settings = request.app.state.settings
-    form = form_of(wanted.accept, SWEEP_FORMS, {"pointer": "/accept"})
+    form = form_of(inputs.accept, SWEEP_FORMS, {"pointer": "/accept"})
     try:
-        spec = Spec.of(wanted.model_dump(exclude={"accept"}))
+        spec = Spec.of(inputs.model_dump(exclude={"accept"}))
         check_limit("over", "designs", spec.designs, limits.sweep_designs_max, "ask for fewer in one sweep")
         check_limit("shard_size", "shards", spec.shards, limits.sweep_shards_max, "give a larger shard_size")
     except BenchDragonError as error:
-        place = pointer_in_sweep(error.field, wanted)
+        place = pointer_in_sweep(error.field, inputs)
         return problem(422, error.code, error, [item_of(error, pointer=place)])
     return take(request, Task(SWEEP, spec.model_dump(mode="json"), form), spec.designs * spec.asks.seconds)
 
@@ -262,12 +262,14 @@ def format_of(value: Any, formats: type[FileFormat]) -> str:
     try:
         return formats(value).media_type
     except ValueError as error:
-        told: dict[str, Any] = {"got": Given(value, shown(value)), "formats": " or ".join(formats)}
-        raise Refused(422, "format must be {formats}", {"pointer": "/request/format"}, **told) from error
+        values: dict[str, Any] = {"got": Given(value, short_json(value)), "formats": " or ".join(formats)}
+        raise Refused(422, "format must be {formats}", {"pointer": "/request/format"}, **values) from error
 
 
 @router.get(
-    "", dependencies=[TOKEN, Depends(guard), no_query], **told("list_jobs", 401, 403, 422, 500, 503, model=JobList)
+    "",
+    dependencies=[TOKEN, Depends(guard), no_query],
+    **description_of("list_jobs", 401, 403, 422, 500, 503, model=JobList),
 )
 def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
     """All jobs, for clients with the token; a service without a token lists none."""
@@ -278,82 +280,88 @@ def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
     return Response(b'{"jobs":[' + listed + b"]}", headers=NOT_KEPT, media_type=JSON)
 
 
-@router.get("/{job_id}", dependencies=[no_query], **told("job_status", 404, 422, 500, 503, model=JobStatus))
-def job(request: Request, found: Found) -> Response:
+@router.get("/{job_id}", dependencies=[no_query], **description_of("job_status", 404, 422, 500, 503, model=JobStatus))
+def job_status(request: Request, job: NamedJob) -> Response:
     """Status and progress of a job."""
-    return Response(status(found, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
+    return Response(status(job, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
 
 
 @router.delete(
-    "/{job_id}", dependencies=[no_query], **told("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus, empty=REMOVED)
+    "/{job_id}",
+    dependencies=[no_query],
+    **description_of("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus, empty=REMOVED),
 )
-def dismiss(request: Request, keeper: KeptKeeper, found: Found) -> Response:
+def dismiss(request: Request, keeper: KeptKeeper, job: NamedJob) -> Response:
     """Dismisses an unfinished job, or removes a finished one with all its data (204)."""
-    if keeper.store.dismiss(found.id):
-        return job(request, keeper.store.get(found.id) or found)
-    keeper.store.remove(found.id)
+    if keeper.store.dismiss(job.id):
+        return job_status(request, keeper.store.get(job.id) or job)
+    keeper.store.remove(job.id)
     return Response(status_code=204)
 
 
 @router.get(
-    "/{job_id}/result", dependencies=[no_query], **told("job_result", 404, 409, 410, 422, 500, 503, content=RESULT)
+    "/{job_id}/result",
+    dependencies=[no_query],
+    **description_of("job_result", 404, 409, 410, 422, 500, 503, content=RESULT),
 )
-def result(keeper: KeptKeeper, found: Found) -> Response:
+def result(keeper: KeptKeeper, job: NamedJob) -> Response:
     """The answer of the call, with the same bytes as a direct answer; for a failed job its problem."""
-    if not found.is_finished:
+    if not job.is_finished:
         detail = "The job is {state}, so it has no result yet: ask again, or follow its events."
-        raise Refused(409, detail, None, {"Retry-After": "1"}, state=str(found.state))
-    if found.problem is not None:
-        known = orjson.loads(found.problem)
-        return Response(found.problem, known["status"], NOT_KEPT, PROBLEM_TYPE)
-    file = keeper.store.result(found.id)
-    if found.state is not JobState.DISMISSED and not found.expired:
+        raise Refused(409, detail, None, {"Retry-After": "1"}, state=str(job.state))
+    if job.problem is not None:
+        fields = orjson.loads(job.problem)
+        return Response(job.problem, fields["status"], NOT_KEPT, PROBLEM_TYPE)
+    file = keeper.store.result(job.id)
+    if job.state is not JobState.DISMISSED and not job.expired:
         with suppress(FileNotFoundError):  # The file may be removed at any time.
             if file.stat().st_size > READ_AT_ONCE:
-                return LargeResult(file, headers=NOT_KEPT, media_type=found.media_type)
-            return Response(file.read_bytes(), headers=NOT_KEPT, media_type=found.media_type)
-    why = "The job was dismissed" if found.state is JobState.DISMISSED else "The result has expired"
-    why = "The result gave way to newer jobs" if found.expired == GAVE_WAY else why
+                return LargeResult(file, headers=NOT_KEPT, media_type=job.media_type)
+            return Response(file.read_bytes(), headers=NOT_KEPT, media_type=job.media_type)
+    why = "The job was dismissed" if job.state is JobState.DISMISSED else "The result has expired"
+    why = "The result gave way to newer jobs" if job.expired == GAVE_WAY else why
     raise Refused(410, f"{why}: there is no result, ask the question again.")
 
 
 @router.get(
     "/{job_id}/events",
     dependencies=[no_query],
-    **told("job_events", 404, 422, 500, 503, content={EVENTS_TYPE: {"schema": {"type": "string"}}}, empty=NO_NEWS),
+    **description_of(
+        "job_events", 404, 422, 500, 503, content={EVENTS_TYPE: {"schema": {"type": "string"}}}, empty=NO_NEWS
+    ),
 )
 async def events(
     keeper: KeptKeeper,
-    found: Found,
+    job: NamedJob,
     last_event_id: Annotated[str, Header(description="Number of the last event that the client has")] = "0",
 ) -> Response:
     """The status of a job at every change, as server-sent events, until it is finished."""
     after = int(last_event_id) if EVENT_ID.fullmatch(last_event_id) else 0
-    if found.is_finished and not await run_in_threadpool(keeper.store.events, found.id, after):
+    if job.is_finished and not await run_in_threadpool(keeper.store.events, job.id, after):
         return Response(status_code=204)  # It tells a browser not to connect again.
     if not keeper.free.acquire(blocking=False):
         words = "{most} clients follow jobs, which is the limit: ask for the status."
         raise Refused(503, words, None, COME_AGAIN, most=keeper.settings.jobs_listeners_max)
-    return News(keeper, found.id, after)
+    return EventStream(keeper, job.id, after)
 
 
 class LargeResult(FileResponse):
     """A file, or one range of its bytes; any other Range is ignored, as HTTP allows: a refusal would have no words."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        wanted = RANGE.fullmatch(Headers(scope=scope).get("range", ""))
+        span = RANGE.fullmatch(Headers(scope=scope).get("range", ""))
         size = os.stat(self.path).st_size
-        if not (wanted and int(wanted[1]) < size and int(wanted[1]) <= int(wanted[2] or size)):
+        if not (span and int(span[1]) < size and int(span[1]) <= int(span[2] or size)):
             scope = {**scope, "headers": [one for one in scope["headers"] if one[0] != b"range"]}
         await super().__call__(scope, receive, send)
 
 
-class News(StreamingResponse):
+class EventStream(StreamingResponse):
     """Events of a job after a given one, as they happen, until the job is finished or removed, or the service ends."""
 
     def __init__(self, keeper: Keeper, job: str, after: int) -> None:
         self.keeper, self.job, self.latest = keeper, job, after
-        super().__init__(self.told(), headers={**NOT_KEPT, "X-Accel-Buffering": "no"}, media_type=EVENTS_TYPE)
+        super().__init__(self.blocks(), headers={**NOT_KEPT, "X-Accel-Buffering": "no"}, media_type=EVENTS_TYPE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         self.is_head = scope.get("is_head", False)
@@ -362,16 +370,16 @@ class News(StreamingResponse):
         finally:
             self.keeper.free.release()
 
-    async def told(self) -> AsyncIterator[bytes]:
+    async def blocks(self) -> AsyncIterator[bytes]:
         store, beat = self.keeper.store, monotonic()
         yield b"retry: 1000\n\n"
         while not self.is_head and not self.keeper.leaving.is_set():
-            known = await run_in_threadpool(store.get, self.job)
+            job = await run_in_threadpool(store.get, self.job)
             # Read after the status, so that no event of a finished job is missing.
             for number, data in await run_in_threadpool(store.events, self.job, self.latest):
                 yield b"id: %d\ndata: %b\n\n" % (number, data)
                 self.latest, beat = number, monotonic()
-            if known is None or known.is_finished:
+            if job is None or job.is_finished:
                 return
             if monotonic() - beat >= BEAT_SECONDS:
                 yield b": it goes on\n\n"

@@ -26,11 +26,11 @@ class KeptAnswers:
 
     def get(self, tag: str) -> bytes | None:
         with self._lock:
-            found = self._kept.get(tag)
-            if found is not None:
+            answer = self._kept.get(tag)
+            if answer is not None:
                 self._kept.move_to_end(tag)
                 self._repeated.inc()
-            return found
+            return answer
 
     def keep(self, tag: str, answer: bytes) -> None:
         """Keep an answer, unless it is too large."""

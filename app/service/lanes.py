@@ -45,7 +45,7 @@ class Lane:
         self._begun: dict[object, tuple[float, float, str]] = {}
 
     @contextmanager
-    def taken(self, cost: float, client: str = "") -> Iterator[None]:
+    def place(self, cost: float, client: str = "") -> Iterator[None]:
         """A place in the lane. cost: estimated time for which it is needed [s]. raises: Refused (429, 503)"""
         key = object()
         with self._lock:
@@ -69,9 +69,9 @@ class Lane:
         now = time.monotonic()
         left = (began + cost - now if now < began + cost else now - began for began, cost, _ in begun)
         seconds = max(self.retry_after, math.ceil(min(left)))
-        told = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
+        values = {"most": limit(most, f"{self.name} computation"), "seconds": Quantity(seconds, "s")}
         words, after = f"{whose} limit of {{most}} at once is reached", {"Retry-After": str(seconds)}
-        return Refused(status, words, None, after, reason="try again in {seconds}.", **told)
+        return Refused(status, words, None, after, reason="try again in {seconds}.", **values)
 
 
 class Lanes:
@@ -97,8 +97,8 @@ class Lanes:
     def place(self, cost: float, media_type: str, client: str) -> AbstractContextManager[None]:
         """A place in the lane of a computation. cost: its estimated time [s]"""
         if media_type == XLSX_TYPE:
-            return self._workbook.taken(cost, client)
-        return (self._cheap if cost <= CHEAP else self._heavy).taken(cost, client)
+            return self._workbook.place(cost, client)
+        return (self._cheap if cost <= CHEAP else self._heavy).place(cost, client)
 
     @contextmanager
     def movable_place(self, cost: float, client: str, budget: Budget) -> Iterator[None]:
@@ -110,11 +110,11 @@ class Lanes:
         """
         refusals: list[Refused] = []
         with ExitStack() as heavy, ExitStack() as cheap:
-            cheap.enter_context(self._cheap.taken(cost, client))
+            cheap.enter_context(self._cheap.place(cost, client))
 
             def move() -> None:
                 try:
-                    heavy.enter_context(self._heavy.taken(UNKNOWN_COST, client))
+                    heavy.enter_context(self._heavy.place(UNKNOWN_COST, client))
                 except Refused as refusal:
                     refusals.append(refusal)
                     budget.stop("before a place among the heavy computations was free")

@@ -90,13 +90,13 @@ def fault() -> str:
 def _difference() -> str:
     dance = Dance(Dragon(), Spiral())
     x = float(trajectory(dance, [0.0]).position[0, 1, 0])
-    found = first_contact(dance)
-    contact = found.time
+    first = first_contact(dance)
+    contact = first.time
     if abs(x - KNOWN_X) > KNOWN_TOLERANCE:
         return f"x of handle 1 at the start is {x!r} m, expected {KNOWN_X!r} m"
     if contact is None or abs(contact - KNOWN_CONTACT) > KNOWN_TOLERANCE:
         return f"first contact is at {contact!r} s, expected {KNOWN_CONTACT!r} s"
-    check = contact_check(found)
+    check = contact_check(first)
     if not (check and check.agree):
         return f"the engines do not agree about the first contact: {check}"
     return ""
@@ -187,16 +187,16 @@ def create_app(settings: Settings | None = None) -> FastAPI:
 
 
 def _add_reader_metrics(app: FastAPI, settings: Settings, registry: CollectorRegistry) -> None:
-    given: dict[str, Any] = {"registry": registry}
+    common: dict[str, Any] = {"registry": registry}
     app.state.reader_memory = Histogram(
-        "bench_dragon_reader_memory_bytes", "Memory of the process of each file", buckets=READER_BYTES, **given
+        "bench_dragon_reader_memory_bytes", "Memory of the process of each file", buckets=READER_BYTES, **common
     )
-    app.state.readers_ended = Counter("bench_dragon_readers_ended", "Processes that a file ended", **given)
+    app.state.readers_ended = Counter("bench_dragon_readers_ended", "Processes that a file ended", **common)
     limit = Gauge(
         "bench_dragon_readers_memory_limit_bytes",
         "Most memory of all processes that read files at once",
         multiprocess_mode="livesum",
-        **given,
+        **common,
     )
     limit.set(settings.readers_max * settings.reader_memory_max)
 

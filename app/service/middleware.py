@@ -47,16 +47,16 @@ class RequestId(Layer):
     """Gives each request a name, in the answer and in the log: that of its client in X-Request-ID, or a new one."""
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        given = Headers(scope=scope).get("x-request-id", "")
-        name = given if REQUEST_ID.fullmatch(given) else uuid.uuid4().hex
+        client_name = Headers(scope=scope).get("x-request-id", "")
+        name = client_name if REQUEST_ID.fullmatch(client_name) else uuid.uuid4().hex
         request_id.set(name)
 
-        async def named(message: Message) -> None:
+        async def send_with_name(message: Message) -> None:
             if message["type"] == "http.response.start":
                 message["headers"] = [*message["headers"], (b"x-request-id", name.encode())]
             await send(message)
 
-        await self.app(scope, receive, named)
+        await self.app(scope, receive, send_with_name)
 
 
 class HeadAsGet(Layer):
@@ -86,7 +86,7 @@ class SafetyHeaders(Layer):
             (b"referrer-policy", b"no-referrer"),
         ]
 
-        async def guarded(message: Message) -> None:
+        async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = message["headers"] = [*message["headers"], *added]
                 # Browsers revalidate the page's files, so that modules of two versions never mix.
@@ -94,7 +94,7 @@ class SafetyHeaders(Layer):
                     headers.append((b"cache-control", b"no-cache"))
             await send(message)
 
-        await self.app(scope, receive, guarded)
+        await self.app(scope, receive, send_with_headers)
 
 
 class Mistakes(Layer):
@@ -106,13 +106,13 @@ class Mistakes(Layer):
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         started = False
 
-        async def noted(message: Message) -> None:
+        async def send_and_note(message: Message) -> None:
             nonlocal started
             started = True
             await send(message)
 
         try:
-            await self.app(scope, receive, noted)
+            await self.app(scope, receive, send_and_note)
         except Exception as error:
             if started:
                 raise
@@ -134,14 +134,14 @@ class Metrics(Layer):
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         started, status = time.perf_counter(), 500
 
-        async def noted(message: Message) -> None:
+        async def send_and_note(message: Message) -> None:
             nonlocal status
             if message["type"] == "http.response.start":
                 status = message["status"]
             await send(message)
 
         try:
-            await self.app(scope, receive, noted)
+            await self.app(scope, receive, send_and_note)
         finally:
             # The path of the route, so that unknown paths cannot create new labels without end.
             path = getattr(scope.get("route"), "path", "other")

@@ -81,10 +81,10 @@ def _content(path: str, changed: int) -> bytes:
 
 @lru_cache(1)
 def _digest(files: tuple[tuple[str, int], ...]) -> str:
-    found = hashlib.blake2b(digest_size=8)
+    digest = hashlib.blake2b(digest_size=8)
     for path, changed in files:
-        found.update(_content(path, changed))
-    return found.hexdigest()
+        digest.update(_content(path, changed))
+    return digest.hexdigest()
 
 
 class Files(StaticFiles):
@@ -92,7 +92,7 @@ class Files(StaticFiles):
 
     def edition(self) -> str:
         """Name of the current files, which changes with their content; equal files have it on every machine."""
-        folders = [found for place in self.all_directories for found in sorted(os.walk(place))]
+        folders = [folder for place in self.all_directories for folder in sorted(os.walk(place))]
         paths = [os.path.join(folder, name) for folder, _, names in folders for name in sorted(names)]
         return _digest(tuple((path, os.stat(path).st_mtime_ns) for path in paths if not path.endswith(PYTHON)))
 
@@ -104,19 +104,19 @@ class Files(StaticFiles):
         if scope["method"] not in ("GET", "HEAD"):
             raise HTTPException(status_code=405)
         edition = scope["path_params"].get("edition")
-        return await run_in_threadpool(self._found, path, Headers(scope=scope), edition)
+        return await run_in_threadpool(self._response, path, Headers(scope=scope), edition)
 
     def content(self, path: str) -> tuple[bytes, str]:
         """A file and its media type. raises: HTTPException 404 for a path that is not a file"""
         try:
-            found, stat = self.lookup_path(path)
+            file, stat = self.lookup_path(path)
         except (OSError, ValueError) as error:  # a name that no file can have
             raise HTTPException(status_code=404) from error
-        if stat is None or not os.path.isfile(found):
+        if stat is None or not os.path.isfile(file):
             raise HTTPException(status_code=404)
-        return _content(found, stat.st_mtime_ns), guess_type(found)[0] or "text/plain"
+        return _content(file, stat.st_mtime_ns), guess_type(file)[0] or "text/plain"
 
-    def _found(self, path: str, headers: Headers, edition: str | None) -> Response:
+    def _response(self, path: str, headers: Headers, edition: str | None) -> Response:
         response = reply_with(headers, *self.content(path))
         if edition and edition == self.edition():
             response.headers["Cache-Control"] = KEPT

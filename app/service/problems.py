@@ -11,10 +11,10 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.routing import Match, Mount
 
-from app.wire.faults import Placing, in_body, in_query, refused, unfit
+from app.wire.faults import Placing, in_body, in_query, misfit_problem, refusal_problem
 from app.wire.messages import fault_of
 from app.wire.problem import PROBLEM_TYPE, ErrorItem, Problem, item_of, problem_of, title
-from app.wire.question import shown
+from app.wire.question import short_json
 from app.wire.texts import Unfit, Unreadable
 from core import BenchDragonError, TooMuchWork
 from core.errors import Parameter, Value
@@ -40,9 +40,9 @@ class Refused(HTTPException):
         headers: Mapping[str, str] | None = None,
         **values: Value,
     ) -> None:
-        self.told = BenchDragonError.in_words("", template, **values)
-        super().__init__(status, self.told.message, headers)
-        self.errors = [] if place is None else [item_of(self.told, **place)]
+        self.error = BenchDragonError.in_words("", template, **values)
+        super().__init__(status, self.error.message, headers)
+        self.errors = [] if place is None else [item_of(self.error, **place)]
 
     @classmethod
     def names(cls, names: Iterable[str], rule: str, advice: str) -> Self:
@@ -62,12 +62,12 @@ def problem(
     **values: Value,
 ) -> Response:
     """The answer to a request that failed; see problem_of()."""
-    return answer_of(problem_of(status, code, error, errors, **values), headers)
+    return response_of(problem_of(status, code, error, errors, **values), headers)
 
 
-def answer_of(said: Problem, headers: Mapping[str, str] | None = None) -> Response:
+def response_of(details: Problem, headers: Mapping[str, str] | None = None) -> Response:
     kept = {"Cache-Control": "no-store", **(headers or {})}
-    return Response(said.to_json(), said.status, kept, media_type=PROBLEM_TYPE)
+    return Response(details.to_json(), details.status, kept, media_type=PROBLEM_TYPE)
 
 
 def install(app: FastAPI) -> None:
@@ -79,27 +79,29 @@ def install(app: FastAPI) -> None:
 
 async def core_problem(request: Request, error: BenchDragonError) -> Response:
     """Answer to a value refused by core or by a limit of the service."""
-    said = refused(error, await _placing(request))
+    details = refusal_problem(error, await _placing(request))
     if isinstance(error, TooMuchWork) and not _takes_file(request):
-        said.detail = f"{said.detail.removesuffix('.')}. {A_JOB}"
-    return answer_of(said)
+        details.detail = f"{details.detail.removesuffix('.')}. {A_JOB}"
+    return response_of(details)
 
 
 async def validation_problem(request: Request, error: RequestValidationError) -> Response:
     """Answer to a request whose fields do not fit the schema."""
-    found = error.errors()
-    if found[0]["loc"][0] == "path":
-        fault = fault_of(found[0], None)
-        return problem(404, "not-found", fault, [item_of(fault, name=found[0]["loc"][-1])])
-    return answer_of(unfit(found, get_type_hints(request.scope["endpoint"]).get("wanted"), await _placing(request)))
+    faults = error.errors()
+    if faults[0]["loc"][0] == "path":
+        fault = fault_of(faults[0], None)
+        return problem(404, "not-found", fault, [item_of(fault, name=faults[0]["loc"][-1])])
+    return response_of(
+        misfit_problem(faults, get_type_hints(request.scope["endpoint"]).get("inputs"), await _placing(request))
+    )
 
 
 def unreadable(error: Unreadable) -> Response:
     """Answer to a body that cannot be read as JSON."""
     reason = f"{error.reason}. Send an object such as {{}}." if error.reason else "send an object such as {}."
-    told = error.of("", "The body").because(reason)
+    fault = error.of("", "The body").because(reason)
     status, code = (422, "invalid-value") if isinstance(error, Unfit) else (400, "broken-json")
-    return problem(status, code, told, [item_of(told, pointer="")])
+    return problem(status, code, fault, [item_of(fault, pointer="")])
 
 
 def _takes_file(request: Request) -> bool:
@@ -116,29 +118,31 @@ async def _placing(request: Request) -> Placing:
 async def http_problem(request: Request, error: HTTPException) -> Response:
     """Answer to an error of HTTP itself: unknown path, method, media type and so on."""
     status, headers = error.status_code, dict(error.headers or {})
-    told: BenchDragonError | str = error.told if isinstance(error, Refused) else str(error.detail)
+    fault: BenchDragonError | str = error.error if isinstance(error, Refused) else str(error.detail)
     items, code = getattr(error, "errors", ()), title(status).lower().replace(" ", "-")
     path = request.url.path
-    if status == 404 and told == HTTPStatus.NOT_FOUND.phrase:
-        told = BenchDragonError.in_words("", "There is nothing at {path}: see /docs for all calls.", path=shown(path))
+    if status == 404 and fault == HTTPStatus.NOT_FOUND.phrase:
+        fault = BenchDragonError.in_words(
+            "", "There is nothing at {path}: see /docs for all calls.", path=short_json(path)
+        )
     elif status == 405:
         headers["Allow"] = ", ".join(sorted(_allowed(request)))
         if request.method == "OPTIONS":
             return Response(status_code=204, headers=headers)
         words = {"path": path, "method": request.method, "methods": headers["Allow"]}
-        told = BenchDragonError.in_words("", "{path} does not support {method}: use {methods}.", **words)
-    return problem(status, code, told, items, headers)
+        fault = BenchDragonError.in_words("", "{path} does not support {method}: use {methods}.", **words)
+    return problem(status, code, fault, items, headers)
 
 
 def _allowed(request: Request) -> set[str]:
     """Every method that some call at this path knows."""
-    found = {
+    methods = {
         "GET" if isinstance(route, Mount) else method
         for method in METHODS
         for route in request.app.routes
         if route.matches({**request.scope, "method": method})[0] is Match.FULL
     }
-    return found | {"OPTIONS"} | ({"HEAD"} if "GET" in found else set())
+    return methods | {"OPTIONS"} | ({"HEAD"} if "GET" in methods else set())
 
 
 def server_problem() -> Response:

@@ -48,8 +48,8 @@ class Protocol(H11Protocol):
     of an answer.
     """
 
-    def __init__(self, *given: Any, **named: Any) -> None:
-        super().__init__(*given, **named)
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
         self.settings = _settings()
         self.left = bytearray()
         self._owed, self._leaves = "", False

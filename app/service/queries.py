@@ -33,16 +33,16 @@ class QueryRoute(APIRoute):
     """
 
     def get_route_handler(self) -> Handler:
-        model = get_type_hints(self.endpoint)["wanted"]
+        model = get_type_hints(self.endpoint)["inputs"]
 
         async def handled(request: Request) -> Response:
             reply = await reply_query(request)
             try:
-                wanted = model.model_validate(dict(request.query_params))
+                inputs = model.model_validate(dict(request.query_params))
             except ValidationError as error:
                 faults = [{**one, "loc": ("query", *one["loc"])} for one in error.errors(include_url=False)]
                 raise RequestValidationError(faults) from error
-            response: Response = await self.endpoint(reply, wanted)
+            response: Response = await self.endpoint(reply, inputs)
             return response
 
         return handled

@@ -57,7 +57,7 @@ class Computation:
     def answer(self, terms: Terms) -> bytes | Iterator[bytes]:
         """The answer, whole or in blocks. raises: BenchDragonError in the words of the request"""
         with refusing(self.inputs):
-            return self.call.question.told(self.inputs, terms, self.media_type)
+            return self.call.question.encode(self.inputs, terms, self.media_type)
 
 
 class Reply:
@@ -152,5 +152,5 @@ class Reply:
         """Whether the answer is worth compressing, and the client accepts gzip."""
         least = self.settings.compressed_bytes_min
         is_large = least > 0 and (not isinstance(data, bytes) or len(data) >= least)
-        wanted = header_list(self.request.headers, "accept-encoding") or "identity"
-        return is_large and accepted(wanted, ["identity", "gzip"]) == "gzip"
+        codings = header_list(self.request.headers, "accept-encoding") or "identity"
+        return is_large and accepted(codings, ["identity", "gzip"]) == "gzip"

@@ -30,7 +30,7 @@ class RequestLimits(Layer):
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         read, most = 0, self.files_max.get(scope["path"], self.bytes_max)
 
-        async def counted() -> Message:
+        async def receive_counted() -> Message:
             nonlocal read
             message = await receive()
             more = len(message.get("body", b""))
@@ -44,14 +44,14 @@ class RequestLimits(Layer):
         if refused := self._refused_head(Headers(scope=scope), scope["query_string"], most):
             return await self.refuse(refused, scope, receive, send)
         try:
-            return await self.app(scope, counted, send)
+            return await self.app(scope, receive_counted, send)
         finally:
             self.held -= read
 
     def _full(self) -> Refused:
-        told = {"most": Quantity(self.held_max, "bytes"), "seconds": Quantity(self.retry_after, "s")}
+        values = {"most": Quantity(self.held_max, "bytes"), "seconds": Quantity(self.retry_after, "s")}
         words, after = "The limit of {most} of bodies at once is reached", {"Retry-After": str(self.retry_after)}
-        return Refused(503, words, None, CLOSE | after, reason="try again in {seconds}.", **told)
+        return Refused(503, words, None, CLOSE | after, reason="try again in {seconds}.", **values)
 
     def _refused_head(self, headers: Headers, query: bytes, most: int) -> Refused | None:
         if len(query) > self.query_max:

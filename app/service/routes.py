@@ -46,9 +46,9 @@ QUERY_STATUSES = (406, 414, 422, 429, 500, 503)
 BODY_STATUSES = (400, 406, 413, 415, 422, 429, 500, 503)
 
 
-def refusals(statuses: Iterable[int], told: Mapping[int, str] = PROBLEMS) -> dict[int | str, dict[str, Any]]:
-    """Descriptions of problems. told: reason for each status"""
-    return {status: {"description": told[status], "content": PROBLEM} for status in statuses}
+def refusals(statuses: Iterable[int], reasons: Mapping[int, str] = PROBLEMS) -> dict[int | str, dict[str, Any]]:
+    """Descriptions of problems. reasons: for each status"""
+    return {status: {"description": reasons[status], "content": PROBLEM} for status in statuses}
 
 
 def add_calls(router: APIRouter, calls: Iterable[Call] = CALLS.values()) -> None:
@@ -81,32 +81,32 @@ def add_calls(router: APIRouter, calls: Iterable[Call] = CALLS.values()) -> None
 def _endpoint(call: Call) -> Callable[..., Any]:
     """The function that FastAPI calls; its annotations describe the parameters."""
 
-    def to_body(reply: Reply, wanted: Wire) -> Response:
-        return reply(call, wanted)
+    def to_body(reply: Reply, inputs: Wire) -> Response:
+        return reply(call, inputs)
 
-    def figure_to_body(reply: Reply, format: FileFormat, wanted: Wire) -> Response:
-        return reply(call, wanted, format)
+    def figure_to_body(reply: Reply, format: FileFormat, inputs: Wire) -> Response:
+        return reply(call, inputs, format)
 
-    async def to_query(reply: Reply, wanted: Wire) -> Response:
-        return await reply.to_query(call, wanted)
+    async def to_query(reply: Reply, inputs: Wire) -> Response:
+        return await reply.to_query(call, inputs)
 
-    async def figure_to_query(reply: Reply, format: FileFormat, wanted: Wire) -> Response:
-        return await reply.to_query(call, wanted, format)
+    async def figure_to_query(reply: Reply, format: FileFormat, inputs: Wire) -> Response:
+        return await reply.to_query(call, inputs, format)
 
     figure, answer = (figure_to_query, to_query) if call.method == "GET" else (figure_to_body, to_body)
     endpoint: Callable[..., Any] = figure if call.question.formats else answer
-    wanted: Any
+    inputs: Any
     if call.method == "GET":
-        replying, wanted = QueryReply, Annotated[call.asked, Query()]
+        replying, inputs = QueryReply, Annotated[call.request_type, Query()]
     else:
         example = EXAMPLES.get(f"POST {call.question.path}")
-        replying, wanted = BodyReply, Annotated[call.asked, Body(examples=[example.body] if example else None)]
+        replying, inputs = BodyReply, Annotated[call.request_type, Body(examples=[example.body] if example else None)]
         with suppress(ValidationError):  # It is raised where a body is required; a missing one stands for the defaults.
-            endpoint.__defaults__ = (call.asked(),)
+            endpoint.__defaults__ = (call.request_type(),)
     endpoint.__name__ = call.name
     endpoint.__annotations__ |= {
         "reply": replying,
-        "wanted": wanted,
+        "inputs": inputs,
         "format": Annotated[call.question.formats, Path(description="Format of the file")],
         "return": Response,
     }

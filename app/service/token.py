@@ -18,8 +18,8 @@ WITHOUT: list[dict[str, list[str]]] = [{}]
 def guard(request: Request) -> None:
     """raises: Refused (401) without the token of this service, if it has one"""
     token = request.app.state.settings.token
-    kind, _, given = request.headers.get("authorization", "").partition(" ")
-    if token and not (kind.lower() == "bearer" and compare_digest(given.strip().encode(), token.encode())):
+    kind, _, credentials = request.headers.get("authorization", "").partition(" ")
+    if token and not (kind.lower() == "bearer" and compare_digest(credentials.strip().encode(), token.encode())):
         detail = "Jobs and uploads need the token of this service: send the header Authorization: Bearer TOKEN."
         challenge = {"WWW-Authenticate": 'Bearer realm="bench-dragon"'}
         raise Refused(401, detail, {"name": "Authorization"}, challenge)

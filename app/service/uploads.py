@@ -107,16 +107,16 @@ def file_body(types: tuple[str, ...]) -> Callable[[Request], Coroutine[Any, Any,
             refuse_coded(request)
         kind = content_type(request)
         if data and kind not in types:
-            known = " or ".join(types)
+            names = " or ".join(types)
             words, place = "The body must be the file itself, of type {types}, got {type}.", {"name": "Content-Type"}
-            told = {"types": known, "type": kind or "no Content-Type"}
-            raise Refused(415, words, place, {"Accept-Post": ", ".join(types)}, **told)
+            values = {"types": names, "type": kind or "no Content-Type"}
+            raise Refused(415, words, place, {"Accept-Post": ", ".join(types)}, **values)
         return data
 
     return uploaded
 
 
-def told(name: str, model: type[BaseModel], *, required: bool) -> dict[str, Any]:
+def description_of(name: str, model: type[BaseModel], *, required: bool) -> dict[str, Any]:
     """OpenAPI description of a call. required: whether it needs the file"""
     answer = {"description": "The answer", "model": model, "content": {JSON: {}}}
     body = {"required": required, "content": {BYTES: FILE}}
@@ -132,7 +132,7 @@ def told(name: str, model: type[BaseModel], *, required: bool) -> dict[str, Any]
 def in_lane(request: Request) -> AbstractContextManager[None]:
     """A place among the computations for one file. raises: Refused (429, 503)"""
     lanes: Lanes = request.app.state.lanes
-    return lanes.files.taken(COST, client_of(request))
+    return lanes.files.place(COST, client_of(request))
 
 
 def reply_of(answer: Answer) -> Response:
@@ -143,21 +143,21 @@ grading = APIRouter(tags=["Grading"], route_class=GradeRoute)
 maps = APIRouter(tags=["Maps"], route_class=MapRoute)
 
 
-@grading.post("/grade", **told("grade", GradeAnswer, required=False))
+@grading.post("/grade", **description_of("grade", GradeAnswer, required=False))
 def grade(
-    request: Request, data: Annotated[bytes, Depends(file_body(GRADED))], wanted: Annotated[GradeQuery, Query()]
+    request: Request, data: Annotated[bytes, Depends(file_body(GRADED))], inputs: Annotated[GradeQuery, Query()]
 ) -> Response:
     """Right and wrong cells of a contest workbook, and the known error that explains the wrong ones."""
-    given = {name: text for name in UNITS if (text := getattr(wanted, name)) is not None}
-    if not data and not given:
+    numbers = {name: text for name in UNITS if (text := getattr(inputs, name)) is not None}
+    if not data and not numbers:
         detail = "Send a workbook or CSV as the body, or a number such as pitch in the query."
         raise Refused(422, detail, {"name": "name"})
     graders: Graders = request.app.state.graders
     budget = request.state.budget
     with in_lane(request):
-        answers = [typed(name, text, wanted.language) for name, text in given.items()]
+        answers = [typed(name, text, inputs.language) for name, text in numbers.items()]
         try:
-            files = [graders.read(budget, graded, wanted.name, data, wanted.language)] if data else []
+            files = [graders.read(budget, graded, inputs.name, data, inputs.language)] if data else []
         except Halted:
             raise too_long(data, budget) from None
         except BenchDragonError as error:
@@ -165,9 +165,9 @@ def grade(
     return reply_of(GradeAnswer(files=files, answers=answers))
 
 
-@maps.post("/places", **told("places", Places, required=True))
+@maps.post("/places", **description_of("places", Places, required=True))
 def places(
-    request: Request, data: Annotated[bytes, Depends(file_body(MAPS))], wanted: Annotated[PlacesQuery, Query()]
+    request: Request, data: Annotated[bytes, Depends(file_body(MAPS))], inputs: Annotated[PlacesQuery, Query()]
 ) -> Response:
     """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON.
 
@@ -180,11 +180,11 @@ def places(
     budget = request.state.budget
     with in_lane(request):
         try:
-            found = graders.read(budget, read_places, data, wanted.units, wanted.language)
+            result = graders.read(budget, read_places, data, inputs.units, inputs.language)
         except Halted:
             raise too_much(
                 budget, "file", "must be smaller: it was not read {then}", Quantity(len(data), "bytes")
             ) from None
-    if isinstance(found, BenchDragonError):
-        raise found
-    return reply_of(found)
+    if isinstance(result, BenchDragonError):
+        raise result
+    return reply_of(result)

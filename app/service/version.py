@@ -17,8 +17,8 @@ PACKAGES = tuple(Path(__file__).parents[2] / name for name in ("core", "app"))
 def build() -> str:
     """Digest of the installed code, part of every tag: a new build, or another library, may give other bytes."""
     installed = {one.name for place in filter(None, sys.path) for one in Path(place).glob("*.dist-info")}
-    found = hashlib.blake2b("\n".join((VERSION, *sorted(installed))).encode(), digest_size=16)
+    digest = hashlib.blake2b("\n".join((VERSION, *sorted(installed))).encode(), digest_size=16)
     for package in PACKAGES:
         for file in sorted(path for path in package.rglob("*") if path.suffix in (".py", ".so", ".pyd")):
-            found.update(file.relative_to(package).as_posix().encode() + b"\n" + file.read_bytes())
-    return found.hexdigest()
+            digest.update(file.relative_to(package).as_posix().encode() + b"\n" + file.read_bytes())
+    return digest.hexdigest()

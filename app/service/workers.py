@@ -54,17 +54,17 @@ START_SECONDS, SILENT_SECONDS = 60, 10
 BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
 
 
-def process_count(asked: int | None, platform: str = sys.platform) -> int:
+def process_count(count: int | None, platform: str = sys.platform) -> int:
     """Number of processes of the service: as asked, otherwise one for each core.
 
     platform: Python's name for the system
     raises: InvalidValue for several on Windows, which has no signals to end them and lets two services share one port
     """
     if platform != "win32":
-        return asked or min(usable_cores(), WORKERS_MAX)
-    if asked not in (None, 1):
+        return count or min(usable_cores(), WORKERS_MAX)
+    if count not in (None, 1):
         rule = "--workers must be 1 on Windows, where the service is one process"
-        raise InvalidValue.in_words("workers", rule, got=Given(asked))
+        raise InvalidValue.in_words("workers", rule, got=Given(count))
     return 1
 
 
@@ -215,7 +215,7 @@ def serve(host: str, port: int, workers: int) -> None:
     settings = Settings()
     refuse_open_port(settings)
     logging.captureWarnings(settings.log_json)
-    given: dict[str, Any] = {
+    options: dict[str, Any] = {
         "factory": True,
         "host": host,
         "port": port,
@@ -224,22 +224,22 @@ def serve(host: str, port: int, workers: int) -> None:
         "timeout_graceful_shutdown": settings.grace_seconds,
         "timeout_worker_healthcheck": START_SECONDS,
     }
-    logging.config.dictConfig(given["log_config"])
+    logging.config.dictConfig(options["log_config"])
     for line in unknown_variables():
         logger.warning(line)
     if workers == 1:
         with importing():
             import_module("app.service.main")
-        uvicorn.run("app.service.main:create_app", **given)
+        uvicorn.run("app.service.main:create_app", **options)
         return
-    config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **given)
+    config = uvicorn.Config("app.service.workers:create_child_app", workers=workers, **options)
     with listen(host, port) as shared, _counts_folder(workers) as counts, ExitStack() as stack:
         stack.enter_context(kept_list())
         if settings.data is None:
             os.environ[DATA] = stack.enter_context(scratch())
         if counts:  # The folder in which processes add up the counts of /metrics; prometheus_client reads the variable.
             os.environ[SHARED_COUNTS] = counts
-        shown = f"[{host}]" if ":" in host else host
-        at = f"http://{shown}:{shared.getsockname()[1]}"
+        host_in_url = f"[{host}]" if ":" in host else host
+        at = f"http://{host_in_url}:{shared.getsockname()[1]}"
         logger.info("Uvicorn running on %s in %d processes (Press CTRL+C to quit)", at, workers)
         _Supervisor(config, shared, counts).run()

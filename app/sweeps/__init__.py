@@ -9,16 +9,16 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["Question", "Range", "Samples", "Spec", "Sweep", "sweep"]
+__all__ = ["Range", "Samples", "Spec", "Sweep", "SweepQuestion", "sweep"]
 
 if TYPE_CHECKING:
     from app.sweeps.call import sweep
-    from app.sweeps.questions import Question
+    from app.sweeps.questions import SweepQuestion
     from app.sweeps.spec import Range, Samples, Spec
     from app.sweeps.table import Sweep
 
 _PLACES = {
-    "Question": "questions",
+    "SweepQuestion": "questions",
     "Range": "spec",
     "Samples": "spec",
     "Spec": "spec",

@@ -10,14 +10,14 @@ from typing import Any
 from app.extras import require
 from app.sweeps.engines import SweepEngine
 from app.sweeps.processes import Processes
-from app.sweeps.questions import Question
+from app.sweeps.questions import SweepQuestion
 from app.sweeps.run import Progress, run
 from app.sweeps.spec import Range, Samples, Spec
 from app.sweeps.table import Sweep
 
 
 def sweep(
-    question: str | Question,
+    question: str | SweepQuestion,
     over: Mapping[str, Any],
     folder: str | PathLike[str],
     *,
@@ -29,13 +29,13 @@ def sweep(
 ) -> Sweep:
     """Answer a question for every design into a folder; the same call continues a stopped sweep.
 
-    question: an operation id such as "collision_time", or your own Question
+    question: an operation id such as "collision_time", or your own SweepQuestion
     over: parameters that vary, by dotted names: a list or array of values, or a Range; all combinations are designs
     request: the other parameters, default: their defaults; samples: method for ranges without a count
     shard_size: designs in one file, default: about 5 s of work; dask: address of a scheduler, or "local"
     raises: InvalidValue, TooLarge, MissingPackage, OSError
     """
-    own = question if isinstance(question, Question) else None
+    own = question if isinstance(question, SweepQuestion) else None
     told = {
         "question": own.name if own else question,
         "over": {name: _axis(values) for name, values in over.items()},

@@ -33,7 +33,7 @@ LIMITS = Settings.model_construct()
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class SweepQuestion:
     """One question in one form.
 
     name: the operation id; request, answer: models of the input and of the output
@@ -58,13 +58,13 @@ class Question:
             return self.ask(request)
 
 
-def _ways(name: str, seconds: float, shown: str, *left_out: str, **own: Any) -> tuple[Question, ...]:
+def _ways(name: str, seconds: float, shown: str, *left_out: str, **own: Any) -> tuple[SweepQuestion, ...]:
     """A question of the registry in both forms: with flat parameters and with a body. own: what differs for a row"""
     question = replace(KNOWN[name], **own)
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
     known = (question.model, ask, seconds, shown, frozenset(left_out))
-    return tuple(Question(question.name, request, *known) for request in requests if request)
+    return tuple(SweepQuestion(question.name, request, *known) for request in requests if request)
 
 
 def _words(place: str) -> tuple[str, str]:
@@ -107,10 +107,10 @@ class OverlapsRow(Answer):
 
 def clearance_row(asked: clearance.ClearanceQuery | clearance.ClearanceRequest, terms: Terms) -> ClearanceRow:
     """The smallest clearance of a dance, at the instants or at a local minimum between them."""
-    found = clearance.profile(asked, terms)
+    found = clearance.profile_of(asked, terms)
     k = int(found.clearance.argmin())
     at = core.Graze(float(found.time[k]), float(found.clearance[k]), tuple(found.benches[k].tolist()))
-    return ClearanceRow.known(min([at, *found.grazes], key=lambda graze: graze.clearance))
+    return ClearanceRow.from_result(min([at, *found.grazes], key=lambda graze: graze.clearance))
 
 
 def trajectory_row(asked: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
@@ -185,7 +185,7 @@ NO_ROWS = {
 }
 
 
-def question_of(name: str, parameters: Collection[str] = ()) -> Question:
+def question_of(name: str, parameters: Collection[str] = ()) -> SweepQuestion:
     """The question with that operation id, in the form that has most of these parameters; flat if both have all.
 
     raises: InvalidValue

@@ -16,7 +16,7 @@ from pathlib import Path
 from app.sweeps import shards
 from app.sweeps.engines import WINDOW, SweepEngine
 from app.sweeps.processes import Processes
-from app.sweeps.questions import Question
+from app.sweeps.questions import SweepQuestion
 from app.sweeps.shards import ShardPiece
 from app.sweeps.spec import Spec
 from core import InvalidValue
@@ -60,7 +60,7 @@ class _Shard:
 class _Run:
     """The missing shards, and those in progress."""
 
-    def __init__(self, folder: Path, spec: Spec, question: Question, missing: Iterator[int], total: int) -> None:
+    def __init__(self, folder: Path, spec: Spec, question: SweepQuestion, missing: Iterator[int], total: int) -> None:
         self.folder, self.spec, self.question, self.missing = folder, spec, question, missing
         self.ready: deque[ShardPiece] = deque()
         self.aside: list[ShardPiece] = []
@@ -158,7 +158,7 @@ def run(
     spec: Spec,
     folder: Path,
     *,
-    question: Question,
+    question: SweepQuestion,
     engine: Callable[[], SweepEngine] = Processes,
     progress: Callable[[Progress], None] = lambda progress: None,
 ) -> None:

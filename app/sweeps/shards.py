@@ -18,7 +18,7 @@ import core
 from app.files.flush import flush_folder, new_file
 from app.sweeps.columns import TYPES, Column, answer_columns, value_type
 from app.sweeps.designs import designs
-from app.sweeps.questions import Question, refusal
+from app.sweeps.questions import SweepQuestion, refusal
 from app.sweeps.spec import Range, Spec, placed
 from core import BenchDragonError, InvalidValue
 
@@ -40,14 +40,14 @@ class ShardPiece:
     """Designs from `start` to before `stop` of one shard of a sweep: the unit of work of an engine."""
 
     spec: Spec
-    question: Question
+    question: SweepQuestion
     version: str
     shard: int
     start: int
     stop: int
 
     @classmethod
-    def whole(cls, spec: Spec, question: Question, shard: int) -> ShardPiece:
+    def whole(cls, spec: Spec, question: SweepQuestion, shard: int) -> ShardPiece:
         """A whole shard."""
         return cls(spec, question, core.__version__, shard, *spec.shard(shard))
 
@@ -94,7 +94,7 @@ class ShardPiece:
         return pa.table(arrays)
 
 
-def kept_columns(spec: Spec, question: Question) -> list[Column]:
+def kept_columns(spec: Spec, question: SweepQuestion) -> list[Column]:
     """The columns of the answer, except those that repeat a parameter of the sweep."""
     return [column for column in answer_columns(question.answer, question.left_out) if column.name not in spec.over]
 

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, Validatio
 from pydantic_core import PydanticCustomError
 
 import core
-from app.sweeps.questions import Question, question_of
+from app.sweeps.questions import SweepQuestion, question_of
 from app.wire.dances import AXIS
 from app.wire.messages import checked
 from app.wire.question import AS_WHOLE, Whole, measure
@@ -108,7 +108,7 @@ class Spec(_Told):
     )
 
     @classmethod
-    def of(cls, told: Any, question: Question | None = None) -> Self:
+    def of(cls, told: Any, question: SweepQuestion | None = None) -> Self:
         """A complete spec, with the size of its shards, from values of JSON, TOML or Python.
 
         question: the question with that name, if it is not in the registry
@@ -134,7 +134,7 @@ class Spec(_Told):
             raise error.of("spec", str(file)) from error
 
     @property
-    def asks(self) -> Question:
+    def asks(self) -> SweepQuestion:
         """The named question, in the form that has all these parameters. raises: InvalidValue"""
         return question_of(self.question, [*self.over, *self.request])
 
@@ -176,7 +176,7 @@ class Spec(_Told):
         """The identity of this sweep: the SHA-256 of its canonical bytes."""
         return hashlib.sha256(self.canonical()).hexdigest()
 
-    def _check(self, question: Question) -> None:
+    def _check(self, question: SweepQuestion) -> None:
         if bool(self.sampled) is not bool(self.samples):
             words = "needs a range without a count, and there is none: leave samples out, or remove a count"
             if self.sampled:
@@ -196,7 +196,7 @@ class Spec(_Told):
                 raise InvalidValue(f"over.{name}", "is not a parameter of {question}", question=self.question)
         self._check_names(question)
 
-    def _check_names(self, question: Question) -> None:
+    def _check_names(self, question: SweepQuestion) -> None:
         """Refuse mistakes that affect every design: unknown parameters, and an invalid base.
 
         A refused value of an axis affects only its designs, which become rows with the error.

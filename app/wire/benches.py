@@ -43,8 +43,8 @@ class BenchTable(NamedTuple):
         """raises: InvalidValue naming the line"""
         for k, (length, overhang) in enumerate(zip(self.lengths, self.overhangs, strict=True)):
             if not overhang < 0.5 * length:
-                told = quantities("m", got=overhang, length=length)
-                raise _refused(self.lines[k], "overhang must be less than half of the length, {length}", **told)
+                values = quantities("m", got=overhang, length=length)
+                raise _line_error(self.lines[k], "overhang must be less than half of the length, {length}", **values)
         return Dragon.of(self.lengths, self.widths, self.overhangs).named(self.names if any(self.names) else ())
 
 
@@ -62,7 +62,7 @@ def bench_table(text: str) -> BenchTable:
     lines = text.removeprefix("\N{ZERO WIDTH NO-BREAK SPACE}").splitlines()
     first = next((k for k, line in enumerate(lines) if line.strip()), None)
     if first is None:
-        raise _refused(1, "must be the names of columns name,length,width,overhang", got="nothing")
+        raise _line_error(1, "must be the names of columns name,length,width,overhang", got="nothing")
     if stated := STATED.fullmatch(lines[first].strip(" ")):  # Excel states the separator in a line of its own.
         following = (k for k in range(first + 1, len(lines)) if lines[k].strip())
         first = next(following, first)
@@ -80,14 +80,14 @@ def bench_table(text: str) -> BenchTable:
             cells = cells[: len(columns)]
         if len(cells) != len(columns):
             rule = "must have {count} entries, as the first line has"
-            raise _refused(number, rule, got=len(cells), count=len(columns))
+            raise _line_error(number, rule, got=len(cells), count=len(columns))
         row = dict(zip(columns, cells, strict=True))
         table.names.append(text_of_cell(row.get("name", "")))
         for column, sizes in zip(SIZES, table[1:4], strict=True):
             sizes.append(_size(column, row[column], number, separator != ","))
         table.lines.append(number)
     if not table.lines:
-        raise _refused(first + 2, "must be the first bench, the head", got="nothing")
+        raise _line_error(first + 2, "must be the first bench, the head", got="nothing")
     return table
 
 
@@ -112,38 +112,38 @@ def _cells(line: str, separator: str) -> list[str]:
 
 def _columns(words: Iterable[str], number: int) -> list[str]:
     """The columns that the first line names."""
-    found = []
+    columns = []
     for word in words:
         plain = word.partition("[")[0].partition("(")[0].strip().lower()
         column = next((column for column, known in WORDS.items() if plain in known), None)
-        if column is None or column in found:
+        if column is None or column in columns:
             rule = f"a column must be {'named once' if column else 'name, length, width or overhang'}"
-            raise _refused(number, rule, got=Given(word))
-        found.append(column)
-    if missing := [column for column in SIZES if column not in found]:
-        raise _refused(number, "the column {column} is missing", column=missing[0])
-    return found
+            raise _line_error(number, rule, got=Given(word))
+        columns.append(column)
+    if missing := [column for column in SIZES if column not in columns]:
+        raise _line_error(number, "the column {column} is missing", column=missing[0])
+    return columns
 
 
 def _size(column: str, word: str, number: int, comma: bool) -> float:
     """An entry as a size in metres."""
     size = _number(word, comma)
     if size is None:
-        raise _refused(number, "{field} must be a number in metres", got=Given(word), field=Parameter(column))
+        raise _line_error(number, "{field} must be a number in metres", got=Given(word), field=Parameter(column))
     low, high = SIZES[column]
     if low <= size <= high:
         return size
-    told = from_to("m", low, high) | quantities("m", got=size, m=size / 100)
-    told |= {"field": Parameter(column), "cm": Quantity(size, "cm")}
+    values = from_to("m", low, high) | quantities("m", got=size, m=size / 100)
+    values |= {"field": Parameter(column), "cm": Quantity(size, "cm")}
     hint = "lengths are in metres, and {cm} is {m}" if low <= size / 100 <= high else ""
-    raise _refused(number, "{field} must be from {least} to {most}", reason=hint, **told)
+    raise _line_error(number, "{field} must be from {least} to {most}", reason=hint, **values)
 
 
-def _refused(line: int, words: str, **values: Any) -> InvalidValue:
+def _line_error(line: int, words: str, **values: Any) -> InvalidValue:
     return InvalidValue.in_words("dragon.csv", f"line {{line}}: {words}", line=line, **values)
 
 
-def _readable(text: str) -> str:
+def _checked_table(text: str) -> str:
     try:
         bench_table(text).to_dragon()
     except InvalidValue as error:
@@ -154,7 +154,7 @@ def _readable(text: str) -> str:
 class BenchCsv(Wire, strict=True):
     """A dragon bench by bench as text, as spreadsheets save and copy it: a line for each bench, head first."""
 
-    csv: Annotated[str, AfterValidator(_readable)] = Field(
+    csv: Annotated[str, AfterValidator(_checked_table)] = Field(
         description="First line: the names of the columns length, width, overhang [m] and, if benches have names, "
         "name; then a line for each bench. Columns are separated by commas, semicolons or tabs"
     )

@@ -37,9 +37,9 @@ def time_of_day(time: float, start_clock: str) -> str:
     >>> time_of_day(412.5, "19:30"), time_of_day(-1.0, "00:00:00")
     ('19:36:52', '23:59:59')
     """
-    found = CLOCK.fullmatch(start_clock)
-    assert found
-    hours, minutes, seconds = (int(part or 0) for part in found.groups())
+    match = CLOCK.fullmatch(start_clock)
+    assert match
+    hours, minutes, seconds = (int(part or 0) for part in match.groups())
     now = math.floor(3600 * hours + 60 * minutes + seconds + time) % DAY
     return f"{now // 3600:02d}:{now // 60 % 60:02d}:{now % 60:02d}"
 

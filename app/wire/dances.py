@@ -93,16 +93,16 @@ class TimeRange(Wire):
     def instants(self) -> int:
         """Number of instants, computed before any is allocated. raises: InvalidValue when stop lies before start"""
         if self.stop < self.start:
-            told = quantities("s", got=self.stop, begin=self.start) | {"start": Parameter("times.start")}
-            raise InvalidValue("times.stop", "must not be before {start} ({begin})", **told)
+            values = quantities("s", got=self.stop, begin=self.start) | {"start": Parameter("times.start")}
+            raise InvalidValue("times.stop", "must not be before {start} ({begin})", **values)
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
 
     def within(self, dance: Dance) -> Self:
         """The range; a start or stop that was left out is moved to the nearest whole second of the run."""
-        first, told = float(dance.default_times[0]), self.model_fields_set
-        stop = self.stop if "stop" in told else max(first, min(self.stop, math.floor(dance.end.time)))
+        first, stated = float(dance.default_times[0]), self.model_fields_set
+        stop = self.stop if "stop" in stated else max(first, min(self.stop, math.floor(dance.end.time)))
         # A stop before the run is refused by its own name.
-        start = self.start if "start" in told else min(first, stop)
+        start = self.start if "start" in stated else min(first, stop)
         return self.model_copy(update={"start": start, "stop": stop})
 
     def times_of(self, dance: Dance, cells_max: int) -> Floats:

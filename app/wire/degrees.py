@@ -110,31 +110,31 @@ def place_of(geometry: Mapping[str, object], coordinates: Coordinates | None, dr
         crs, system = Parameter("venue.crs"), Given(named)
         raise InvalidValue("coordinates", rule, got=Given(coordinates), crs=crs, system=system)
     if coordinates == "degrees" or geographic:
-        return _laid_out(_in_degrees(geometry))
+        return _projected(_in_degrees(geometry))
     things = read_things(geometry)
     polygons = outlined(things)
     _refuse_degrees(polygons, float(dragon.lengths.max()))
-    return Place(venue_of(polygons), _told_origin(geometry.get("origin")), things, _told_grid(geometry.get("grid")))
+    return Place(venue_of(polygons), _stated_origin(geometry.get("origin")), things, _stated_grid(geometry.get("grid")))
 
 
-def _told_origin(told: object) -> Origin | None:
+def _stated_origin(member: object) -> Origin | None:
     """Place of x = y = 0, from the member `origin` of a venue in metres. raises: InvalidValue"""
-    if told is None:
+    if member is None:
         return None
-    if not isinstance(told, Mapping) or set(told) != {"longitude", "latitude"}:
+    if not isinstance(member, Mapping) or set(member) != {"longitude", "latitude"}:
         raise InvalidValue("venue.origin", "must have longitude and latitude in degrees, or be left out")
     limits = {"longitude": DEGREES[1], "latitude": DEGREES[2]}
-    places = (checked_number(f"venue.origin.{name}", told[name], "degrees", -m, m) for name, m in limits.items())
+    places = (checked_number(f"venue.origin.{name}", member[name], "degrees", -m, m) for name, m in limits.items())
     return Origin(*places)
 
 
-def _told_grid(told: object) -> Point | None:
+def _stated_grid(member: object) -> Point | None:
     """Place of x = y = 0 on a survey grid [m], from the member `grid` of a venue in metres. raises: InvalidValue"""
-    if told is None:
+    if member is None:
         return None
-    if not isinstance(told, Mapping) or set(told) != {"x", "y"}:
+    if not isinstance(member, Mapping) or set(member) != {"x", "y"}:
         raise InvalidValue("venue.grid", "must have x and y in metres, or be left out")
-    x, y = (checked_number(f"venue.grid.{name}", told[name], "m", -GRID_MAX, GRID_MAX) for name in "xy")
+    x, y = (checked_number(f"venue.grid.{name}", member[name], "m", -GRID_MAX, GRID_MAX) for name in "xy")
     return x, y
 
 
@@ -195,11 +195,11 @@ def _refuse_degrees(polygons: list[Polygon], longest: float) -> None:
     change = 'give "coordinates": "degrees" beside the venue (in TOML: coordinates = "degrees") to have it in metres'
     if not in_order:
         change = f"{SWAPPED}; put them in order, and {change}"
-    told = quantities("", 6, width=right - left, height=high - low) | quantities("m", 6, length=longest)
-    raise InvalidValue("venue", f"{rule} narrower than a bench of {{length}}: {change}", **told)
+    values = quantities("", 6, width=right - left, height=high - low) | quantities("m", 6, length=longest)
+    raise InvalidValue("venue", f"{rule} narrower than a bench of {{length}}: {change}", **values)
 
 
-def _laid_out(polygons: list[Polygon]) -> Place:
+def _projected(polygons: list[Polygon]) -> Place:
     turned = [(name, tuple(unwrapped(ring, polygons[0][1][0][0][0]) for ring in rings)) for name, rings in polygons]
     origin = middle_of([turned[0][1][0]])
     refuse_wide("venue", [ring for _, rings in turned for ring in rings], origin)
@@ -224,8 +224,8 @@ def refuse_wide(field: str, rings: list[Ring], origin: Origin) -> None:
     left, low, right, high = _bounds(rings)
     across = AXIS * math.radians(max((right - left) * math.cos(math.radians(origin.latitude)), high - low))
     if across > ACROSS_MAX:
-        told = quantities("km", 6, most=ACROSS_MAX / 1000.0) | quantities("km", 4, across=across / 1000.0)
-        raise InvalidValue(field, "must be at most {most} across, got about {across}", **told)
+        values = quantities("km", 6, most=ACROSS_MAX / 1000.0) | quantities("km", 4, across=across / 1000.0)
+        raise InvalidValue(field, "must be at most {most} across, got about {across}", **values)
 
 
 def unwrapped(ring: Ring, near: float) -> Ring:

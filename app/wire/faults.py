@@ -14,19 +14,19 @@ from core import BenchDragonError
 Placing = Callable[[Sequence[Any], BenchDragonError], ErrorItem]
 
 
-def refused(error: BenchDragonError, item: Placing) -> Problem:
+def refusal_problem(error: BenchDragonError, item: Placing) -> Problem:
     """A value that core, or a limit of the service, refuses."""
     place = tuple(int(part) if part.isdigit() else part for part in error.field.split("."))
     return problem_of(422, error.code, error, [item(place, error)])
 
 
-def unfit(found: Sequence[Any], asked: Any, item: Placing) -> Problem:
+def misfit_problem(errors: Sequence[Any], request_type: Any, item: Placing) -> Problem:
     """Values that do not fit a request.
 
-    found: pydantic's errors, the first step to each is query or body; asked: type of the request
+    errors: pydantic's, the first step to each is query or body; request_type: model of the request
     """
-    faults = [(place_of(one)[1:], fault_of(one, asked)) for one in found[:ERRORS_MAX]]
-    more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+    faults = [(place_of(one)[1:], fault_of(one, request_type)) for one in errors[:ERRORS_MAX]]
+    more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
     return problem_of(422, "invalid-value", faults[0][1], [item(*fault) for fault in faults], more)
 
 

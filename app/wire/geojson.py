@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from app.wire.question import shown
+from app.wire.question import short_json
 from core import Area, Envelope, InvalidValue, Venue
 from core.errors import COORDINATE_MAX, Given, checked_number
 from core.names import checked_name
@@ -26,7 +26,7 @@ Polygon = tuple[str, tuple[Ring, ...]]
 # Name, the rings of a polygon or the points of a tree or a wall, and its radius, if it has one [m].
 Thing = tuple[str, tuple[Ring, ...], float | None]
 # Name if it has one, the field of its coordinates, the coordinates as given, and half of its width, if it has one [m].
-Found = tuple[str | None, str, object, float | None]
+FoundPolygon = tuple[str | None, str, object, float | None]
 # Unit of coordinates, and the largest |x| and |y| in it.
 Scale = tuple[str, float, float]
 METRES: Scale = ("m", COORDINATE_MAX, COORDINATE_MAX)
@@ -46,18 +46,18 @@ def read_things(geometry: object, scale: Scale = METRES) -> list[Thing]:
         LineString whose property `radius` is positive is an obstacle too: a tree, or a wall of twice that width.
     raises: InvalidValue naming the member at fault; too many edges are refused before any coordinate is read
     """
-    found = _polygons("venue", geometry)
-    whole = [k for k, one in enumerate(found) if one[3] is None]
+    polygons = _polygons("venue", geometry)
+    whole = [k for k, one in enumerate(polygons) if one[3] is None]
     if not whole:
         raise InvalidValue("venue", "must hold at least one polygon, the square")
     refuse_many_edges(
-        ring for _, _, rings, _ in found if isinstance(rings, list) for ring in rings if isinstance(ring, list)
+        ring for _, _, rings, _ in polygons if isinstance(rings, list) for ring in rings if isinstance(ring, list)
     )
-    named = [(name, _rings(field, rings, scale, radius), radius) for name, field, rings, radius in found]
-    square = next((k for k in whole if named[k][0] == "square"), whole[0])
-    others = [polygon for k, polygon in enumerate(named) if k != square]
+    things = [(name, _rings(field, rings, scale, radius), radius) for name, field, rings, radius in polygons]
+    square = next((k for k in whole if things[k][0] == "square"), whole[0])
+    others = [polygon for k, polygon in enumerate(things) if k != square]
     obstacles = [(name or f"obstacle {k}", rings, radius) for k, (name, rings, radius) in enumerate(others, start=1)]
-    return [(named[square][0] or "square", named[square][1], None), *obstacles]
+    return [(things[square][0] or "square", things[square][1], None), *obstacles]
 
 
 def outlined(things: Sequence[Thing]) -> list[Polygon]:
@@ -80,20 +80,20 @@ def venue_of(polygons: Sequence[Polygon]) -> Venue:
     return Venue(square, tuple(obstacles))
 
 
-def geometry_of(found: Envelope) -> dict[str, object]:
+def geometry_of(envelope: Envelope) -> dict[str, object]:
     """The polygons of an envelope as a geometry, in metres."""
-    several = [[ring.tolist() for ring in rings] for rings in found.polygons]
+    several = [[ring.tolist() for ring in rings] for rings in envelope.polygons]
     if len(several) == 1:
         return {"type": "Polygon", "coordinates": several[0]}
     return {"type": "MultiPolygon", "coordinates": several}
 
 
-def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
+def _polygons(field: str, geometry: object, depth: int = 0) -> list[FoundPolygon]:
     """Every polygon of a GeoJSON object, in its order."""
     if depth > DEPTH_MAX:
         raise InvalidValue("venue", "must not nest objects deeper than {most}", most=DEPTH_MAX)
     if not isinstance(geometry, Mapping):
-        raise InvalidValue(field, "must be a GeoJSON object", got=Given(geometry, shown(geometry)))
+        raise InvalidValue(field, "must be a GeoJSON object", got=Given(geometry, short_json(geometry)))
     kind = geometry.get("type")
     if kind == "Polygon":
         return [(None, f"{field}.coordinates", geometry.get("coordinates"), None)]
@@ -104,8 +104,8 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
             checked_name(f"{field}.properties.name", name)
         shape = geometry.get("geometry")
         if isinstance(shape, Mapping) and shape.get("type") in ("Point", "LineString"):
-            given = properties.get("radius") if isinstance(properties, Mapping) else None
-            radius = checked_number(f"{field}.properties.radius", given, "m", RADIUS_MIN, RADIUS_MAX)
+            value = properties.get("radius") if isinstance(properties, Mapping) else None
+            radius = checked_number(f"{field}.properties.radius", value, "m", RADIUS_MIN, RADIUS_MAX)
             points = shape.get("coordinates")
             lines = [points] if shape["type"] == "LineString" else [[points, points]]
             return [(name, f"{field}.geometry.coordinates", lines, radius)]
@@ -117,7 +117,7 @@ def _polygons(field: str, geometry: object, depth: int = 0) -> list[Found]:
         raise InvalidValue(f"{field}.type", rule, got=Given(kind))
     items = _listed(f"{field}.{members}", geometry.get(members))
     each = (_polygons(f"{field}.{members}.{k}", item, depth + 1) for k, item in enumerate(items))
-    return [found for polygons in each for found in polygons]
+    return [polygon for polygons in each for polygon in polygons]
 
 
 def _rings(field: str, value: object, scale: Scale, radius: float | None) -> tuple[Ring, ...]:
@@ -151,7 +151,7 @@ def _place(field: str, value: object, scale: Scale) -> Point:
 def _listed(field: str, value: object, entry: str = "") -> list[object]:
     """The value if it is a list; if the entry has a name, the list must not be empty."""
     if not isinstance(value, list):
-        raise InvalidValue(field, "must be a list", got=Given(value, shown(value)))
+        raise InvalidValue(field, "must be a list", got=Given(value, short_json(value)))
     if entry and not value:
         raise InvalidValue(field, "must hold at least one {entry}", entry=entry)
     return value

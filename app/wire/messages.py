@@ -14,7 +14,7 @@ from pydantic import BaseModel, Tag, ValidationError
 
 from app.wire.dances import AXIS, SHAPES
 from app.wire.paths import KINDS
-from app.wire.question import SHOWN_MAX, Wire, shown, unit_of
+from app.wire.question import SHOWN_MAX, Wire, short_json, unit_of
 from core import InvalidValue
 from core.errors import Given, Parameter, Quantity, Value, format_field
 
@@ -52,22 +52,24 @@ def place_of(error: Mapping[str, Any]) -> tuple[str | int, ...]:
     return (*place, "kind") if error["type"].startswith("union_tag") else place
 
 
-def fault_of(error: Mapping[str, Any], asked: Any, thing: str = OBJECT) -> InvalidValue:
+def fault_of(error: Mapping[str, Any], request_type: Any, thing: str = OBJECT) -> InvalidValue:
     """The fault behind one of pydantic's errors, with the last name in its place as the field.
 
-    asked: type of the request; thing: name of an object in the format of its values
+    request_type: model of the request; thing: name of an object in the format of its values
     """
     units, place = known_units(), place_of(error)
     names = [part for part in place[1:] if isinstance(part, str)]
     if error["type"] == "extra_forbidden":
-        rule, near = _stranger(names[-1], units, place, asked)
-        return InvalidValue(names[-1], rule, field=Given(names[-1], shown(names[-1])), **near)
-    name = _name(names, units, place, asked)
+        rule, near = _unknown_name(names[-1], units, place, request_type)
+        return InvalidValue(names[-1], rule, field=Given(names[-1], short_json(names[-1])), **near)
+    name = _field_name(names, units, place, request_type)
     if isinstance(inner := error.get("ctx", {}).get("error"), InvalidValue):
-        told = {**inner.values, "table": Parameter(name)}
-        return InvalidValue.in_words(name, f"{{table}}: {inner.template}", got=inner.got, reason=inner.reason, **told)
-    told_apart = next((part for part in reversed(names) if part in KINDS), "")
-    unit = "" if AXIS in names else units.get(f"{told_apart}.{name}", units.get(name, ""))
+        inner_values = {**inner.values, "table": Parameter(name)}
+        return InvalidValue.in_words(
+            name, f"{{table}}: {inner.template}", got=inner.got, reason=inner.reason, **inner_values
+        )
+    kind = next((part for part in reversed(names) if part in KINDS), "")
+    unit = "" if AXIS in names else units.get(f"{kind}.{name}", units.get(name, ""))
     indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
     subject = ".".join(map(str, [name, *reversed(indices)]))
     if AXIS in names:
@@ -82,68 +84,68 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
     """The rule that the wrong field breaks, and its values."""
     kind, value, limits = error["type"], error["input"], error.get("ctx", {})
     number = _number(value, text=error["loc"][0] == "query")
-    words = str(value) if isinstance(value, str) and number is not None else shown(value)
+    words = str(value) if isinstance(value, str) and number is not None else short_json(value)
     got: Value = Given(value, words)
     if number is not None:
         got = Quantity(number, unit, text=f"{words} {unit}".rstrip() if len(words) < SHOWN_MAX else "")
-    told: dict[str, Value] = {"got": got, "unit": unit}
+    values: dict[str, Value] = {"got": got, "unit": unit}
     bounds = {"ge": "least", "gt": "least", "le": "most", "lt": "most"}
-    told |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}
+    values |= {word: Quantity(limits[key], unit, 15) for key, word in bounds.items() if key in limits}
     of_unit = " [{unit}]" if unit else ""
     match kind:
         case "greater_than_equal":
-            return "must be at least {least}", told
+            return "must be at least {least}", values
         case "greater_than":
-            return "must be more than {least}", told
+            return "must be more than {least}", values
         case "less_than_equal":
             why, hint = _unit_hint(number, limits["le"], unit)
-            return f"must be at most {{most}}{why}", told | hint
+            return f"must be at most {{most}}{why}", values | hint
         case "finite_number":
-            return f"must be a finite number{of_unit}", told
+            return f"must be a finite number{of_unit}", values
         case "float_type" if isinstance(value, int) and not isinstance(value, bool):
-            return f"must be a finite number{of_unit}", told
+            return f"must be a finite number{of_unit}", values
         case "float_type" | "float_parsing":
             why, hint = _centimetres(value) if unit == "m" else ("", {})
-            return f"must be a number{of_unit}{why}", told | hint
+            return f"must be a number{of_unit}{why}", values | hint
         case "int_type" | "int_parsing" | "int_from_float" | "int_parsing_size":
-            return "must be a whole number", told
+            return "must be a whole number", values
         case "string_type":
-            return "must be a string", told
+            return "must be a string", values
         case "string_pattern_mismatch" if unit:
-            return "must be a number [{unit}] in digits, such as 0.4503", told
+            return "must be a number [{unit}] in digits, such as 0.4503", values
         case "string_pattern_mismatch":
-            return "must match the pattern {pattern}", told | {"pattern": limits["pattern"]}
+            return "must match the pattern {pattern}", values | {"pattern": limits["pattern"]}
         case "string_too_short":
-            return "must have at least {least} characters", told | {"least": limits["min_length"]}
+            return "must have at least {least} characters", values | {"least": limits["min_length"]}
         case "string_too_long":
-            return "must have at most {most} characters", told | {"most": limits["max_length"]}
+            return "must have at most {most} characters", values | {"most": limits["max_length"]}
         case "missing" | "union_tag_not_found":
             return "is missing", {}
         case "model_type" | "model_attributes_type" | "dict_type":
-            return "must be {thing}", told | {"thing": thing}
+            return "must be {thing}", values | {"thing": thing}
         case "list_type":
-            told["got"] = Given(value, words)
-            return "must be a list of numbers [{unit}]" if unit else "must be a list", told
+            values["got"] = Given(value, words)
+            return "must be a list of numbers [{unit}]" if unit else "must be a list", values
         case "too_short":
-            least, given = limits["min_length"], limits["actual_length"]
+            least, count = limits["min_length"], limits["actual_length"]
             rule = f"must have at least {{least}} {'entry' if least == 1 else 'entries'}"
-            return rule, {"least": least, "got": given or Given(0, "none")}
+            return rule, {"least": least, "got": count or Given(0, "none")}
         case "too_long":
             return "must have at most {most} entries", {"most": limits["max_length"], "got": "more"}
         case "union_tag_invalid":
             kind = value.get("kind") if isinstance(value, dict) else limits["tag"]
-            told = {"allowed": _quoted(limits["expected_tags"]), "got": Given(kind, shown(kind))}
-            return "must be one of {allowed}", told
+            values = {"allowed": _quoted(limits["expected_tags"]), "got": Given(kind, short_json(kind))}
+            return "must be one of {allowed}", values
         case "too_deep":
             return "must nest objects and lists at most {most} deep", {"most": limits["most"]}
         case "literal_error" | "enum":
-            return "must be {allowed}", told | {"allowed": _quoted(limits["expected"])}
+            return "must be {allowed}", values | {"allowed": _quoted(limits["expected"])}
         case "too_many_names":
-            told = {"most": limits["most"], "got": limits["given"]}
-            return "must have at most {most} names: see /docs for all names", told
+            values = {"most": limits["most"], "got": limits["given"]}
+            return "must have at most {most} names: see /docs for all names", values
         case "rule":
-            return error["msg"], told
-    return "is not valid: {why}", told | {"why": f"{error['msg'][:1].lower()}{error['msg'][1:]}"}
+            return error["msg"], values
+    return "is not valid: {why}", values | {"why": f"{error['msg'][:1].lower()}{error['msg'][1:]}"}
 
 
 def _quoted(words: str) -> str:
@@ -151,30 +153,32 @@ def _quoted(words: str) -> str:
     return words.replace("'", '"')
 
 
-def _stranger(name: str, units: Mapping[str, str], place: Sequence[Any], asked: Any) -> tuple[str, dict[str, Value]]:
+def _unknown_name(
+    name: str, units: Mapping[str, str], place: Sequence[Any], request_type: Any
+) -> tuple[str, dict[str, Value]]:
     """The rule for a name that is unknown at its place, and its values."""
-    if homes := _homes(name, asked, place[1:-1]):
+    if homes := _homes(name, request_type, place[1:-1]):
         return "is unknown here: it belongs in {home}", {"home": " or ".join(homes)}
     if place[-2] in KINDS:
-        kinds = sorted(kind for kind in KINDS if name in names_at(asked, (*place[1:-2], kind)))
+        kinds = sorted(kind for kind in KINDS if name in names_at(request_type, (*place[1:-2], kind)))
         if kinds:
-            told: dict[str, Value] = {"kind": shown(place[-2]), "home": " or ".join(map(shown, kinds))}
-            return "is unknown in the kind {kind}: it belongs to {home}", told
+            values: dict[str, Value] = {"kind": short_json(place[-2]), "home": " or ".join(map(short_json, kinds))}
+            return "is unknown in the kind {kind}: it belongs to {home}", values
     alike = ALIKE if name in units else ALIKE_SLIP
-    near = difflib.get_close_matches(name, names_at(asked, place[1:-1]), n=1, cutoff=alike)
+    near = difflib.get_close_matches(name, names_at(request_type, place[1:-1]), n=1, cutoff=alike)
     if near:
         return "is unknown here: did you mean {near}?", {"near": near[0]}
     return "is unknown here: leave it out", {}
 
 
-def _name(names: Sequence[str], units: Mapping[str, str], place: Sequence[Any], asked: Any) -> str:
+def _field_name(names: Sequence[str], units: Mapping[str, str], place: Sequence[Any], request_type: Any) -> str:
     """Name of the wrong field. names: the words in its place; units: of the known fields"""
     if not names:
         return f"the {place[0]}"
-    if names[-1] in names_at(asked, place[1:-1]):
+    if names[-1] in names_at(request_type, place[1:-1]):
         return names[-1]
-    told = [part for part in names if part not in SHAPES]
-    return next((part for part in reversed(names) if part in units), (told or names)[-1])
+    fields = [part for part in names if part not in SHAPES]
+    return next((part for part in reversed(names) if part in units), (fields or names)[-1])
 
 
 @cache
@@ -184,15 +188,15 @@ def known_units() -> dict[str, str]:
 
 
 def _units(models: list[type[Wire]]) -> dict[str, str]:
-    found: dict[str, str] = {}
+    units: dict[str, str] = {}
     for model in sorted(models, key=lambda model: "kind" in model.model_fields):
         kind = model.model_fields.get("kind")
         for name, field in model.model_fields.items():
             for word in get_args(kind.annotation) if kind else ():
-                found[f"{word}.{name}"] = unit_of(field)
-            found.setdefault(name, unit_of(field))
-        found = _units(model.__subclasses__()) | found
-    return found
+                units[f"{word}.{name}"] = unit_of(field)
+            units.setdefault(name, unit_of(field))
+        units = _units(model.__subclasses__()) | units
+    return units
 
 
 def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
@@ -212,17 +216,17 @@ def names_at(kind: Any, place: Sequence[Any]) -> list[str]:
         return list(fields)
     if place[0] in fields:
         return names_at(fields[place[0]].annotation, place[1:])
-    told_apart = "kind" in fields and place[0] in get_args(fields["kind"].annotation)
-    return names_at(kind, place[1:]) if told_apart else []
+    is_kind = "kind" in fields and place[0] in get_args(fields["kind"].annotation)
+    return names_at(kind, place[1:]) if is_kind else []
 
 
-def _homes(name: str, asked: Any, place: Sequence[Any]) -> list[str]:
+def _homes(name: str, request_type: Any, place: Sequence[Any]) -> list[str]:
     """Objects at a place in a request that may have a name inside."""
     inner = ((), *((shape,) for shape in SHAPES))
     return [
         home
-        for home in names_at(asked, place)
-        if any(name in names_at(asked, (*place, home, *shape)) for shape in inner)
+        for home in names_at(request_type, place)
+        if any(name in names_at(request_type, (*place, home, *shape)) for shape in inner)
     ]
 
 
@@ -239,13 +243,13 @@ def _number(value: Any, *, text: bool) -> float | None:
 
 def _centimetres(value: Any) -> tuple[str, dict[str, Value]]:
     """Hint for text such as 55cm in place of a length, and its values."""
-    found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*cm\s*", value) if isinstance(value, str) else None
-    return _in_metres(float(found[1])) if found else ("", {})
+    match = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*cm\s*", value) if isinstance(value, str) else None
+    return _in_metres(float(match[1])) if match else ("", {})
 
 
 def _in_metres(centimetres: float) -> tuple[str, dict[str, Value]]:
-    told = {"cm": Quantity(centimetres, "cm", 6), "m": Quantity(centimetres / 100, "m", 6)}
-    return ": lengths are in metres, and {cm} is {m}", dict(told)
+    values = {"cm": Quantity(centimetres, "cm", 6), "m": Quantity(centimetres / 100, "m", 6)}
+    return ": lengths are in metres, and {cm} is {m}", dict(values)
 
 
 def _unit_hint(value: float | None, limit: float, unit: str) -> tuple[str, dict[str, Value]]:

@@ -86,10 +86,10 @@ def problem_of(
     more: stands after its message
     """
     error = BenchDragonError.in_words("", error, **values) if isinstance(error, str) else error
-    told = sentence_of(error)
-    told["detail"] = plain(f"{error}{more}", 2 * DETAIL_MAX)
+    sentence = sentence_of(error)
+    sentence["detail"] = plain(f"{error}{more}", 2 * DETAIL_MAX)
     kind, listed = f"urn:problem-type:bench-dragon:{code}", list(islice(errors, ERRORS_MAX))
-    problem = Problem(type=kind, title=title(status), status=status, errors=listed, **told)
+    problem = Problem(type=kind, title=title(status), status=status, errors=listed, **sentence)
     while problem.errors and len(problem.to_json()) > BYTES_MAX:
         problem.errors.pop()
     return problem

@@ -34,7 +34,7 @@ SHOWN_MAX = 60
 NAMES_MAX = 100
 
 
-def shown(value: Any) -> str:
+def short_json(value: Any) -> str:
     """A value of a request in JSON, shortened, for a message."""
     if isinstance(value, float) and not math.isfinite(value):
         return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
@@ -124,7 +124,7 @@ class Wire(BaseModel):
     @classmethod
     def _without_nulls(cls, value: Any) -> Any:
         if isinstance(value, dict) and None in value.values():
-            return {name: given for name, given in value.items() if given is not None or name not in cls._parts()}
+            return {name: part for name, part in value.items() if part is not None or name not in cls._parts()}
         return value
 
     @classmethod
@@ -136,8 +136,8 @@ class Wire(BaseModel):
         schema = handler(core)
         for name in cls._parts():
             field = handler.resolve_ref_schema(schema)["properties"][name]
-            told = {word: field.pop(word) for word in ("title", "description") if word in field}
-            handler.resolve_ref_schema(schema)["properties"][name] = {"anyOf": [field, {"type": "null"}], **told}
+            words = {word: field.pop(word) for word in ("title", "description") if word in field}
+            handler.resolve_ref_schema(schema)["properties"][name] = {"anyOf": [field, {"type": "null"}], **words}
         return schema
 
 
@@ -150,9 +150,9 @@ class Answer(BaseModel):
         return self.model_dump_json().encode()
 
     @classmethod
-    def known(cls, found: Any, **own: Any) -> Self:
+    def from_result(cls, result: Any, **own: Any) -> Self:
         """This answer with the given fields, the others taken by name from a result of core."""
-        return cls(**{name: getattr(found, name) for name in cls.model_fields if name not in own}, **own)
+        return cls(**{name: getattr(result, name) for name in cls.model_fields if name not in own}, **own)
 
 
 # Most requests are about the same dragon, and laying one out is a twentieth of a quick answer.
@@ -202,7 +202,7 @@ class Strays(Wire):
     )
 
     @property
-    def strays(self) -> bool:
+    def has_stray(self) -> bool:
         """Whether any stray is asked for, which makes a search slower."""
         return self.stray > 0.0 or self.hole > 0.0
 
@@ -215,7 +215,7 @@ class Strays(Wire):
         """The stray in all, 0.0 for none [m]. raises: InvalidValue for a pin wider than its hole"""
         if self.pin > self.hole:
             raise wider_pin("pin", "hole", self)
-        return Stray(self.stray, self.hole, self.pin).total if self.strays else 0.0
+        return Stray(self.stray, self.hole, self.pin).total if self.has_stray else 0.0
 
 
 class HeadSpeed(Wire):
@@ -280,7 +280,7 @@ class Question:
     flat: type[Wire] | None = None
     body: type[Wire] | None = None
     forms: tuple[str, ...] = (JSON,)
-    cost: Callable[..., float] = lambda asked, *form: UNKNOWN_COST
+    cost: Callable[..., float] = lambda request, *form: UNKNOWN_COST
     at: str = ""
     formats: type[FileFormat] | None = None
 
@@ -300,19 +300,23 @@ class Question:
     def summary(self) -> str:
         return (self.answer.__doc__ or "").partition("\n")[0]
 
-    def estimate(self, asked: Wire, form: str) -> float:
+    def estimate(self, request: Wire, form: str) -> float:
         """Estimated time of the answer in one of its forms [s]."""
-        return self.cost(asked, *(form,) * (len(self.forms) > 1))
+        return self.cost(request, *self._form_argument(form))
 
-    def told(self, asked: Wire, terms: Terms, form: str) -> bytes | Iterator[bytes]:
-        """The answer in one of its forms, whole or in blocks, as the service gives it."""
-        found = self.answer(asked, terms, *(form,) * (len(self.forms) > 1))
-        return found if isinstance(found, bytes | Iterator) else found.to_json()
+    def encode(self, request: Wire, terms: Terms, form: str) -> bytes | Iterator[bytes]:
+        """The answer in one of its forms as bytes, whole or in blocks."""
+        result = self.answer(request, terms, *self._form_argument(form))
+        return result if isinstance(result, bytes | Iterator) else result.to_json()
 
-    def whole(self, asked: Wire, terms: Terms, form: str) -> bytes:
-        """The answer in one of its forms, as `told` gives it, in one piece."""
-        found = self.told(asked, terms, form)
-        return found if isinstance(found, bytes) else b"".join(found)
+    def to_bytes(self, request: Wire, terms: Terms, form: str) -> bytes:
+        """The answer in one of its forms as bytes, in one piece."""
+        data = self.encode(request, terms, form)
+        return data if isinstance(data, bytes) else b"".join(data)
+
+    def _form_argument(self, form: str) -> tuple[str, ...]:
+        """The form as an argument of `answer` and `cost`, which take one only if there are several forms."""
+        return (form,) if len(self.forms) > 1 else ()
 
 
 @dataclass(frozen=True)
@@ -320,18 +324,18 @@ class Call:
     """One way to ask a question at the service: over a query (GET), or over a body (POST).
 
     name: operation id, the name of the question; with the ending `_of` for a body if a query can ask it too
-    asked: type of the request
+    request_type: model of the request
     """
 
     name: str
     question: Question
     method: str
-    asked: type[Wire]
+    request_type: type[Wire]
 
 
 def calls_of(question: Question) -> list[Call]:
-    found = [Call(question.name, question, "GET", question.flat)] if question.flat else []
+    calls = [Call(question.name, question, "GET", question.flat)] if question.flat else []
     if question.body:
         name = f"{question.name}_of" if question.flat else question.name
-        found.append(Call(name, question, "POST", question.body))
-    return found
+        calls.append(Call(name, question, "POST", question.body))
+    return calls

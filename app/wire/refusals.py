@@ -39,8 +39,8 @@ def refusing(request: BaseModel) -> Iterator[None]:
 def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
     """The same error in the names and values of the request."""
     names = type(request).model_fields.keys()
-    if found := INSTANT.fullmatch(error.field):
-        error = _of_instants(error, request, int(found[1] or 0))
+    if match := INSTANT.fullmatch(error.field):
+        error = _of_instants(error, request, int(match[1] or 0))
     *outer, last = error.field.split(".")
     if last == "turning_radius":
         got = error.got
@@ -80,8 +80,8 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
     rule, unit = ("must be nearer to 1 than {given}", "") if name == "ratio" else ("must be larger than {given}", "m")
     (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
     why = "the turn bends to a radius of {bend}, and bench {bench} follows none below {least}"
-    told = quantities(unit, given=getattr(fields, name)) | quantities("m", 4, bend=bend, least=tightest)
-    return type(error)(f"path.{name}" if body else name, f"{rule}: {why}", bench=bench, **told)
+    values = quantities(unit, given=getattr(fields, name)) | quantities("m", 4, bend=bend, least=tightest)
+    return type(error)(f"path.{name}" if body else name, f"{rule}: {why}", bench=bench, **values)
 
 
 def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
@@ -89,8 +89,8 @@ def _mends(name: str, fields: TurnFields, dragon: Dragon) -> bool:
     default = TurnFields.model_fields[name].default
     if getattr(fields, name) == default:
         return False
-    told = fields.model_dump(include=set(TurnFields.model_fields)) | {name: default}
+    values = fields.model_dump(include=set(TurnFields.model_fields)) | {name: default}
     try:
-        return follows(dragon, TurnFields.model_validate(told).to_turn())
+        return follows(dragon, TurnFields.model_validate(values).to_turn())
     except BenchDragonError:
         return False

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, Self
 
-from app.wire.question import shown
+from app.wire.question import short_json
 from core import InvalidValue
 from core.errors import Given, Value
 
@@ -52,7 +52,7 @@ class Unreadable(InvalidValue):
     """Bytes that are no text, or text in no known form; {text} in the template is the name of what was read."""
 
     @classmethod
-    def told(cls, words: str, reason: str = "", **values: Value) -> Self:
+    def that(cls, words: str, reason: str = "", **values: Value) -> Self:
         """words: the rest of the template, such as "is not JSON"."""
         return cls.in_words("text", f"{{text}} {words}", reason=reason, text="the text", **values)
 
@@ -73,7 +73,7 @@ def text_of(data: bytes) -> str:
     except UnicodeDecodeError as error:
         byte, place = f"{data[error.start]:#04x}", error.start
         reason = "byte {byte} at position {place}"
-        raise Unreadable.told("is not text in UTF-8", reason, byte=byte, place=place) from error
+        raise Unreadable.that("is not text in UTF-8", reason, byte=byte, place=place) from error
 
 
 def is_workbook(data: bytes) -> bool:
@@ -87,7 +87,7 @@ def table_of(data: bytes) -> tuple[str, bool]:
     raises: Unreadable, also for a workbook
     """
     if data.startswith(WORKBOOKS):
-        raise Unreadable.told("is a workbook", "save its sheet as CSV")
+        raise Unreadable.that("is a workbook", "save its sheet as CSV")
     try:
         return text_of(data), False
     except Unreadable as error:
@@ -102,10 +102,10 @@ def json_of(data: bytes) -> Any:
     """The value of JSON. raises: Unreadable"""
     text = text_of(data)
     with _refusing():
-        found = json.loads(text, object_pairs_hook=_once)
+        value = json.loads(text, object_pairs_hook=_once)
     if ESCAPES.search(text):
-        _refuse_no_text(found)
-    return found
+        _refuse_no_text(value)
+    return value
 
 
 def toml_of(data: bytes) -> dict[str, Any]:
@@ -122,22 +122,22 @@ def _refusing() -> Iterator[None]:
         raise
     except json.JSONDecodeError as error:
         why = error.msg.removesuffix(" at")
-        raise Unreadable.told("is not JSON", "{why} at character {place}", why=why, place=error.pos) from error
+        raise Unreadable.that("is not JSON", "{why} at character {place}", why=why, place=error.pos) from error
     except tomllib.TOMLDecodeError as error:
-        raise Unreadable.told("is not TOML", "{why}", why=str(error)) from error
+        raise Unreadable.that("is not TOML", "{why}", why=str(error)) from error
     except RecursionError as error:
-        raise Unreadable.told("nests too many objects and lists in one another") from error
+        raise Unreadable.that("nests too many objects and lists in one another") from error
     except ValueError as error:  # Python reads no longer numbers.
         most = sys.get_int_max_str_digits()
-        raise Unreadable.told("has a whole number of more than {most} digits", most=most) from error
+        raise Unreadable.that("has a whole number of more than {most} digits", most=most) from error
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    entries = dict(pairs)
+    if len(entries) < len(pairs):
         name = next(name for name, times in Counter(name for name, _ in pairs).items() if times > 1)
-        raise Unfit.told("has an object with the name {name} more than once", name=Given(name, shown(name)))
-    return found
+        raise Unfit.that("has an object with the name {name} more than once", name=Given(name, short_json(name)))
+    return entries
 
 
 def _refuse_no_text(value: Any) -> None:
@@ -149,4 +149,4 @@ def _refuse_no_text(value: Any) -> None:
         elif isinstance(one, list):
             left += one
         elif isinstance(one, str) and NO_TEXT.search(one):
-            raise Unfit.told("has a text with NUL or half of a character, near {near}", near=f"{one[:40]!a}")
+            raise Unfit.that("has a text with NUL or half of a character, near {near}", near=f"{one[:40]!a}")

@@ -8,7 +8,7 @@ import time
 
 from pydantic import BaseModel, Field
 
-from app.sweeps.questions import Question
+from app.sweeps.questions import SweepQuestion
 from core import InvalidValue
 
 
@@ -73,7 +73,7 @@ def _missing(what: str) -> None:
     raise ImportError(what)
 
 
-LAND = Question("height", OddRequest, Height, height, 1e-3, "height")
-SLOW = Question("slow_height", OddRequest, Height, slow_height, 2e-2, "height")
-UNANSWERABLE = Question("height", OddRequest, Height, Unanswerable(), 1e-3, "height")
-INTERRUPTED = Question("interrupted_height", OddRequest, Height, interrupted_height, 1e-3, "height")
+LAND = SweepQuestion("height", OddRequest, Height, height, 1e-3, "height")
+SLOW = SweepQuestion("slow_height", OddRequest, Height, slow_height, 2e-2, "height")
+UNANSWERABLE = SweepQuestion("height", OddRequest, Height, Unanswerable(), 1e-3, "height")
+INTERRUPTED = SweepQuestion("interrupted_height", OddRequest, Height, interrupted_height, 1e-3, "height")

@@ -14,7 +14,7 @@ import pytest
 from app.sweeps import shards
 from app.sweeps.engines import NoAnswer
 from app.sweeps.processes import CannotStart, Processes
-from app.sweeps.questions import Question
+from app.sweeps.questions import SweepQuestion
 from app.sweeps.run import Progress, missing_shards, run
 from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
@@ -37,7 +37,7 @@ def shared() -> Iterator[Shared]:
     Processes.close(engine)
 
 
-def spec_of(question: Question, designs: int = 60, shard_size: int = 6, **request: Any) -> Spec:
+def spec_of(question: SweepQuestion, designs: int = 60, shard_size: int = 6, **request: Any) -> Spec:
     over = {"x": list(map(float, range(designs // 2))), "y": [1.0, 2.0]}
     return Spec.of({"question": question.name, "over": over, "request": request, "shard_size": shard_size}, question)
 
@@ -46,7 +46,7 @@ def compacted(folder: Path, spec: Spec) -> bytes:
     return Sweep(folder, spec).compact().read_bytes()
 
 
-def undisturbed(folder: Path, spec: Spec, question: Question) -> bytes:
+def undisturbed(folder: Path, spec: Spec, question: SweepQuestion) -> bytes:
     """The table of a sweep answered in this process."""
     folder.mkdir()
     for shard in range(spec.shards):
@@ -127,7 +127,7 @@ def test_killed_workers_change_no_byte_and_no_process_is_left(tmp_path: Path) ->
 
 @pytest.mark.parametrize("question", [pytest.param(LAND, marks=pytest.mark.deep), INTERRUPTED], ids=["exit", "signal"])
 def test_designs_that_kill_their_process_are_found_and_the_others_answered(
-    shared: Shared, question: Question, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    shared: Shared, question: SweepQuestion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if question is INTERRUPTED:  # What follows from a death is the same.
         monkeypatch.setattr("app.sweeps.run.DEATHS", 1)

@@ -16,7 +16,7 @@ import pytest
 import core
 from app.questions.collision_time import CollisionQuery, CollisionTime
 from app.questions.registry import CALLS
-from app.sweeps.questions import NO_ROWS, QUESTIONS, Question, question_of
+from app.sweeps.questions import NO_ROWS, QUESTIONS, SweepQuestion, question_of
 from app.sweeps.shards import OtherVersion, ShardPiece, checked_part, part_name, parts, write_part
 from app.sweeps.spec import Spec
 from app.wire.question import Terms
@@ -24,7 +24,7 @@ from core import InvalidValue
 from tests.support.odd_questions import LAND
 
 
-def spec_of(question: Question, over: dict[str, Any], **more: Any) -> Spec:
+def spec_of(question: SweepQuestion, over: dict[str, Any], **more: Any) -> Spec:
     return Spec.of({"question": question.name, "over": over, **more}, question)
 
 
