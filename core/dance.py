@@ -69,18 +69,18 @@ class RunEnd(Readable):
 
     @property
     def why(self) -> str:
-        """The reason as a clause."""
-        return fill_template(self.template, self.told)
+        """The reason as a clause in words."""
+        return fill_template(self.template, self.values)
 
     @property
     def template(self) -> str:
-        """The reason as a clause of a template."""
+        """The reason as the template of a clause, for messages."""
         if self.reason is EndReason.FOLD:
             return "bench {bench} folds"
         return "the head is at the centre" if self.reason is EndReason.CENTRE else "the path ends"
 
     @property
-    def told(self) -> dict[str, Value]:
+    def values(self) -> dict[str, Value]:
         """The values of that template."""
         return {} if self.bench is None else {"bench": self.bench}
 
@@ -119,8 +119,8 @@ class Clock:
         k = np.searchsorted(self.times, times, side="right")
         node = np.maximum(k - 1, 0)
         travels = np.array(self.travels)[node] + (times - np.array(self.times)[node]) * np.array(self.speeds)[k]
-        found: Floats = travels / self.head_speed
-        return found
+        steady: Floats = travels / self.head_speed
+        return steady
 
     def of_steady(self, time: float) -> float:
         """First time at which the head is at its place at a time of the steady dance [s]."""
@@ -245,19 +245,19 @@ class Dance(Readable):
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("end", self.end._line())]
 
-    def times(self, given: ArrayLike) -> Floats:
-        """The given instants, as a (T,) or () array of finite numbers within the run [s].
+    def times(self, instants: ArrayLike) -> Floats:
+        """The instants as a (T,) or () array of finite numbers within the run [s].
 
         raises: InvalidValue (times); OutsideRun (times) after the end of the run, or before the whole dragon is on
             the path
         """
         try:
-            array = np.asarray(given)
+            array = np.asarray(instants)
         except ValueError as error:
             raise InvalidValue("times", "must be a list of numbers in seconds, or one number") from error
         # NumPy would also accept "1", True and None as numbers.
         if array.dtype.kind not in "iuf":
-            raise InvalidValue("times", "must be a list of numbers in seconds, or one number", got=Given(given))
+            raise InvalidValue("times", "must be a list of numbers in seconds, or one number", got=Given(instants))
         if array.ndim > 1:
             raise InvalidValue("times", "must be a flat list of numbers in seconds, or one number")
         time = np.array(array, dtype=np.float64, order="C")
@@ -300,8 +300,8 @@ class Dance(Readable):
         return OutsideRun(name, rule, got=Quantity(time, "s"), least=least)
 
     def _past_the_end(self, name: str, rule: str, time: float) -> OutsideRun:
-        told = {"end": bound(self.end.time, 9, "s"), **self.end.told}
-        return OutsideRun(name, f"{rule} {{end}}, when {self.end.template}", got=Quantity(time, "s"), **told)
+        values = {"end": bound(self.end.time, 9, "s"), **self.end.values}
+        return OutsideRun(name, f"{rule} {{end}}, when {self.end.template}", got=Quantity(time, "s"), **values)
 
     def after_the_end(self, time: Floats, index: int) -> OutsideRun:
         """The error for a time after the end of the run."""
@@ -330,8 +330,8 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
     theta, bench = end_theta(dragon, spiral)
     if theta >= spiral.start_theta:
         rule, got = "must be more than {least}, where bench {bench} of this dragon folds", spiral.start_turns
-        told = quantities("turns", 6, least=theta / math.tau) | {"bench": bench or 0}
-        raise InvalidValue("path.start_turns", rule, got=Quantity(got, "turns"), **told)
+        values = quantities("turns", 6, least=theta / math.tau) | {"bench": bench or 0}
+        raise InvalidValue("path.start_turns", rule, got=Quantity(got, "turns"), **values)
     time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
 

@@ -47,16 +47,16 @@ def _column(name: str, values: object, benches: int | None) -> Floats:
     wrong = np.flatnonzero(~(np.isfinite(column) & (column >= low) & (column <= SIZE_MAX)))
     if wrong.size:
         k = int(wrong[0])
-        told = from_to("m", low, SIZE_MAX) | quantities("m", got=column[k])
-        raise InvalidValue(f"{name}.{k}", "must be from {least} to {most}", **told)
+        limits = from_to("m", low, SIZE_MAX) | quantities("m", got=column[k])
+        raise InvalidValue(f"{name}.{k}", "must be from {least} to {most}", **limits)
     return column
 
 
 def _no_chord(field: str, of: str, length: float, overhang: float) -> InvalidValue:
     """The error for an overhang that leaves no chord. of: name of the length"""
     rule = "must be less than half of {length} ({size} / 2 = {half})"
-    told = quantities("m", size=length, half=length / 2)
-    return InvalidValue(field, rule, got=Quantity(float(overhang), "m"), length=Parameter(of), **told)
+    values = quantities("m", size=length, half=length / 2)
+    return InvalidValue(field, rule, got=Quantity(float(overhang), "m"), length=Parameter(of), **values)
 
 
 def chord_values(dragon: Dragon) -> dict[str, Value]:
@@ -185,12 +185,12 @@ class Dragon(Readable):
     def __repr__(self) -> str:
         sizes = [getattr(self, name) for name in COLUMNS]
         if not self.names and self.uniform_from <= 1 and all((column[1:] == column[0]).all() for column in sizes[1:]):
-            sizes_given = f"head_length={self.lengths[0]}, body_length={self.lengths[-1]}"
-            numbers = f"{sizes_given}, width={self.widths[0]}, overhang={self.overhangs[0]}"
+            lengths = f"head_length={self.lengths[0]}, body_length={self.lengths[-1]}"
+            numbers = f"{lengths}, width={self.widths[0]}, overhang={self.overhangs[0]}"
             return f"Dragon(benches={self.benches}, {numbers})"
-        listed = f"Dragon.of({', '.join(str(column.tolist()) for column in sizes)})"
-        listed += f".named({list(self.names)})" if self.names else ""
-        return listed if len(listed) <= REPR_MOST else super().__repr__()
+        text = f"Dragon.of({', '.join(str(column.tolist()) for column in sizes)})"
+        text += f".named({list(self.names)})" if self.names else ""
+        return text if len(text) <= REPR_MOST else super().__repr__()
 
     def _line(self) -> str:
         return f"{self.benches} benches, {format_range(self.lengths, 'm')} long, {format_range(self.widths, 'm')} wide"
@@ -240,8 +240,8 @@ class Stray(Readable):
 
 def wider_pin(field: str, hole: str, of: Any) -> InvalidValue:
     """The error for a pin wider than its hole. hole: its name; of: has both sizes"""
-    told = quantities("m", got=of.pin, size=of.hole)
-    return InvalidValue(field, "must be no wider than its {hole} ({size})", hole=Parameter(hole), **told)
+    values = quantities("m", got=of.pin, size=of.hole)
+    return InvalidValue(field, "must be no wider than its {hole} ({size})", hole=Parameter(hole), **values)
 
 
 def checked_stray(stray: object, dragon: Dragon) -> float:

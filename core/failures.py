@@ -62,8 +62,8 @@ class Failure(Readable):
 
 def touch_failures(contact: FirstContact, least: LeastClearance | None, margin: float) -> list[Failure]:
     """The touch of two benches after they came within a positive margin; the dance stops there."""
-    told = margin == 0.0 or (contact.gap is not None and contact.gap <= 0.0)
-    if told or least is None or least.distance > 0.0:
+    failed = margin == 0.0 or (contact.gap is not None and contact.gap <= 0.0)
+    if failed or least is None or least.distance > 0.0:
         return []
     a, b = map(contact.dance.dragon.called, least.benches)
     have = "may have" if contact.stray else "have"

@@ -116,8 +116,9 @@ def quick_check(
     return _judged(dance, venue, margin, stray, speed_limit, (start, stop), budget, details=False)
 
 
-# Every question, and every area of the venue, lays out a Search of its own, because margins and obstacles differ. One
-# takes 0.02 ms, all 8 of the village square 0.7 of 78 ms (measured 2026-11-23), so sharing them would save nothing.
+# Every question, and every area of the venue, lays out a ContactSearch of its own, because margins and obstacles
+# differ. One takes 0.02 ms, all 8 of the village square 0.7 of 78 ms (measured 2026-11-23), so sharing them would save
+# nothing.
 def _judged(
     dance: Dance,
     venue: Venue | None,
@@ -170,11 +171,11 @@ def _judged(
     if folds:
         failures.append(fold_failure(dance.dragon, end, dance.path.head(dance.clock.travel(end.time))))
     failures.sort(key=lambda failure: failure.time)
-    told = tuple(replace(failure, head=dance.path.head(dance.clock.travel(failure.time))) for failure in failures)
-    if not told:
+    dated = tuple(replace(failure, head=dance.path.head(dance.clock.travel(failure.time))) for failure in failures)
+    if not dated:
         verdict = Judgement.PASSES
-    elif all(failure.kind is FailureKind.UNDECIDED for failure in told):
+    elif all(failure.kind is FailureKind.UNDECIDED for failure in dated):
         verdict = Judgement.UNDECIDED
     else:
         verdict = Judgement.FAILS
-    return Report(begin, until, verdict, not told, told, contact, least, square, speed, bend)
+    return Report(begin, until, verdict, not dated, dated, contact, least, square, speed, bend)

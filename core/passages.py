@@ -86,13 +86,13 @@ def _ended(k: int, passage: Passage, time: Decimal, travel: Decimal) -> tuple[De
     return time + (Decimal(until) - travel) / Decimal(passage.speed), Decimal(until)
 
 
-def checked_passages(given: object) -> tuple[Passage, ...]:
+def checked_passages(passages: object) -> tuple[Passage, ...]:
     """Passages whose numbers are checked one by one. raises: InvalidValue"""
-    if not isinstance(given, (list, tuple)):
-        raise InvalidValue("passages", "must be a list of Passage objects", got=Given(given))
-    if len(given) > PASSAGES_MAX:
-        raise InvalidValue("passages", "must be at most {most}", got=len(given), most=PASSAGES_MAX)
-    return tuple(_checked(f"passages.{k}", passage) for k, passage in enumerate(given))
+    if not isinstance(passages, (list, tuple)):
+        raise InvalidValue("passages", "must be a list of Passage objects", got=Given(passages))
+    if len(passages) > PASSAGES_MAX:
+        raise InvalidValue("passages", "must be at most {most}", got=len(passages), most=PASSAGES_MAX)
+    return tuple(_checked(f"passages.{k}", passage) for k, passage in enumerate(passages))
 
 
 def _checked(name: str, passage: object) -> Passage:

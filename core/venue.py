@@ -65,8 +65,8 @@ class Area(Readable):
             if len(ring) < 4 or ring[0] != ring[-1]:
                 got = f"{len(ring)}, from {ring[:1]} to {ring[-1:]}"
                 raise self._refused("venue: a ring of {polygon} must be closed and have at least 4 points", got)
-        if found := polygon_fault(self.rings):
-            reason, x, y = found
+        if flaw := polygon_fault(self.rings):
+            reason, x, y = flaw
             fault, at = FAULTS.get(reason, f"a fault ({reason})"), f"({x:g}, {y:g}) m"
             words = f"venue: {{polygon}} must be a valid polygon, got {fault} at {{at}}"
             raise self._refused(words, at=at)
@@ -83,8 +83,8 @@ class Area(Readable):
     @cached_property
     def edges(self) -> Floats:
         """x, y, x, y [m] of every edge with a positive length, (E, 4)."""
-        found = np.array([(*a, *b) for ring in self.rings for a, b in pairwise(ring) if a != b])
-        return found.reshape(-1, 4)
+        edges = np.array([(*a, *b) for ring in self.rings for a, b in pairwise(ring) if a != b])
+        return edges.reshape(-1, 4)
 
 
 @dataclass(frozen=True, repr=False)

@@ -85,7 +85,7 @@ def span_of(request: FilmFields, dance: Dance, terms: Terms) -> tuple[float, flo
     end = dance.end
     until = min(end.time - (BEFORE_FOLD if end.reason is EndReason.FOLD else 0.0), start + LONGEST)
     if until <= start:
-        values = quantities("s", got=start, end=until) | end.told
+        values = quantities("s", got=start, end=until) | end.values
         raise InvalidValue("start", f"must be before {{end}}, when {end.template}", **values)
     contact = first_contact(dance, start=start, stop=until, budget=terms.budget)
     if contact.outcome is Outcome.CONTACT and contact.time is not None:

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from core.contact.answer import FirstContact, Outcome
 from core.dance import Dance
 from core.display import Readable, display
-from core.error_free import paired
 from core.errors import question_about
 from core.kernels import Budget
+from core.motion.trajectory import trajectory
 from core.shapes.engines import JUDGES, Engine, able, engine_pairs, unions_meet
 from core.shapes.overlaps import Verdict
 from core.shapes.reach import SHORT, Reach, reach
@@ -114,19 +114,10 @@ def contact_check(contact: FirstContact, *, whole: bool = True, budget: Budget |
     )
 
 
-@question_about("dance", Dance, "the trajectory was not computed")
 def judged_poses(dance: Dance, times: list[float], budget: Budget | None) -> Floats:
     """Poses (T, n, 3) of the steady dragon at instants, moved into the run if they are outside."""
-    held, dragon, budget = np.clip(times, dance.earliest, dance.end.time), dance.dragon, budget or Budget()
-    shape = (held.size, dragon.benches + 1)
-    position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
-    s, last, columns = paired(held * dance.head_speed), dance.end.theta or 0.0, (position, velocity, speed)
-    budget.afford(float(speed.size))
-    before_fold = dance.path.handles(s, last, dragon.chords, dance.head_speed, columns, budget)
-    budget.look()
-    if before_fold < held.size:
-        raise dance.after_the_end(held, before_fold)
-    return bench_poses(position)
+    inside = np.clip(times, dance.earliest, dance.end.time)
+    return bench_poses(trajectory(dance, inside, budget=budget).position)
 
 
 def judged_contact(

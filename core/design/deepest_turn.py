@@ -43,9 +43,9 @@ from core.paths.turn import Turn
 from core.sampling import bisect
 from core.shapes.reach import reach
 
-# Step between the tried entry radii, as a part of the turning radius [1]; the last one is one step from the centre,
+# Step between the tried entry radii, as a part of the turning radius [1]; the last radius is one step from the centre.
 ENTRY_STEP = 0.01
-# and the border is bisected to this width [m].
+# Width of the bracket of the entry radius [m].
 ENTRY_WIDTH = 1e-9
 # Largest work of all entries together [1], see core/kernels/constants.py: about 8 s, because a step on a route takes
 # longer than one on a spiral. The default turn takes about 90,000.
@@ -135,13 +135,13 @@ def deepest_turn(
     radius, turn_at = circle.radius, circle.turn
     border, floor = _follow_border(dragon, turn_at, radius)
     entries = _Entries(dragon, turn_at, circle.margin, stray, (budget or Budget()).within(TURN_WORK))
-    touch = entries.tried(radius)
+    touch = entries.touch_at(radius)
     if touch.outcome is not Outcome.CLEAR:
         raise refusal(radius, touch, circle.margin, stray)
     entry, step = radius, ENTRY_STEP * radius
     while touch.outcome is Outcome.CLEAR and entry > floor:
         entry = max(entry - step, floor)
-        touch = entries.tried(entry)
+        touch = entries.touch_at(entry)
     if touch.outcome is Outcome.CLEAR:
         limited_by = TurnLimit.CENTRE if border is None else TurnLimit.BEND
         return DeepestTurn(turn_at(floor), (border or 0.0, floor), limited_by, None, None, step, entries.evaluations)
@@ -171,7 +171,7 @@ class _Entries:
         self.refuted: tuple[float, Touch] | None = None
         self.evaluations = 0
 
-    def tried(self, entry: float) -> Touch:
+    def touch_at(self, entry: float) -> Touch:
         """Whether benches meet in the turn with this entry radius [m].
 
         raises: TooMuchWork if the budget ends first, and benches are not known to meet at any other entry
@@ -206,7 +206,7 @@ class _Entries:
         def is_clear(entry: float) -> bool | None:
             if self.budget.left <= 0.0:
                 return None
-            touch = self.tried(entry)
+            touch = self.touch_at(entry)
             if touch.outcome is Outcome.UNDECIDED and self.budget.left <= 0.0:  # only because the work is spent
                 return None
             return touch.outcome is Outcome.CLEAR
@@ -215,7 +215,7 @@ class _Entries:
         low, high = bisect(is_clear, refused, self.feasible, width=ENTRY_WIDTH)
         below = ENTRY_WIDTH
         while not self.refuted and below <= LOOKED_BELOW and low - below > floor and self.budget.left > 0.0:
-            if self.tried(low - below).outcome is Outcome.CLEAR:
+            if self.touch_at(low - below).outcome is Outcome.CLEAR:
                 break
             below *= 10.0
         if not self.refuted:
@@ -237,9 +237,9 @@ def contact_in(
         for r in (danced.entry_radius, clear)
     )
     if before > start:
-        found = contact_within(budget, Dance(dragon, coil), margin=margin, stray=stray, start=start, stop=before)
-        if found.outcome is not Outcome.CLEAR:
-            return _touch(found, before)
+        contact = contact_within(budget, Dance(dragon, coil), margin=margin, stray=stray, start=start, stop=before)
+        if contact.outcome is not Outcome.CLEAR:
+            return _touch(contact, before)
     stop, followed = way_followed(reach(dragon, stray).bounds if stray else dragon, danced, margin)
     arc = stop - danced.length - coils_of(danced).arc(0.0)
     turns = max(danced.start_turns, (1.0 + SPARE_TURNS) * kernels.spiral_theta(arc / coil.growth) / (2.0 * math.pi))
@@ -247,8 +247,9 @@ def contact_in(
         danced.pitch, danced.turning_radius, danced.ratio, start_turns=turns, entry_radius=danced.entry_radius,
         exit_radius=danced.exit_radius,
     )  # fmt: skip
-    found = contact_within(budget, Dance(dragon.leading(followed.benches), path), margin=margin, stray=stray, stop=stop)
-    return _touch(found, 0.0)
+    dance = Dance(dragon.leading(followed.benches), path)
+    contact = contact_within(budget, dance, margin=margin, stray=stray, stop=stop)
+    return _touch(contact, 0.0)
 
 
 def _follow_border(dragon: Dragon, turn_at: Callable[[float], Turn], radius: float) -> tuple[float | None, float]:
@@ -268,13 +269,13 @@ def refuse_bend(dragon: Dragon, danced: Turn) -> None:
     if not follows(dragon, danced):
         bend = "a turn that begins on the circle bends to a radius of {bend}, too tight for the longest chord ({chord})"
         sharpest, chord = 1.0 / danced.sharpest[0], float(dragon.chords.max())
-        told = quantities("m", got=danced.turning_radius) | quantities("m", 4, bend=sharpest)
-        told |= quantities("m", 6, chord=chord)
-        raise InvalidValue("turning_radius", f"must be larger: {bend}", **told)
+        values = quantities("m", got=danced.turning_radius) | quantities("m", 4, bend=sharpest)
+        values |= quantities("m", 6, chord=chord)
+        raise InvalidValue("turning_radius", f"must be larger: {bend}", **values)
 
 
-def _touch(found: FirstContact, zero: float) -> Touch:
-    return Touch(found.outcome, found.benches, None if found.time is None else found.time - zero)
+def _touch(contact: FirstContact, zero: float) -> Touch:
+    return Touch(contact.outcome, contact.benches, None if contact.time is None else contact.time - zero)
 
 
 def way_followed(dragon: Dragon, danced: Turn, margin: float) -> tuple[float, Dragon]:
@@ -308,13 +309,13 @@ def _too_much(budget: Budget, dragon: Dragon, entry: float, radius: float) -> To
 
 def refusal(radius: float, touch: Touch, margin: float, stray: float) -> InvalidValue:
     """The error if no turn can begin on the circle."""
-    (_, benches, time), told = touch, quantities("m", got=radius, margin=margin, stray=stray)
+    (_, benches, time), values = touch, quantities("m", got=radius, margin=margin, stray=stray)
     if benches is None or time is None:
         what = "benches come so near to the margin of {margin} that it is not decided whether they keep it"
     else:
         near = "come within {margin}" if margin else "touch"
         near = f"may {near} with strays up to {{stray}}" if stray else near
         what = f"benches {{a}} and {{b}} {near} {{time}} {'after' if time >= 0.0 else 'before'} the entry at 1 m/s"
-        told |= {"a": benches[0], "b": benches[1], "time": Quantity(round(abs(time), 6), "s")}
+        values |= {"a": benches[0], "b": benches[1], "time": Quantity(round(abs(time), 6), "s")}
     rule = f"must be larger, or the pitch: in a turn that begins on the circle {what}"
-    return InvalidValue("turning_radius", rule, **told)
+    return InvalidValue("turning_radius", rule, **values)

@@ -25,7 +25,7 @@ from core.contact.answer import Outcome
 from core.contact.first_contact import contact_within
 from core.dance import Dance
 from core.design.turn_bounds import least_entry
-from core.design.turn_circle import TurnCircle, checked_circle
+from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import least_bend
 from core.display import Readable, display
 from core.dragon import Dragon, chord_values
@@ -90,8 +90,8 @@ def dubins_turn(
     budget: default: DUBINS_WORK
     raises: TooMuchWork; InvalidValue (turning_radius) if none of the tried turns can be danced
 
-    >>> found = dubins_turn(Dragon(20), 1.7)
-    >>> round(found.length, 3), round(found.straight, 2)
+    >>> turn = dubins_turn(Dragon(20), 1.7)
+    >>> round(turn.length, 3), round(turn.straight, 2)
     (8.224, 0.0)
     """
     circle = checked_circle(pitch, turning_radius, ratio, start_turns, margin)
@@ -100,22 +100,22 @@ def dubins_turn(
     work = (budget or Budget()).within(DUBINS_WORK)
     search = _Scan(dragon, circle, radii, work)
     try:
-        found = search.shortest()
+        turn = search.shortest()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was found {then}; the {benches} chords are {shortest} to"
         size = Quantity(circle.radius, "m")
         raise too_much(work, "turning_radius", rule + " {longest} long", size, **chord_values(dragon)) from halted
-    if found is None:
+    if turn is None:
         why = "in every turn with a straight piece that was tried inside it benches come within {margin}"
-        told = quantities("m", got=circle.radius, margin=circle.margin)
-        raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)
-    return found
+        values = quantities("m", got=circle.radius, margin=circle.margin)
+        raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **values)
+    return turn
 
 
 class _Scan:
     """The turns of one dragon with arcs of given radii."""
 
-    def __init__(self, dragon: Dragon, circle: TurnCircle, radii: Point, budget: Budget) -> None:
+    def __init__(self, dragon: Dragon, circle: CheckedCircle, radii: Point, budget: Budget) -> None:
         self.dragon, self.radii, self.budget = dragon, radii, budget
         self.pitch, self.radius, _, self.turns, self.margin = circle
         self.growth = circle.growth
@@ -132,7 +132,7 @@ class _Scan:
             fits = np.flatnonzero(np.isfinite(lengths))
             tried += [(float(lengths[k]), (float(ends[0, k]), float(ends[1, k])), sigma) for k in fits]
         for length, place, sigma in sorted(tried):
-            if self._danced(place, sigma) is not None:
+            if self._proven(place, sigma) is not None:
                 return self._lowered(length, place, sigma)
         return None
 
@@ -145,28 +145,28 @@ class _Scan:
             lengths = arcs_and_line(self.growth, beside.T, self.radii, sigma)[0]
             for k in np.argsort(lengths, kind="stable"):
                 at = (float(beside[k, 0]), float(beside[k, 1]))
-                if lengths[k] < length and self._danced(at, sigma) is not None:
+                if lengths[k] < length and self._proven(at, sigma) is not None:
                     length, place = float(lengths[k]), at
                     break
             else:
                 step *= 0.5
-        return self._danced(place, sigma)
+        return self._proven(place, sigma)
 
-    def _danced(self, place: tuple[float, float], sigma: float) -> DubinsTurn | None:
+    def _proven(self, place: tuple[float, float], sigma: float) -> DubinsTurn | None:
         """The turn at a place if it is inside the circle and proven free of contacts."""
         self.budget.afford()
-        found = self._turn(place, sigma)
-        if found is None or not follows(self.dragon, found.path):
+        turn = self._turn(place, sigma)
+        if turn is None or not follows(self.dragon, turn.path):
             return None
-        dance = Dance(self.dragon, found.path)
+        dance = Dance(self.dragon, turn.path)
         self.evaluations += 1
-        for start, stop in ((0.0, None), (float(found.path.begin), 0.0)):
+        for start, stop in ((0.0, None), (float(turn.path.begin), 0.0)):
             within = contact_within(self.budget, dance, margin=self.margin, start=start, stop=stop)
             if within.outcome is Outcome.UNDECIDED:
                 self.budget.afford()  # nothing is left, or rounding hides whether benches touch
             if within.outcome is not Outcome.CLEAR:
                 return None
-        return found
+        return turn
 
     def _turn(self, place: tuple[float, float], sigma: float) -> DubinsTurn | None:
         """The turn at a place; None if a piece is too short or leaves the circle."""

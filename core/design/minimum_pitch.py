@@ -114,7 +114,7 @@ class MinimumPitch(Readable):
 
 
 class _PitchSearch:
-    """Search for the pitches with ways free of contact, from the widest spiral down.
+    """Search for the feasible pitches, whose ways are free of contact, from the widest spiral down.
 
     scanned_from, scan_step: pitch below which single pitches were tried, and step between them [m]; None without a scan
     """
@@ -141,12 +141,12 @@ class _PitchSearch:
 
         if not clears(growth):
             if not self.is_clear(SIZE_MAX):
-                state, found = self.ways.march(SIZE_MAX)
-                if state in TOUCHES and found.benches[1] - found.benches[0] == 2:
-                    raise _too_near(self.search, found.benches[0], self.margin)
+                state, result = self.ways.march(SIZE_MAX)
+                if state in TOUCHES and result.benches[1] - result.benches[0] == 2:
+                    raise _too_near(self.search, result.benches[0], self.margin)
                 rule = "must be larger: no pitch up to {most} lets this dragon reach the circle"
-                told = quantities("m", got=self.radius) | quantities("m", 6, most=SIZE_MAX)
-                raise InvalidValue("turning_radius", rule, **told)
+                values = quantities("m", got=self.radius) | quantities("m", 6, most=SIZE_MAX)
+                raise InvalidValue("turning_radius", rule, **values)
             return SIZE_MAX, SIZE_MAX
         _, growth = bisect(clears, 0.5 * lowest, growth, relative=TOP_WIDTH, middle=lambda a, b: math.sqrt(a * b))
         for factor in RANGES:
@@ -197,8 +197,8 @@ class _PitchSearch:
         """The bracket narrowed to PITCH_WIDTH [m]; it stays wider by pitches that can be neither proven nor refuted."""
         refuted, left = infeasible, UNDECIDED_MAX
 
-        def asked(pitch: float, undecided: bool) -> bool | None:
-            """True if a pitch is feasible, `undecided` if that is not known, None after too many of those."""
+        def is_feasible(pitch: float, undecided: bool) -> bool | None:
+            """True if a pitch is feasible; `undecided` if that is not known; None after too many unknown ones."""
             nonlocal refuted, left
             if not left:
                 return None
@@ -207,14 +207,14 @@ class _PitchSearch:
             refuted = pitch if clear is False else refuted
             return undecided if clear is None else clear
 
-        below, feasible = bisect(lambda pitch: asked(pitch, False), infeasible, feasible, width=PITCH_WIDTH)
-        infeasible, _ = bisect(lambda pitch: asked(pitch, True), refuted, below, width=PITCH_WIDTH)
+        below, feasible = bisect(lambda pitch: is_feasible(pitch, False), infeasible, feasible, width=PITCH_WIDTH)
+        infeasible, _ = bisect(lambda pitch: is_feasible(pitch, True), refuted, below, width=PITCH_WIDTH)
         return infeasible, feasible
 
     def islands(self, pitch: float) -> tuple[tuple[float, float], ...]:
         """Feasible intervals between the lowest pitch and an infeasible one, to the resolution of the grid [m]."""
         grid = np.linspace(pitch, self.lowest, ISLAND_SAMPLES).tolist()
-        found: list[tuple[float, float]] = []
+        intervals: list[tuple[float, float]] = []
         touching: tuple[float, int, int] | None = None
         end = 0.0
         for k, sample in enumerate(grid):
@@ -229,9 +229,9 @@ class _PitchSearch:
             if feasible and not end:
                 end, _ = bisect(lambda pitch: not self.is_clear(pitch), sample, grid[k - 1], width=PITCH_WIDTH)
             elif end and not feasible:
-                found.insert(0, (self.bisect(sample, grid[k - 1])[1], end))
+                intervals.insert(0, (self.bisect(sample, grid[k - 1])[1], end))
                 end = 0.0
-        return ((self.lowest, end), *found) if end else tuple(found)
+        return ((self.lowest, end), *intervals) if end else tuple(intervals)
 
     def limit(self, infeasible: float) -> tuple[LimitedBy, tuple[int, int] | None, float | None]:
         """Limit of the minimum pitch, the pair that meets just below it, and the radius of the head there [m]."""
@@ -241,23 +241,23 @@ class _PitchSearch:
             travel = self.search.travel_at(graze[1] / self.search.growth)
             return self._met(travel, travel, graze[0])
         below = BELOW
-        state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
+        state, result = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         # on a wide spiral rounding hides a contact at so small a distance below
-        while state is Ended.STUCK and found.touching is None and below < PASSED_OVER_WIDE * infeasible:
+        while state is Ended.STUCK and result.touching is None and below < PASSED_OVER_WIDE * infeasible:
             below *= 10.0
-            state, found = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
+            state, result = self.ways.march(infeasible - below, width=CONTACT_WIDTH)
         if state is Ended.REACHED:
-            state, found = self.ways.march(infeasible, width=CONTACT_WIDTH)
-        if state is Ended.STUCK and found.touching is None:  # but a contact at an end of the way is never hidden
-            state, found = self.ways.march(infeasible)
+            state, result = self.ways.march(infeasible, width=CONTACT_WIDTH)
+        if state is Ended.STUCK and result.touching is None:  # but a contact at an end of the way is never hidden
+            state, result = self.ways.march(infeasible)
         if state is Ended.TOUCHED_AT_START:
-            return LimitedBy.START, found.benches, self.search.growth * 2.0 * math.pi * self.start_turns
+            return LimitedBy.START, result.benches, self.search.growth * 2.0 * math.pi * self.start_turns
         if state is Ended.BENCH_FOLDED:
             return LimitedBy.FOLD, None, self.radius
-        if found.touching is None:
+        if result.touching is None:
             raise Halted(self.search.budget)  # rounding hides whether any pitch below is feasible
-        travel = found.touching - CONTACT_WIDTH * (state is Ended.TOUCHED)
-        return self._met(travel, travel + BOTTOM_WITHIN, found.benches)
+        travel = result.touching - (CONTACT_WIDTH if state is Ended.TOUCHED else 0.0)
+        return self._met(travel, travel + BOTTOM_WITHIN, result.benches)
 
     def _met(self, travel: float, end: float, pair: tuple[int, int]) -> tuple[LimitedBy, tuple[int, int], float]:
         """Limit of a pair that meets after a travel: contact on the circle, or a graze at its dip before `end` [m]."""
@@ -307,7 +307,7 @@ def minimum_pitch(
     if straight.gap <= margin:
         raise _too_near(ways.search, straight.at, margin)
     try:
-        return _found(dragon, _PitchSearch(ways))
+        return _result(dragon, _PitchSearch(ways))
     except Halted as halted:
         raise ways.too_much() from halted
 
@@ -321,11 +321,11 @@ def _too_near(search: ContactSearch, a: int, margin: float) -> InvalidValue:
         return too_near(search.dragon, a, margin)
     near = "come within {margin}" if margin else "touch"
     why = f"on a straight line, and so on every wide enough spiral, benches {{a}} and {{b}} may then {near}"
-    told = quantities("m", got=search.stray, margin=margin)
-    return InvalidValue("stray", f"must be smaller: {why}", a=a, b=a + 2, **told)
+    values = quantities("m", got=search.stray, margin=margin)
+    return InvalidValue("stray", f"must be smaller: {why}", a=a, b=a + 2, **values)
 
 
-def _found(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
+def _result(dragon: Dragon, search: _PitchSearch) -> MinimumPitch:
     """The result of a search."""
     top, proven_up_to = search.top()
     infeasible, feasible, justified_by = search.lowest, search.lowest, JustifiedBy.BOUND

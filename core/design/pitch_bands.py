@@ -156,11 +156,11 @@ class Bands:
         bands = [(low, high, math.inf) for low, high in pairwise(ends)]
         while bands:
             low, high, outer = bands.pop()
-            state, found = self.prove(low, high, outer)
+            state, result = self.prove(low, high, outer)
             if state is Ended.REACHED:
                 proven = low
                 continue
-            outer = found.proven
+            outer = result.proven
             middle = math.sqrt(low * high)
             if self.work >= BAND_WORK or self.search.budget.left <= 0.0:
                 return proven, Descent.SPENT
@@ -173,22 +173,22 @@ class Bands:
             if state is Ended.TOUCHED:
                 bands, stopped, self.graze = [], Descent.BORDER, None
                 if high - low <= WIDTH_FOLLOWED * high:
-                    border = self.border(low, high, found)
+                    border = self.border(low, high, result)
             if border is None or border <= low:
                 bands += [(low, middle, outer), (middle, high, outer)]
             else:
                 bands.append((border, high, outer))
         return proven, stopped
 
-    def border(self, low: float, high: float, found: Marched) -> float | None:
-        """A pitch in (low, high) just above that at which a contact found at `low` becomes a graze [m]; None if lost.
+    def border(self, low: float, high: float, contact: Marched) -> float | None:
+        """A pitch in (low, high) just above that at which the contact at `low` becomes a graze [m]; None if it is lost.
 
-        The dip is followed from pitch to pitch, each from the radius of the last one, first upwards until it is clear.
-        Then false position (Illinois) finds the pitch at which it reaches the margin.
+        The search follows the dip of the pair from pitch to pitch, each time from the radius of the last one: first
+        upwards until the dip is clear, then by false position (Illinois) to the pitch at which it reaches the margin.
         """
-        assert found.touching is not None
-        pair = found.benches
-        below, radius = self.dip(low, found.touching, pair)
+        assert contact.touching is not None
+        pair = contact.benches
+        below, radius = self.dip(low, contact.touching, pair)
         if below > self.margin:
             return None
         below -= self.margin

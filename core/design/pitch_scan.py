@@ -127,15 +127,15 @@ class Stops:
         search, to_fold = self.search, end.reason is EndReason.FOLD
         last = before_fold(end.time) if to_fold else end.time
         half_bracket = max(RADIUS_WIDTH, 2.0 * search.travel_rounding(last))
-        state, found = search.march(last, half_bracket)
-        if state is Ended.STUCK and found.touching is not None:
-            state, found, half_bracket = search.approach(0.0, last, 1.0)
-        if state in (Ended.REACHED, Ended.STUCK) and found.touching is None and to_fold:
+        state, result = search.march(last, half_bracket)
+        if state is Ended.STUCK and result.touching is not None:
+            state, result, half_bracket = search.approach(0.0, last, 1.0)
+        if state in (Ended.REACHED, Ended.STUCK) and result.touching is None and to_fold:
             assert end.theta is not None
-            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), end.theta) else Ended.STUCK
+            state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), end.theta) else Ended.STUCK
         if state is Ended.REACHED:
             return None
-        travel = {Ended.TOUCHED: (found.touching or 0.0) - half_bracket, Ended.STUCK: found.proven}.get(state, 0.0)
+        travel = {Ended.TOUCHED: (result.touching or 0.0) - half_bracket, Ended.STUCK: result.proven}.get(state, 0.0)
         return search.growth * search.theta_at(travel)
 
 
@@ -216,11 +216,11 @@ def _checked_pitches(pitches: object) -> Floats:
 
 def _scan(known: dict[float, float | None], jumps: list[float]) -> PitchScan:
     pitches = sorted(known)
-    found = [pitch for pitch in pitches if known[pitch] is not None]
+    touching = [pitch for pitch in pitches if known[pitch] is not None]
     # A piece ends at a jump, and at a pitch without contact.
     breaks = jumps + [pitch for pitch in pitches if known[pitch] is None]
-    cuts = np.unique([0, *np.searchsorted(found, breaks), len(found)]).tolist()
-    return PitchScan(np.array(found), np.array([known[pitch] for pitch in found]), tuple(pairwise(cuts)))
+    cuts = np.unique([0, *np.searchsorted(touching, breaks), len(touching)]).tolist()
+    return PitchScan(np.array(touching), np.array([known[pitch] for pitch in touching]), tuple(pairwise(cuts)))
 
 
 def pitches_near(least: MinimumPitch, samples: int) -> Floats:
@@ -246,8 +246,8 @@ def scan_near_minimum(
     """
     least = minimum_pitch(dragon, turning_radius=turning_radius, start_turns=start_turns, margin=margin, budget=budget)
     if SCAN_FROM * least.pitch < SIZE_MIN:
-        told = quantities("m", 6, pitch=SIZE_MIN / SCAN_FROM) | quantities("m", got=turning_radius)
-        raise InvalidValue("turning_radius", "must allow pitches of {pitch} and more", **told)
+        values = quantities("m", 6, pitch=SIZE_MIN / SCAN_FROM) | quantities("m", got=turning_radius)
+        raise InvalidValue("turning_radius", "must allow pitches of {pitch} and more", **values)
     pitches = np.sort(np.append(pitches_near(least, samples), least.pitch_bracket))
     terms = {"start_turns": start_turns, "margin": margin}
     try:

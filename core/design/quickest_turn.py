@@ -22,9 +22,9 @@ from core.contact.answer import Outcome
 from core.dance import Dance
 from core.design.deepest_turn import contact_in, refuse_bend
 from core.design.turn_boxes import sizes_of
-from core.design.turn_circle import TurnCircle, checked_circle
+from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import least_bend
-from core.design.turn_overlap import Overlap, most_benches
+from core.design.turn_overlap import OverlapSearch, most_benches
 from core.display import Readable, display
 from core.dragon import Dragon, chord_values
 from core.errors import InvalidValue, Quantity, quantities, question_about, too_much
@@ -77,8 +77,8 @@ def turn_time(dragon: Dragon, path: Turn, speed_limit: float = 2.0, *, budget: B
     limit = checked_limit(speed_limit)
     dance = Dance(dragon, path)
     start, stop = max(-BESIDE, dance.begin), min(path.length + BESIDE, path.end)
-    found = maximum_head_speed(dance, limit, start=start, stop=stop, budget=budget)
-    return TurnTime(path, path.length, found.head_speed, path.length / found.head_speed, found.handles)
+    fastest = maximum_head_speed(dance, limit, start=start, stop=stop, budget=budget)
+    return TurnTime(path, path.length, fastest.head_speed, path.length / fastest.head_speed, fastest.handles)
 
 
 @question_about("dragon", Dragon)
@@ -106,26 +106,26 @@ def quickest_turn(
         turn = search.quickest()
     except Halted as halted:
         rule = "must be smaller, or benches fewer: no turn was timed {then}; the {benches} chords are {shortest} to"
-        told = chord_values(dragon)
+        values = chord_values(dragon)
         raise too_much(
-            search.budget, "turning_radius", rule + " {longest} long", Quantity(circle.radius, "m"), **told
+            search.budget, "turning_radius", rule + " {longest} long", Quantity(circle.radius, "m"), **values
         ) from halted
     if turn is None:
         refuse_bend(dragon, circle.turn())
         why = "in every turn that was tried inside it benches come within {margin}"
-        told = quantities("m", got=circle.radius, margin=circle.margin)
-        raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **told)
+        values = quantities("m", got=circle.radius, margin=circle.margin)
+        raise InvalidValue("turning_radius", f"must be larger, or the pitch: {why}", **values)
     return turn_time(dragon, turn, limit, budget=budget)
 
 
 class _Times:
     """Search for the quickest turn: times are computed for a speed limit of 1 m/s."""
 
-    def __init__(self, dragon: Dragon, circle: TurnCircle, budget: Budget) -> None:
+    def __init__(self, dragon: Dragon, circle: CheckedCircle, budget: Budget) -> None:
         self.dragon, self.circle, self.budget = dragon, circle, budget
         self.radius = circle.radius
         self.front = dragon.leading(min(dragon.benches, LEADING))
-        self.overlap = Overlap(dragon, circle.margin, most_benches(dragon, self.radius))
+        self.overlap = OverlapSearch(dragon, circle.margin, most_benches(dragon, self.radius))
         self.known: dict[tuple[float, float], float] = {}
 
     def quickest(self) -> Turn | None:

@@ -39,10 +39,10 @@ from core.design.turn_bounds import (
     one_of_mirrored,
 )
 from core.design.turn_boxes import Turns, sizes_of, too_tight, turns_in
-from core.design.turn_circle import TurnCircle, checked_circle
+from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import apart_from_circle, box_of, least_bend
-from core.design.turn_overlap import Overlap, most_benches
-from core.design.turn_places import polished, starts
+from core.design.turn_overlap import OverlapSearch, most_benches
+from core.design.turn_places import locally_shortest, starts
 from core.display import Readable, display
 from core.dragon import Dragon, Stray, checked_stray, chord_values
 from core.errors import (
@@ -163,7 +163,7 @@ class TurnSearch:
     def __init__(
         self,
         dragon: Dragon,
-        circle: TurnCircle,
+        circle: CheckedCircle,
         stray: float,
         budget: Budget,
     ) -> None:
@@ -172,7 +172,7 @@ class TurnSearch:
         self.growth = circle.growth
         self.least = least_bend(dragon)
         self.inner = least_entry(self.growth, self.radius, self.least)
-        self.overlap = Overlap(dragon, self.margin, most_benches(dragon, self.radius))
+        self.overlap = OverlapSearch(dragon, self.margin, most_benches(dragon, self.radius))
         self.mirrored = self.overlap.equal and self.ratio in (None, 1.0)
         self.best: Turn | None = None
         self.shortest = math.inf
@@ -227,7 +227,7 @@ class TurnSearch:
             return False
         self.polished += 1
         self.budget.spend(POLISH_WORK)
-        near = polished(self.growth, place, self.inner, self.radius, self.ratio, self.least)
+        near = locally_shortest(self.growth, place, self.inner, self.radius, self.ratio, self.least)
         if near is None or any(np.allclose(near, other, atol=SAME) for other in self.tried):
             return True
         self.tried.append(near)
@@ -280,19 +280,19 @@ class TurnSearch:
                 waits[k] = 1
                 continue
             self.budget.look()
-            found = self.overlap.exhibited(box)
-            self.budget.spend(PREPARED_WORK + POSE_WORK * self.overlap.count * found.poses)
-            if found.shared:
+            exhibit = self.overlap.exhibited(box)
+            self.budget.spend(PREPARED_WORK + POSE_WORK * self.overlap.count * exhibit.poses)
+            if exhibit.shared:
                 shared.append(k)
                 continue
             waits[k] = 1
-            if found.depth <= 0.0:
+            if exhibit.depth <= 0.0:
                 waits[k] = PATIENCE
                 if dances < DANCES:
                     self._dance(box.nominal_point)
                     dances += self._improve(box.nominal_point)
-            elif math.isfinite(found.excess):  # until boxes are smaller by what benches move too far
-                waits[k] = min(PATIENCE, math.floor(DIRECTIONS * math.log2(found.excess)))
+            elif math.isfinite(exhibit.excess):  # until boxes are smaller by what benches move too far
+                waits[k] = min(PATIENCE, math.floor(DIRECTIONS * math.log2(exhibit.excess)))
         self.overlaps += len(shared)
         return np.array(shared, dtype=np.intp)
 

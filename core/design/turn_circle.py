@@ -10,7 +10,7 @@ from core.errors import checked_number
 from core.paths.turn import RATIO_MAX, RATIO_MIN, Turn
 
 
-class TurnCircle(NamedTuple):
+class CheckedCircle(NamedTuple):
     """pitch, radius: of the circle [m]; ratio: of the arcs' radii, None: any; start_turns: of both coils; margin [m]"""
 
     pitch: float
@@ -44,7 +44,7 @@ def checked_circle(
     margin: float = 0.0,
     *,
     any_ratio: bool = False,
-) -> TurnCircle:
+) -> CheckedCircle:
     """The circle of a question. any_ratio: whether a ratio of None counts, as a free one
 
     raises: InvalidValue for what no turn can have
@@ -53,4 +53,4 @@ def checked_circle(
     free = any_ratio and ratio is None
     chosen = 1.0 if free else checked_number("ratio", ratio, "", RATIO_MIN, RATIO_MAX)
     whole = Turn(pitch, turning_radius, chosen, start_turns=start_turns)
-    return TurnCircle(whole.pitch, whole.turning_radius, None if free else chosen, whole.start_turns, margin)
+    return CheckedCircle(whole.pitch, whole.turning_radius, None if free else chosen, whole.start_turns, margin)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from core import kernels
 from core.design.shortest_turn import RATIOS_WORK, SHORTEST_WORK, TurnSearch
 from core.design.turn_bounds import least_entry
-from core.design.turn_circle import TurnCircle, checked_circle
+from core.design.turn_circle import CheckedCircle, checked_circle
 from core.design.turn_moves import apart_from_circle
 from core.dragon import Dragon, chord_values
 from core.errors import Quantity, question_about, too_much
@@ -57,7 +57,7 @@ def turn_length_bounds(
 class _Lengths(TurnSearch):
     """Search for a length below which no turn is justifiable."""
 
-    def __init__(self, dragon: Dragon, circle: TurnCircle, stray: float, budget: Budget) -> None:
+    def __init__(self, dragon: Dragon, circle: CheckedCircle, stray: float, budget: Budget) -> None:
         super().__init__(dragon, circle, stray, budget)
         self.least *= kernels.ROUTE_SINE_LIMIT
         self.inner = least_entry(self.growth, self.radius, self.least)

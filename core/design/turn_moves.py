@@ -156,11 +156,11 @@ def displaced(box: Box, low: float, high: float) -> float:
         furthest = max(furthest, _on_first(box, min(0.0, high)))
     if high >= 0.0 and low < second_high:
         before, after = max(0.0, low), min(high, second_high)
-        counted = after * (box.slants[0] + box.angle) + 0.5 * after**2 * box.bends[1]
+        from_tangent = after * (box.slants[0] + box.angle) + 0.5 * after**2 * box.bends[1]
         way = second_high - before
         back = box.exit + (outer + 2.0 * box.exit) * box.turned + box.arcs[1]
         back += way * (box.turned + box.slants[1]) + 0.5 * way**2 * box.bends[1]
-        furthest = max(furthest, min(_on_first(box, 0.0) + counted, back))
+        furthest = max(furthest, min(_on_first(box, 0.0) + from_tangent, back))
     if high > second_low:  # on the coil outwards, or beside the exit
         way = high - second_low
         greatest = outer + 2.0 * box.exit + way

@@ -75,7 +75,7 @@ SPARE_ROUNDS = 5
 SPARE = 1e-8
 
 
-class Exhibit(NamedTuple):
+class OverlapExhibit(NamedTuple):
     """shared: whether a pose was found that overlaps in all turns of a box; depth of the deepest pose of the nominal
     one [m]; excess: the moves of benches over the depth, the least found [1]; poses: number of tried ones."""
 
@@ -85,11 +85,11 @@ class Exhibit(NamedTuple):
     poses: int
 
 
-def _excess(exhibit: Exhibit) -> float:
+def _excess(exhibit: OverlapExhibit) -> float:
     return exhibit.excess
 
 
-class Overlap:
+class OverlapSearch:
     """Search for a pose that overlaps in all turns of a box.
 
     dragon: its benches from `first` on are the ones of the pose; margin [m]: benches within it count as overlapping
@@ -129,12 +129,12 @@ class Overlap:
         """Depth of the deepest pose of a turn [m], negative if none overlaps."""
         return self._poses(turn)[0][0] if self.count > 2 else -math.inf
 
-    def exhibited(self, box: Box) -> Exhibit:
+    def exhibited(self, box: Box) -> OverlapExhibit:
         """The search for a pose that overlaps in all turns of a box."""
         if self.count < 3:
-            return Exhibit(False, -math.inf, math.inf, 0)
+            return OverlapExhibit(False, -math.inf, math.inf, 0)
         tried = [self._pose(box.nominal, box.nominal.length + beyond) for beyond in self.hints]
-        poses, best = sorted(tried, reverse=True)[:1], Exhibit(False, -math.inf, math.inf, 0)
+        poses, best = sorted(tried, reverse=True)[:1], OverlapExhibit(False, -math.inf, math.inf, 0)
         for whole in (False, True):
             if whole:
                 poses = self._poses(box.nominal)
@@ -142,12 +142,12 @@ class Overlap:
             for depth, place, last in poses[:POSES_TRIED]:
                 moved = self._moved(box, place, last) if depth > SPARE else math.inf
                 excess = moved / max(depth, SPARE)
-                best = min(best, Exhibit(depth > moved + SPARE, depth, excess, len(tried)), key=_excess)
+                best = min(best, OverlapExhibit(depth > moved + SPARE, depth, excess, len(tried)), key=_excess)
                 if best.shared:
                     if whole:
                         self.hints = [place - box.nominal.length, *self.hints[: HINTS - 1]]
                     return best
-        return Exhibit(False, poses[0][0], best.excess, len(tried))
+        return OverlapExhibit(False, poses[0][0], best.excess, len(tried))
 
     def _poses(self, turn: Turn) -> list[tuple[float, float, int]]:
         """Depth [m], place of the first handle from the entry [m], and the other bench of poses, the deepest first."""

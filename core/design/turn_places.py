@@ -55,10 +55,10 @@ def starts(growth: float, inner: float, radius: float, ratio: float | None, leas
         yield np.array([a.ravel()[k], v.ravel()[k], logarithm.ravel()[k]])
 
 
-def polished(
+def locally_shortest(
     growth: float, start: Floats, inner: float, radius: float, ratio: float | None, least: float
 ) -> Floats | None:
-    """The locally shortest turn near a place, with arcs that benches can follow; None if none was found."""
+    """The locally shortest turn near a place, with arcs that benches can follow; None if the search failed."""
     from scipy.optimize import minimize  # type: ignore[import-untyped]
 
     free = 3 if ratio is None else 2
@@ -74,23 +74,23 @@ def polished(
     begin = np.array([start[0], start[0] + growth * start[1], start[2]])[:free]
     room = {"type": "ineq", "fun": lambda x: sizes(x)[:2] - least}
     with np.errstate(all="ignore"):
-        found = minimize(
+        point = minimize(
             lambda x: sizes(x)[4], begin, bounds=bounds, constraints=[room], method="SLSQP",
             options={"ftol": 1e-13, "maxiter": 200},
         ).x  # fmt: skip
         low, high = np.array(bounds).T
-        found = np.clip(found, low, high)
-        found = np.where(np.abs(found - low) < SNAP, low, np.where(np.abs(found - high) < SNAP, high, found))
-        inside = (found > low) & (found < high)
+        point = np.clip(point, low, high)
+        point = np.where(np.abs(point - low) < SNAP, low, np.where(np.abs(point - high) < SNAP, high, point))
+        inside = (point > low) & (point < high)
         for _ in range(CORRECTIONS):
             for k in range(2):
-                missing = least + WIDER - sizes(found)[k]
+                missing = least + WIDER - sizes(point)[k]
                 if missing > 0.0 or -JUST < missing < -2.0 * WIDER:
-                    found = _corrected(lambda x: sizes(x)[:2], k, found, inside, missing)
-        found = np.clip(found, low, high)
-    if not np.isfinite(found).all() or (sizes(found)[:2] < least).any():
+                    point = _corrected(lambda x: sizes(x)[:2], k, point, inside, missing)
+        point = np.clip(point, low, high)
+    if not np.isfinite(point).all() or (sizes(point)[:2] < least).any():
         return None
-    return place(found)
+    return place(point)
 
 
 def _corrected(

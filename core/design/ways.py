@@ -77,16 +77,16 @@ class Ways:
         if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         last = min(stop, before_fold(search.travel_at(fold)))
-        state, found = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
-        if (state is Ended.STUCK and found.touching is None) or (state is Ended.REACHED and last < stop):
-            state = Ended.REACHED if clear_to_fold(search, min(found.proven, last), fold) else Ended.STUCK
-        return state, found
+        state, result = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
+        if (state is Ended.STUCK and result.touching is None) or (state is Ended.REACHED and last < stop):
+            state = Ended.REACHED if clear_to_fold(search, min(result.proven, last), fold) else Ended.STUCK
+        return state, result
 
     def is_clear(self, pitch: float) -> bool | None:
         """True if the whole way is free of contact; None if rounding of a graze hides it."""
         for width, work in ((NO_BRACKET, WAY_WORK), (CONTACT_WIDTH, FINER_WORK)):
-            state, found = self.march(pitch, width, work)
-            if state is not Ended.STUCK or found.touching is not None:
+            state, result = self.march(pitch, width, work)
+            if state is not Ended.STUCK or result.touching is not None:
                 return state is Ended.REACHED
         return None
 
@@ -136,5 +136,5 @@ class Ways:
         shortest = "the shortest of {benches} chords is {chord} long"
         circle = "the turning circle {diameter} across, and the last pitch tried was {pitch}"
         sizes = quantities("m", 6, chord=dragon.chords[k], diameter=2.0 * self.radius, pitch=self.tried)
-        told, got = {"benches": dragon.benches, **sizes}, Quantity(float(dragon.lengths[k]), "m")
-        return too_much(self.search.budget, field, f"{rule}; {shortest}, {circle}", got, **told)
+        values, got = {"benches": dragon.benches, **sizes}, Quantity(float(dragon.lengths[k]), "m")
+        return too_much(self.search.budget, field, f"{rule}; {shortest}, {circle}", got, **values)

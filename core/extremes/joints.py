@@ -60,9 +60,9 @@ def sharpest_bend(
     grid = np.linspace(begin, until, min(count, SAMPLES))
     leading = dragon.uniform_from + 2
     front = replace(dance, dragon=dragon.leading(leading))
-    found = [_sharpest(dance, grid[: _opened(dance, grid, budget)], budget), _sharpest(front, grid, budget)]
-    largest = max(bend.angle for bend in found)
-    bend = min((bend for bend in found if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
+    bends = [_sharpest(dance, grid[: _opened(dance, grid, budget)], budget), _sharpest(front, grid, budget)]
+    largest = max(bend.angle for bend in bends)
+    bend = min((bend for bend in bends if bend.angle >= largest - 2.0 * SAME_ANGLE), key=lambda bend: bend.time)
     return replace(bend, time=max(clock.of_steady(bend.time), span[0]))
 
 

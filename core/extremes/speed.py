@@ -108,12 +108,12 @@ def highest_speed(
     dragon, clock, end = dance.dragon, dance.clock, dance.end
     stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
     if dance.ends_by(end.time if stop is None else stop):
-        when, told = "before {end}, when bench {bench} folds", {"end": bound(end.time, 9, "s"), **end.told}
+        when, values = "before {end}, when bench {bench} folds", {"end": bound(end.time, 9, "s"), **end.values}
         if stop is None:
             why = f"the run ends at a fold, towards which speeds grow without bound; it must be {when}"
-            raise InvalidValue("stop", f"must be given: {why}", **told)
+            raise InvalidValue("stop", f"must be given: {why}", **values)
         rule = f"must be {when} and speeds grow without bound"
-        raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **told)
+        raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
@@ -175,11 +175,11 @@ def maximum_head_speed(
     raises: InvalidValue; TooMuchWork
     """
     limit = checked_limit(speed_limit)
-    found = highest_speed(dance.played(1.0), start=start, stop=stop, budget=budget)
-    speed = limit / found.speed
-    highest = found.speed_bracket[1]
-    bracket = (None if highest is None else limit / highest, speed)
-    return MaximumHeadSpeed(speed, bracket, found.speed, found.handles, found.time / speed, found.time, found.passage)
+    highest = highest_speed(dance.played(1.0), start=start, stop=stop, budget=budget)
+    speed, upper = limit / highest.speed, highest.speed_bracket[1]
+    bracket = (None if upper is None else limit / upper, speed)
+    times = (highest.time / speed, highest.time)
+    return MaximumHeadSpeed(speed, bracket, highest.speed, highest.handles, *times, highest.passage)
 
 
 @question_about("dance", Dance, "the first time that a handle is too fast was not found")
@@ -203,18 +203,18 @@ def first_excess(
     begin, until = dance.span(dance.begin if start is None else start, stop)
     search = ContactSearch(dragon, dance.path, 0.0, budget=budget)
     search.resize(dragon.benches)
-    search.timing, given_up = dance.clock.rounding(until), None
+    search.timing, undecided = dance.clock.rounding(until), None
     for period in dance.clock.periods(begin, until):
-        found = _excess_in(search, period, limit) if period.speed > 0.0 else None
-        if found is None:
+        excess = _excess_in(search, period, limit) if period.speed > 0.0 else None
+        if excess is None:
             continue
-        if found.time is None:
-            given_up = given_up or found
-        elif given_up is None:
-            return found
+        if excess.time is None:
+            undecided = undecided or excess
+        elif undecided is None:
+            return excess
         else:  # after the time at which a proof was given up
-            return replace(found, time_bracket=(given_up.time_bracket[0], found.time))
-    return None if given_up is None else replace(given_up, time_bracket=(given_up.time_bracket[0], until))
+            return replace(excess, time_bracket=(undecided.time_bracket[0], excess.time))
+    return None if undecided is None else replace(undecided, time_bracket=(undecided.time_bracket[0], until))
 
 
 def _excess_in(search: ContactSearch, period: Period, limit: float) -> FirstExcess | None:
@@ -222,7 +222,7 @@ def _excess_in(search: ContactSearch, period: Period, limit: float) -> FirstExce
     ratio = limit / period.speed
     outcome, excess = _excess(search, period.first, period.last, period.speed, ratio)
     if outcome is Judged.EXCEEDED:
-        time = period.time(excess.found)
+        time = period.time(excess.exceeded)
         return FirstExcess(time, (period.time(excess.proven), time), excess.handle)
     return None if outcome is Judged.KEPT else _late_excess(search, ratio, period, period.time(excess.proven))
 

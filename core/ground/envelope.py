@@ -92,7 +92,7 @@ class Envelope(WithArrays):
 
     polygons: for each its outer ring, counter-clockwise, then its holes, clockwise; rings are closed, (points, 2) [m]
     excess: largest distance of any point of them from ground that a bench covers [m]; area: of all polygons [m2]
-    start, stop: of the time asked about [s]
+    start, stop: the interval of time [s]
     """
 
     polygons: Polygons
@@ -144,24 +144,24 @@ def envelope(
     raises: InvalidValue; OutsideRun; TooMuchWork
 
     >>> from core import Spiral
-    >>> found = envelope(Dance(Dragon(3), Spiral()), stop=10.0)
-    >>> len(found.polygons), round(found.area, 1)
+    >>> answer = envelope(Dance(Dragon(3), Spiral()), stop=10.0)
+    >>> len(answer.polygons), round(answer.area, 1)
     (1, 7.2)
     """
     excess = checked_number("excess", excess, "m", EXCESS_MIN, EXCESS_MAX)
     begin, until = dance.span(dance.begin if start is None else start, stop)
     budget = (budget or Budget()).within(ENVELOPE_WORK)
-    found = tracks(dance, dance.clock.travel(begin), dance.clock.travel(until))
+    swept = tracks(dance, dance.clock.travel(begin), dance.clock.travel(until))
     budget.look()
-    parts = [part for track in found for part in _Lone(dance, track, excess, budget).sweep()]
+    parts = [part for track in swept for part in _Lone(dance, track, excess, budget).sweep()]
     core = [polygons for part in parts for polygons in part.core]
     rest = [polygons for part in parts for polygons in part.rest]
     added = (BOW_AND_SLIP + LEFT_OUT) * excess + GRID + ROUNDING
     polygons = united(core, rest, added, LEFT_OUT * excess, budget)
     most = GROWTH_MOST * added + GRID + BOW_AND_SLIP * excess + max(part.over for part in parts) + ROUNDING
     cells = sum(part.cells for part in parts)
-    length = sum(track.length for track in found)
-    claim = GroundClaim(ClaimKind.SWEPT_GROUND, begin, until, most, len(found), length, cells)
+    length = sum(track.length for track in swept)
+    claim = GroundClaim(ClaimKind.SWEPT_GROUND, begin, until, most, len(swept), length, cells)
     proof = SweepProof(claim, cells)
     area = sum(0.5 * float(_cross(ring[:-1], ring[1:]).sum()) for rings in polygons for ring in rings)
     frame, onwards = dance.path.frame, slice(None, None, 1 if dance.path.frame.clockwise else -1)

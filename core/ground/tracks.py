@@ -59,7 +59,7 @@ def tracks(dance: Dance, begin: float, until: float) -> list[Track]:
     lows, highs, spares = _stretches(dance, begin, until)
     sizes = np.stack([dragon.chords, dragon.lengths, dragon.widths], axis=1)
     _, firsts, kinds = np.unique(sizes, axis=0, return_index=True, return_inverse=True)
-    found = []
+    result = []
     for kind, bench in enumerate(firsts.tolist()):
         alike = np.flatnonzero(kinds.reshape(-1) == kind)
         alike = alike[np.argsort(lows[alike])]
@@ -67,8 +67,8 @@ def tracks(dance: Dance, begin: float, until: float) -> list[Track]:
         apart = np.flatnonzero(lows[alike[1:]] > furthest[:-1]) + 1
         parts = np.split(alike, apart)
         ends = ((lows[part].min(), highs[part].max(), spares[part].max()) for part in parts)
-        found.append(Track(bench, tuple((float(low), float(high), float(spare)) for low, high, spare in ends)))
-    return found
+        result.append(Track(bench, tuple((float(low), float(high), float(spare)) for low, high, spare in ends)))
+    return result
 
 
 def _stretches(dance: Dance, begin: float, until: float) -> tuple[Floats, Floats, Floats]:

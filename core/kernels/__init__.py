@@ -59,7 +59,7 @@ from core.kernels.rectangles import Witnesses, bench_separation, pair_gaps, pair
 from core.kernels.rings import Rings, clear_radius, leaders_reach, radius_beyond, ring_clears, ring_least, ring_rounding
 from core.kernels.rounding import joint_misses, piece_slides
 from core.kernels.route import cubic_arcs, route_points
-from core.kernels.scene import Found, Interval, Scene
+from core.kernels.scene import Interval, MarchState, Scene
 from core.kernels.speed import Peak
 from core.kernels.spiral import (
     COMPILED,

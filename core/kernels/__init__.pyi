@@ -122,10 +122,10 @@ def pair_gaps(a: Floats, b: Floats, limit: float, out: Floats) -> None: ...
 def grow_tree(boxes: Floats, tree: Floats) -> None: ...
 
 class Meetings:
-    found: int
+    count: int
     met: int
     def __init__(self, frames: Floats, boxes: Floats, tree: Floats, order: Ints, budget: Budget) -> None: ...
-    def find(self, margin: float, exact: bool, chained: bool, most_found: int, most_met: int, pairs: Ints) -> None: ...
+    def find(self, margin: float, exact: bool, chained: bool, most_pairs: int, most_met: int, pairs: Ints) -> None: ...
 
 # -- scenes --
 
@@ -166,7 +166,7 @@ class Kinds:
     def lay(self, hulls: Floats, of: Ints, directions: Floats) -> None: ...
 
 def largest_supports(
-    chord: float, overhang: float, half_width: float, stray: float, samples: Floats, directions: Floats, found: Floats
+    chord: float, overhang: float, half_width: float, stray: float, samples: Floats, directions: Floats, largest: Floats
 ) -> None: ...
 
 class Scene:
@@ -216,11 +216,11 @@ def pair_most(scene: Scene, interval: Interval, place: float, h: float, a: int, 
 
 # -- searches --
 
-class Found:
+class MarchState:
     work: float
     def result(self) -> Marched: ...
 
-class March(Found):
+class March(MarchState):
     def __init__(self, interval: Interval, probe: Interval, opening: Floats) -> None: ...
     def run(
         self,
@@ -234,7 +234,7 @@ class March(Found):
         most_work: float,
     ) -> Ended: ...
 
-class BandMarch(Found):
+class BandMarch(MarchState):
     def __init__(self, low: Interval, high: Interval, shifts: Floats) -> None: ...
     def run(
         self, outer: float, inner: float, leaders: int, rounding: float, least_step: float, most_work: float
@@ -253,7 +253,7 @@ class Peak:
 
 class Excess:
     proven: float
-    found: float
+    exceeded: float
     handle: int
     rate: float
     def __init__(self, interval: Interval, calm: float) -> None: ...

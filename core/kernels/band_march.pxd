@@ -6,7 +6,7 @@ from core.kernels.rings cimport leaders_reach, radius_beyond
 from core.kernels.pairs cimport BAND_ROUNDING
 from core.kernels.nearest cimport band_least
 from core.kernels.clearance cimport row_gap
-from core.kernels.scene cimport Band, Found, Scene
+from core.kernels.scene cimport Band, MarchState, Scene
 
 cdef double BACKWARDS_WITHIN, CHAIN_WORK, ACROSS
 
@@ -16,7 +16,7 @@ cdef bint shift_bounds(
 ) noexcept nogil
 
 @cython.final
-cdef class BandMarch(Found):
+cdef class BandMarch(MarchState):
     cdef Band band
     cdef Py_ssize_t leaders, placed
     cdef double radius, place, h, rounding

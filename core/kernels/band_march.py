@@ -12,7 +12,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.nearest import band_least
     from core.kernels.pairs import BAND_ROUNDING
     from core.kernels.rings import leaders_reach, radius_beyond
-    from core.kernels.scene import Band, Found
+    from core.kernels.scene import Band, MarchState
     from core.kernels.spiral import spiral_arc, spiral_theta
 
 # Shortest step in which handles may move backwards before a band is given up, relative to the head's radius [1].
@@ -154,7 +154,7 @@ def shift_bounds(low, high, benches, sizes, inner, outer, shifts):
 # State:  `radius` and `place` of the head at the lowest growth; h, the travel to try there; `placed`, the last handle
 #         that the chains at the beginning have; `bounded`, whether bounds were known in the last step.
 # Output: how it ended, and the record Marched.
-class BandMarch(Found):
+class BandMarch(MarchState):
     """All growths between two at once, proven clear while the head goes inwards.
 
     A pair that meets does so at the lowest growth.

@@ -1,6 +1,6 @@
 cimport cython
 from core.kernels.constants cimport *
-from core.kernels.records cimport Cosines, Link, Stretch
+from core.kernels.records cimport Cosines, LinkBounds, Stretch
 from core.kernels.spiral cimport spiral_curvature
 from core.kernels.stretches cimport blur_of, link_stretch, parts_between
 from core.kernels.rounding cimport spiral_rounding
@@ -14,9 +14,9 @@ cdef void bench_bounds(
 ) noexcept nogil
 
 cdef double summed_widening(double growth, Py_ssize_t benches, Rows sizes, Rows before, Rows after) noexcept nogil
-cdef Link curved_link(double chord, double k_low, double k_high, double rate_a, double rate_low) noexcept nogil
+cdef LinkBounds curved_link(double chord, double k_low, double k_high, double rate_a, double rate_low) noexcept nogil
 
-cdef Link followed_link(
+cdef LinkBounds followed_link(
     Py_ssize_t k, double h, double k_high, double rate_a, Rows sizes, Rows before, Rows after
 ) noexcept nogil
 

@@ -5,7 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.records import Cosines, Link
+    from core.kernels.records import Cosines, LinkBounds
     from core.kernels.rounding import spiral_rounding
     from core.kernels.spiral import spiral_curvature
     from core.kernels.stretches import blur_of, link_stretch, parts_between
@@ -123,7 +123,7 @@ def curved_link(chord, k_low, k_high, rate_a, rate_low):
     front = sqrt(1.0 - 0.25 * k_low * k_low * chord * chord)
     rate_low *= TIGHTEN * rear / front
     swing = k_high * rate_a - k_low * rate_low
-    return Link(front, rear, sine, rate_a, rate_low, k_high * rate_a, k_low * rate_low, swing, swing, False, True)
+    return LinkBounds(front, rear, sine, rate_a, rate_low, k_high * rate_a, k_low * rate_low, swing, swing, False, True)
 
 
 def followed_link(k, h, k_high, rate_a, sizes, before, after):
@@ -135,7 +135,7 @@ def followed_link(k, h, k_high, rate_a, sizes, before, after):
     front = (fabs(front) if fabs(front) > fabs(front_end) else fabs(front_end)) + blur
     rear = (rear if rear < rear_end else rear_end) - blur
     if rear <= 0.0:
-        return Link(front, rear, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True, False)
+        return LinkBounds(front, rear, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True, False)
     rate_b = rate_a * (TRIAL * front + h * rate_a * (k_high + 2.0 / chord)) / rear
     omega = (rate_a + rate_b) / chord
     swing_a = k_high * rate_a + omega
@@ -143,12 +143,12 @@ def followed_link(k, h, k_high, rate_a, sizes, before, after):
     front = min(front + 0.5 * h * swing_a, 1.0)
     rear -= 0.5 * h * swing_b
     bounded = not (rear <= 0.0 or rate_a * front > rate_b * rear)
-    return Link(front, rear, 1.0, LOOSEN * rate_b, 0.0, omega, 0.0, swing_a, swing_b, True, bounded)
+    return LinkBounds(front, rear, 1.0, LOOSEN * rate_b, 0.0, omega, 0.0, swing_a, swing_b, True, bounded)
 
 
 # Input:  the chains at both ends of an interval of width h, each with all handles up to `benches`.
 # State:  rate_a, rate_low and second_a, the bounds on the rate of handle k and on its |s''|; `followed`, whether a link
-#         before this one was followed; `filled`, whether the sums of spiral_rounding() are known; and `widened`, the
+#         before this one was followed; `summed`, whether the sums of spiral_rounding() are known; and `widened`, the
 #         part by which curvatures are widened.
 # Output: a motion row for every bench and the handle in front of it, see constants.py.
 def motion_bounds(growth, h, benches, sizes, before, after, motion):
@@ -158,7 +158,7 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     second_a = 0.0
     motion[0, RATE_HIGH] = motion[0, RATE_LOW] = 1.0
     motion[0, RATE_RATE] = 0.0
-    filled = False
+    summed = False
     outermost = max(before[benches, THETA], after[benches, THETA])
     error = ULP * (outermost + 1.0) * (66.0 * benches + 16.0 * (outermost - after[0, THETA]) + 5.0)
     widened = 32.0 * ULP * (benches + 8.0) + 2.0 * error
@@ -167,8 +167,8 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     inwards = (1.0 + widened) / growth
     for k in range(benches):
         chord = sizes[k, CHORD]
-        if error > chord and not filled:  # spiral_error() does not cover such chords: compute the sums
-            filled = True
+        if error > chord and not summed:  # spiral_error() does not cover such chords: compute the sums
+            summed = True
             widened = summed_widening(growth, benches, sizes, before, after)
             outwards = (1.0 - widened) / growth
             inwards = (1.0 + widened) / growth
@@ -183,8 +183,8 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
             k_low = 0.0 if followed else spiral_curvature(outer) * outwards
             link = curved_link(chord, k_low, k_high, rate_a, rate_low)
         else:
-            if not filled:  # the link that is followed needs the sums themselves
-                filled = True
+            if not summed:  # the link that is followed needs the sums themselves
+                summed = True
                 widened = summed_widening(growth, benches, sizes, before, after)
                 inwards = (1.0 + widened) / growth
                 k_high = spiral_curvature(inner) * inwards

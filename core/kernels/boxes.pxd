@@ -16,11 +16,11 @@ cdef class Meetings:
     cdef long long[::1] order
     cdef long long[:, ::1] pairs
     cdef Budget budget
-    cdef readonly long long found, met
+    cdef readonly long long count, met
 
     @cython.locals(leaves=cython.Py_ssize_t, i=cython.Py_ssize_t, k=cython.Py_ssize_t, first=cython.Py_ssize_t)
     cpdef void find(
-        self, double margin, bint exact, bint chained, long long most_found, long long most_met, long long[:, ::1] pairs
+        self, double margin, bint exact, bint chained, long long most_pairs, long long most_met, long long[:, ::1] pairs
     ) noexcept
 
     @cython.locals(a=cython.longlong, b=cython.longlong)

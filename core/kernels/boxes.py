@@ -58,7 +58,7 @@ class Meetings:
     frames: (n, FRAME_COLUMNS), boxes: (n, BOX_COLUMNS), order: (n,), all in the tree's order; `order` holds the number
         of the rectangle in each row; tree: as grow_tree() fills it
     budget: ends find() before it is done
-    found, met: number of pairs that find() found, and of boxes that it met
+    count, met: number of pairs that find() found, and of boxes that it met
     """
 
     def __init__(self, frames, boxes, tree, order, budget):
@@ -68,22 +68,22 @@ class Meetings:
         self.order = order
         self.budget = budget
         self.pairs = None
-        self.found = self.met = 0
+        self.count = self.met = 0
 
-    def find(self, margin, exact, chained, most_found, most_met, pairs):
+    def find(self, margin, exact, chained, most_pairs, most_met, pairs):
         """Fill in pairs (capacity, 2), a < b, whose boxes meet; with exact, only those within the margin.
 
-        chained: leave out pairs of consecutive numbers; most_found, most_met: find() stops when it exceeds one of them
+        chained: leave out pairs of consecutive numbers; most_pairs, most_met: find() stops when it exceeds one of them
         """
         # Local, because a view that belongs to an object, or is passed on, costs a third more time.
         boxes: cython.double[:, ::1] = self.boxes
         tree: cython.double[:, ::1] = self.tree
         leaves = tree.shape[0] // 2
         self.pairs = pairs
-        self.found = self.met = 0
+        self.count = self.met = 0
         with cython.nogil:
             for i in range(boxes.shape[0]):
-                if self.found > most_found or self.met > most_met or self.budget.stopped:
+                if self.count > most_pairs or self.met > most_met or self.budget.stopped:
                     break
                 k = leaves + i // LEAF
                 while True:
@@ -111,7 +111,7 @@ class Meetings:
             return
         if exact and rows_gap_within(i, j, margin, self.frames) > margin:
             return
-        if self.found < self.pairs.shape[0]:
-            self.pairs[self.found, PAIR_A] = a
-            self.pairs[self.found, PAIR_B] = b
-        self.found += 1
+        if self.count < self.pairs.shape[0]:
+            self.pairs[self.count, PAIR_A] = a
+            self.pairs[self.count, PAIR_B] = b
+        self.count += 1

@@ -53,7 +53,7 @@ cdef enum Step:
     ADVANCED = 0, REFUSED = 1, ENDED = 2
 
 cdef enum Judged:
-    KEPT = 0, EXCEEDED = 1, GIVEN_UP = 2
+    KEPT = 0, EXCEEDED = 1, UNDECIDED = 2
 
 # The loops' arrays: rows of the columns above; a table of pieces; instants, handles, and x and y.
 ctypedef double[:, ::1] Rows

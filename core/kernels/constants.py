@@ -180,7 +180,7 @@ class Judged(IntEnum):
 
     KEPT = 0
     EXCEEDED = 1
-    GIVEN_UP = 2
+    UNDECIDED = 2
 
 
 # Spare distance beyond the radius or place from which a bound holds: relative to the radius [1], or along a route [m].

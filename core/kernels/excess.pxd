@@ -7,7 +7,7 @@ from core.kernels.scene cimport Interval, Scene
 cdef class Excess:
     cdef Interval interval
     cdef double calm
-    cdef readonly double proven, found
+    cdef readonly double proven, exceeded
     cdef readonly Py_ssize_t handle
     cdef readonly double rate
 

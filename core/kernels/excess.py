@@ -11,7 +11,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 # Input:  a run from start to stop, and the limit of every |rate|.
 # State:  travel, up to which no |rate| exceeded `kept`; h, the step to try; both chains at its ends.
-# Output: KEPT all the way; EXCEEDED between `proven` and `found`, at most `width` apart; or GIVEN_UP, proven so far.
+# Output: KEPT all the way; EXCEEDED between `proven` and `exceeded`, at most `width` apart; else UNDECIDED, proven so
+#         far.
 #
 # No |rate| between the ends of a step exceeds rate_bound() (rates.py). So a step with a bound below the limit is
 # passed, and any other step is halved. A step of `width` ends in one of three ways. If the limit is exceeded at its
@@ -26,14 +27,14 @@ class Excess:
     """The first travel in a run at which a |rate| exceeds a limit.
 
     interval: of a scene with room for all benches; calm: as in rates.lively_chain()
-    proven: travel before which no |rate| exceeds the limit that counts as the same [m]; found: travel at which one
+    proven: travel before which no |rate| exceeds the limit that counts as the same [m]; exceeded: travel at which one
         exceeds it, or the end of the run [m]; handle, rate: that handle and its rate
     """
 
     def __init__(self, interval, calm):
         self.interval = interval
         self.calm = calm
-        self.proven = self.found = self.rate = 0.0
+        self.proven = self.exceeded = self.rate = 0.0
         self.handle = 0
 
     def run(self, start, stop, step, limit, kept, width, rounding, most_links):
@@ -48,7 +49,7 @@ class Excess:
         h = 2.0 * rounding
         links = 0
         outcome = Judged.KEPT
-        self.found = stop
+        self.exceeded = stop
         self.handle = 0
         self.rate = 0.0
         with cython.nogil:
@@ -72,19 +73,19 @@ class Excess:
                             rate, k = certain_rate(scene.curve, self.interval, rounding)
                 links += 1
                 if links > most_links or scene.budget.uses_up(max(self.interval.handles, 0) + 1):
-                    outcome = Judged.GIVEN_UP
+                    outcome = Judged.UNDECIDED
                     break
                 if upper > limit and h > width:
                     h *= 0.5
                     continue
                 if rate > limit:
                     outcome = Judged.EXCEEDED
-                    self.found = min(max(travel + h - rounding, start), stop)
+                    self.exceeded = min(max(travel + h - rounding, start), stop)
                     self.handle = k
                     self.rate = rate
                     break
                 if upper > kept:
-                    outcome = Judged.GIVEN_UP
+                    outcome = Judged.UNDECIDED
                     break
                 placed = self.interval.handles
                 self.interval.swap()

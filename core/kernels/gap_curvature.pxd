@@ -15,7 +15,7 @@ cpdef double axis_curvature(
     double growth, Py_ssize_t i, Py_ssize_t j, double distance, Rows sizes, Rows motion
 ) noexcept nogil
 
-cdef double plain_curvature(Py_ssize_t i, Py_ssize_t j, double distance, Rows sizes, Rows motion) noexcept nogil
+cdef double resting_curvature(Py_ssize_t i, Py_ssize_t j, double distance, Rows sizes, Rows motion) noexcept nogil
 cdef double centres_apart(Interval interval, Py_ssize_t a, Py_ssize_t b) noexcept nogil
 cdef double curvature_along(Scene scene, Interval interval, Py_ssize_t i, Py_ssize_t j, double distance) noexcept nogil
 

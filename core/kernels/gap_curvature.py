@@ -54,15 +54,15 @@ def against_rotation(growth, k, omega_low, omega_high, motion):
 # Input:  bench i, in which the axis is fixed, bench j, the distance between their centres, and the bounds on their
 #         motion.
 # State:  `slips` and `pulls`, sums of |xi| and of |P'' + Omega^2 P|, against the rotation of bench i.
-# Output: K: the lesser of the bound made of these sums and of plain_curvature(), the bound in the resting frame.
+# Output: K: the lesser of the bound made of these sums and of resting_curvature(), the bound in the resting frame.
 def axis_curvature(growth, i, j, distance, sizes, motion):
     """Bound K on the second derivative of a gap along an axis fixed in bench i to the corners of bench j [1/m]."""
     low = motion[i, OMEGA_LOW]
     high = motion[i, OMEGA]
-    plain = plain_curvature(i, j, distance, sizes, motion)
+    resting = resting_curvature(i, j, distance, sizes, motion)
     slips = pulls = 0.0
     if motion[j, RATE_LOW] <= 0.0 or motion[i, RATE_LOW] <= 0.0 or low <= 0.0 or motion[j, OMEGA_LOW] <= 0.0:
-        return plain
+        return resting
     for side in range(2):
         slip, pull = against_rotation(growth, i + side, low, high, motion)
         slips += 0.5 * slip
@@ -76,10 +76,10 @@ def axis_curvature(growth, i, j, distance, sizes, motion):
         low * low, high * high, motion[j, OMEGA_LOW] * motion[j, OMEGA_LOW], motion[j, OMEGA] * motion[j, OMEGA]
     )
     pulls += 2.0 * high * slips + motion[i, OMEGA_RATE] * (distance + sizes[j, RADIUS])
-    return pulls if pulls < plain else plain
+    return pulls if pulls < resting else resting
 
 
-def plain_curvature(i, j, distance, sizes, motion):
+def resting_curvature(i, j, distance, sizes, motion):
     """axis_curvature() in the resting frame [1/m]."""
     return (
         motion[j, CORNER_PULL]

@@ -53,5 +53,5 @@ cdef double corner_beyond(Kinds kinds, View view, Hulls hulls, Corner at) noexce
 
 @cython.locals(m=cython.Py_ssize_t)
 cpdef void largest_supports(
-    double chord, double overhang, double half_width, double stray, Rows samples, Rows directions, Rows found
+    double chord, double overhang, double half_width, double stray, Rows samples, Rows directions, Rows largest
 ) noexcept nogil

@@ -142,13 +142,13 @@ def uphill(kinds, view, hulls, k, enough):
 def best_beyond(kinds, view, hulls):
     """The half plane of the first hull beyond which the second is furthest."""
     best = gap_beyond(kinds, view, hulls, 0)
-    found = 0
+    side = 0
     for k in range(1, DIRECTIONS):
         gap = gap_beyond(kinds, view, hulls, k)
         if gap > best:
             best = gap
-            found = k
-    return Axis(found, best)
+            side = k
+    return Axis(side, best)
 
 
 # Input:  two benches, or a bench and an edge at rest, in rows i and j; the limit below which they count as near.
@@ -205,13 +205,13 @@ def nearest_corner(kinds, view, hulls, k):
     along = x * view.c + y * view.s
     left = y * view.c - x * view.s
     best = FREE
-    found = Corner(0.0, 0.0)
+    deepest = Corner(0.0, 0.0)
     for shift in range(-1, 2):  # rounding of the angle may point to the next corner
         at = corner(kinds, hulls.second, wrapped(wrapped(k + view.shift) + shift), hulls.other_half_length)
         if along * at.x + left * at.y < best:
             best = along * at.x + left * at.y
-            found = at
-    return found
+            deepest = at
+    return deepest
 
 
 def hulls_met(kinds, i, j, edge, sizes, chain, out):
@@ -255,11 +255,12 @@ def corner_beyond(kinds, view, hulls, at):
 # Input:  a bench, the stray, the samples of psi, and the directions; see core/shapes/reach.py.
 # State:  for each direction the largest value so far for the front end, and for the middle.
 # Output: these values.
-def largest_supports(chord, overhang, half_width, stray, samples, directions, found):
+def largest_supports(chord, overhang, half_width, stray, samples, directions, largest):
     """Largest samples of the supports of all places of a bench's front end and of its middle.
 
-    samples: (2, m) rows SINE, COSINE; directions: (2, k) unit vectors, rows X, Y; found: (2, at most k) rows FRONT_END,
-        MIDDLE [m]. Rows take 7.0 us, columns as in Kinds 8.2 us (measured 2026-11-23).
+    samples: (2, m) rows SINE, COSINE; directions: (2, k) unit vectors, rows X, Y
+    largest: (2, at most k) rows FRONT_END, MIDDLE [m]
+    Rows take 7.0 us, columns as in Kinds 8.2 us (measured 2026-11-23).
     """
     inner = 0.5 * chord
     outer = inner + overhang
@@ -269,7 +270,7 @@ def largest_supports(chord, overhang, half_width, stray, samples, directions, fo
         c = half_cosine * half_cosine - half_sine * half_sine
         s = 2.0 * half_sine * half_cosine
         sine = fabs(samples[SINE, m])
-        for k in range(found.shape[1]):
+        for k in range(largest.shape[1]):
             x = directions[X, k]
             y = directions[Y, k]
             across = fabs(y * half_cosine - x * half_sine)
@@ -277,5 +278,5 @@ def largest_supports(chord, overhang, half_width, stray, samples, directions, fo
             moved = stray * (1.0 - sine * across if sine <= across else tip)
             along = x * c + y * s
             moved += fabs(y * c - x * s) * half_width
-            found[FRONT_END, k] = max(found[FRONT_END, k], moved + max(along * inner, along * outer))
-            found[MIDDLE, k] = max(found[MIDDLE, k], moved + fabs(along) * inner)
+            largest[FRONT_END, k] = max(largest[FRONT_END, k], moved + max(along * inner, along * outer))
+            largest[MIDDLE, k] = max(largest[MIDDLE, k], moved + fabs(along) * inner)

@@ -3,7 +3,7 @@ from core.kernels.constants cimport *
 from core.kernels.records cimport Closest, PairBounds
 from core.kernels.chain cimport extend
 from core.kernels.rings cimport drift
-from core.kernels.scene cimport Found, Interval, Scene
+from core.kernels.scene cimport MarchState, Interval, Scene
 from core.kernels.clearance cimport bottom_between, contact_between, gap_at, row_clearance, row_gap
 from core.kernels.pairs cimport pair_most
 from core.kernels.nearest cimport interval_least
@@ -12,7 +12,7 @@ from core.kernels.repeats cimport chain_between, leader_may_reverse, passed, sli
 cdef double DIP_WIDTH, LEAST_STEP, LEAST_WAY, ALLOWANCE, CROSSING_WIDTH, PEEK
 
 @cython.final
-cdef class March(Found):
+cdef class March(MarchState):
     cdef Interval interval, probe
     cdef Rows opening
     cdef double start, stop

@@ -15,7 +15,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.records import Closest, PairBounds
     from core.kernels.repeats import chain_between, leader_may_reverse, passed, slid_back
     from core.kernels.rings import drift
-    from core.kernels.scene import Found
+    from core.kernels.scene import MarchState
 
 # March: conservative advancement (Mirtich, Impulse-based dynamic simulation of rigid body systems, PhD thesis, Berkeley
 # 1996; for links in a row Zhang, Redon, Lee and Kim, Continuous collision detection for articulated models using Taylor
@@ -91,7 +91,7 @@ PEEK = 1e-4
 CROSSING_WIDTH = 1e-3
 
 
-class March(Found):
+class March(MarchState):
     """A march of a scene's head, by proven steps, until a pair comes within the margin: see the top of this file.
 
     interval: the chains of a step; probe: an interval to look at one pair; opening: rows for the chain at the start
@@ -156,7 +156,7 @@ class March(Found):
         graze = None
         if self.grazed:
             graze = Dip(float(self.graze_gap), float(self.graze_travel), (self.graze_first, self.graze_second))
-        return Found.result(self, self.gap_curvature, graze)
+        return MarchState.result(self, self.gap_curvature, graze)
 
     def repeats_ahead(self, scene):
         """Whether the head is still before rings.end_place, beyond which nothing touches (rings.py)."""

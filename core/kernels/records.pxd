@@ -3,10 +3,10 @@
 cdef struct Rectangle:
     double x, y, ux, uy, half_length, half_width
 
-cdef struct Seen:
+cdef struct Relative:
     double along, left, c, s, hl, hw, other_hl, other_hw
 
-cdef struct Link:
+cdef struct LinkBounds:
     double cos_front, cos_rear, sine, rate, rate_low, omega, omega_low, swing_front, swing_rear
     bint followed, bounded
 

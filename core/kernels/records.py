@@ -17,7 +17,7 @@ class Rectangle(NamedTuple):
     half_width: float
 
 
-class Seen(NamedTuple):
+class Relative(NamedTuple):
     """A rectangle in the frame of another one."""
 
     along: float  # its centre [m]
@@ -30,7 +30,7 @@ class Seen(NamedTuple):
     other_hw: float
 
 
-class Link(NamedTuple):
+class LinkBounds(NamedTuple):
     """Bounds on a link over an interval, from the rate of its leader: see bounds.py."""
 
     cos_front: float  # upper bound of the cosine of the angle at its front handle [1]

@@ -5,7 +5,7 @@ from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.constants import *
-    from core.kernels.records import Rectangle, Seen
+    from core.kernels.records import Rectangle, Relative
 
 # A rectangle is its centre, the unit vector u along its length, its half length hl and half width hw; v is u turned
 # left. FRONT_LEFT to REAR_LEFT are its corners, FRONT to LEFT its edges (constants.py).
@@ -63,7 +63,7 @@ def seen_from(a, b):
     """Rectangle b in the frame of a."""
     dx = b.x - a.x
     dy = b.y - a.y
-    return Seen(
+    return Relative(
         dx * a.ux + dy * a.uy, dy * a.ux - dx * a.uy, a.ux * b.ux + a.uy * b.uy, a.ux * b.uy - a.uy * b.ux,
         a.half_length, a.half_width, b.half_length, b.half_width,
     )  # fmt: skip
@@ -286,19 +286,19 @@ def bench_separation(a, b, sizes, chain):
 
 def pair_separations(a, b, out):
     """pair_separation() row by row. a, b: (n, FRAME_COLUMNS); out: (n, SEPARATION_COLUMNS) SEPARATION to FEATURE_B."""
-    found = Witnesses()
+    met = Witnesses()
     with cython.nogil:
         for i in range(a.shape[0]):
-            pair_separation(framed(a, i), framed(b, i), found)
-            out[i, SEPARATION] = found.separation
-            out[i, WITNESS_AX] = found.ax
-            out[i, WITNESS_AY] = found.ay
-            out[i, WITNESS_BX] = found.bx
-            out[i, WITNESS_BY] = found.by
-            out[i, NORMAL_X] = found.nx
-            out[i, NORMAL_Y] = found.ny
-            out[i, FEATURE_A] = found.feature_a
-            out[i, FEATURE_B] = found.feature_b
+            pair_separation(framed(a, i), framed(b, i), met)
+            out[i, SEPARATION] = met.separation
+            out[i, WITNESS_AX] = met.ax
+            out[i, WITNESS_AY] = met.ay
+            out[i, WITNESS_BX] = met.bx
+            out[i, WITNESS_BY] = met.by
+            out[i, NORMAL_X] = met.nx
+            out[i, NORMAL_Y] = met.ny
+            out[i, FEATURE_A] = met.feature_a
+            out[i, FEATURE_B] = met.feature_b
 
 
 def pair_gaps(a, b, limit, out):

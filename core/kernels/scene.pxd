@@ -39,7 +39,7 @@ cdef class Interval:
     cpdef bint bound(self, bint climbing) noexcept nogil
     cpdef bint lay_out(self, double place, double h, Py_ssize_t last) noexcept nogil
 
-cdef class Found:
+cdef class MarchState:
     cdef Ended ended
     cdef double proven
     cdef bint meets

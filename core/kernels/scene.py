@@ -139,7 +139,7 @@ class Interval:
         return self.bound(False)
 
 
-class Found:
+class MarchState:
     """Progress of proven steps.
 
     ended: how they ended; meets: whether a pair of benches comes within the margin; first, second: that pair

@@ -26,8 +26,8 @@ def handle_places(dance: Dance, times: ArrayLike, *, budget: Budget | None = Non
     >>> handle_places(Dance(Dragon(2), Spiral()), [0.0]).round(3)
     array([[ 0.   , -2.873, -4.525]])
     """
-    asked = dance.times(np.asarray(times, dtype=np.float64)).reshape(-1)
-    return _behind(dance, np.array([dance.clock.travel(time) for time in asked.tolist()]), budget or Budget())
+    instants = dance.times(np.asarray(times, dtype=np.float64)).reshape(-1)
+    return _behind(dance, np.array([dance.clock.travel(time) for time in instants.tolist()]), budget or Budget())
 
 
 @question_about("dance", Dance, "the places of the handles were not found")

@@ -139,8 +139,8 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
     >>> trajectory(dance, 0.0).position.shape
     (224, 2)
     """
-    dragon, asked, budget = dance.dragon, dance.times(times), budget or Budget()
-    travels, handles = exact_travels(dance.clock, asked.reshape(-1)), dragon.benches + 1
+    dragon, time, budget = dance.dragon, dance.times(times), budget or Budget()
+    travels, handles = exact_travels(dance.clock, time.reshape(-1)), dragon.benches + 1
     shape = (len(travels), handles)
     position, velocity, speed = np.empty((*shape, 2)), np.empty((*shape, 2)), np.empty(shape)
     block = dance.path.block
@@ -152,15 +152,15 @@ def trajectory(dance: Dance, times: ArrayLike, *, budget: Budget | None = None) 
         before_fold = dance.path.handles(s, dance.end.theta or 0.0, dragon.chords, dance.head_speed, columns, budget)
         budget.look()
         if before_fold < len(s):
-            raise dance.after_the_end(asked, first + before_fold)
+            raise dance.after_the_end(time, first + before_fold)
     if dance.passages:
-        share = dance.clock.speed(asked.reshape(-1)) / dance.head_speed
+        share = dance.clock.speed(time.reshape(-1)) / dance.head_speed
         velocity *= share[:, None, None]
         speed *= share[:, None]
     if (frame := dance.path.frame) != WORLD:
         position, velocity = frame.points(position), frame.vectors(velocity)
     columns = position, velocity, speed
-    return Trajectory(asked, *(columns if asked.ndim else (column[0] for column in columns)), dance=dance)
+    return Trajectory(time, *(columns if time.ndim else (column[0] for column in columns)), dance=dance)
 
 
 def instants(time: Floats) -> str:

@@ -14,11 +14,11 @@ from core.dance import Dance
 from core.dragon import BENCHES_MAX, Dragon
 from core.errors import InvalidValue, OutsideRun, ProofRefused, checked_type
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim, refusing
-from core.proof.dances import ClearClaim, ContactClaim, last_stop
-from core.proof.members import CLAIMS, SHOWN_MOST, refuse_malformed
+from core.proof.dances import DanceClearClaim, DanceContactClaim, last_stop
+from core.proof.members import CLAIMS, TEXT_MOST, refuse_malformed
 from core.proof.paths import core_path, recorded_path
 from core.proof.strays import ToleranceClaim, recorded_pose
-from core.proof.sweeps import found, recorded, swept
+from core.proof.sweeps import proven_sweeps, recorded_stretches, searched_stretches
 from core.proof.words import runs
 from core.tolerance.exhibit import Exhibit
 from core.values import Progress, unheard
@@ -28,7 +28,7 @@ FORMAT = "bench-dragon proof 1"
 PRECISION = 96
 
 Certificate = dict[str, Any]
-AnyClaim = CollisionTimeClaim | MinimumPitchClaim | ClearClaim | ContactClaim | ToleranceClaim
+AnyClaim = CollisionTimeClaim | MinimumPitchClaim | DanceClearClaim | DanceContactClaim | ToleranceClaim
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,8 @@ def prove_clear(
     if stop is None:
         stop, until = last_stop(Dance(dance.dragon, core_path(record), dance.head_speed))
     begin = dance.default_start if start is None else start
-    return _proven(ClearClaim(dance.dragon, record, dance.head_speed, begin, stop, until, margin), every_pair, progress)
+    claim = DanceClearClaim(dance.dragon, record, dance.head_speed, begin, stop, until, margin)
+    return _proven(claim, every_pair, progress)
 
 
 def prove_contact(
@@ -113,7 +114,7 @@ def prove_contact(
 ) -> Certificate:
     """As prove_collision_time(), in [start, time - 1e-10], on any path that prove_clear() takes."""
     record, begin = recorded_path(_steady(dance).path), dance.default_start if start is None else start
-    return _proven(ContactClaim(dance.dragon, record, dance.head_speed, begin, time, margin), every_pair, progress)
+    return _proven(DanceContactClaim(dance.dragon, record, dance.head_speed, begin, time, margin), every_pair, progress)
 
 
 def prove_tolerance(
@@ -139,9 +140,9 @@ def prove_tolerance(
         stop, _ = last_stop(Dance(dance.dragon, core_path(recorded_path(path)), dance.head_speed))
     if exhibit is not None:
         exhibit = replace(exhibit, handles=dance.path.frame.back(exhibit.handles))
-    pose, shown = ({}, None) if exhibit is None else recorded_pose(exhibit)
+    pose, most = ({}, None) if exhibit is None else recorded_pose(exhibit)
     sizes = dance.dragon, path.pitch, path.start_turns, dance.head_speed
-    return _proven(ToleranceClaim(*sizes, start, stop, stray, shown), every_pair, progress, pose)
+    return _proven(ToleranceClaim(*sizes, start, stop, stray, most), every_pair, progress, pose)
 
 
 def _steady(dance: Dance) -> Dance:
@@ -166,7 +167,7 @@ def _proven(
         def going_on(share: float) -> None:
             report(1.0 - (1.0 - claim.search_share) * (1.0 - share))
 
-        sweeps = swept(chain, *claim.way, repeats_from, found(chain), going_on, claim.follows)
+        sweeps = proven_sweeps(chain, *claim.way, repeats_from, searched_stretches(chain), going_on, claim.follows)
     certificate = {
         "format": FORMAT,
         "versions": {"python-flint": __version__, "flint": __FLINT_VERSION__},
@@ -194,8 +195,8 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
     """
     stated = certificate.get("format") if isinstance(certificate, dict) else None
     if isinstance(stated, str) and stated != FORMAT:
-        words, given = "the certificate's format is not {format}: {stated}", stated[:SHOWN_MOST]
-        raise ProofRefused.in_words("format", words, format=repr(FORMAT), stated=repr(given))
+        words, start = "the certificate's format is not {format}: {stated}", stated[:TEXT_MOST]
+        raise ProofRefused.in_words("format", words, format=repr(FORMAT), stated=repr(start))
     refuse_malformed(certificate)
     content = {name: value for name, value in certificate.items() if name != "digest"}
     if certificate["digest"] != digest(content):
@@ -206,9 +207,9 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"
-        told = error.named(place)
-        words = f"the certificate is malformed: {told.template}"
-        raise ProofRefused.in_words(place, words, got=told.got, reason=told.reason, **told.values) from error
+        renamed = error.named(place)
+        words = f"the certificate is malformed: {renamed.template}"
+        raise ProofRefused.in_words(place, words, got=renamed.got, reason=renamed.reason, **renamed.values) from error
 
 
 def _verified(content: Certificate, progress: Progress) -> Proof:
@@ -218,7 +219,7 @@ def _verified(content: Certificate, progress: Progress) -> Proof:
     if not chain.repeats_from <= repeats_from <= max(0, chain.count - 3):
         raise ProofRefused.in_words("repeats_from", "the benches from {first} on are not alike", first=repeats_from)
     statement = claim.verify_overlap(content.get("overlap", {}))
-    proven = swept(chain, *claim.way, repeats_from, recorded(chain, sweeps), progress, claim.follows)
+    proven = proven_sweeps(chain, *claim.way, repeats_from, recorded_stretches(chain, sweeps), progress, claim.follows)
     if len(proven) != len(sweeps):
         words, counts = "the certificate has {sweeps} sweeps, not {proven}", (len(sweeps), len(proven))
         raise ProofRefused.in_words("sweeps", words, sweeps=counts[0], proven=counts[1])

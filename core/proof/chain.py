@@ -128,17 +128,17 @@ def newton(guess: arb, around: arb, value: arb, slope: arb) -> arb:
 def delta_guess(theta: float, needed: float) -> float:
     """The first root of F, unverified. A long chord starts at pi: there F is concave, so Newton comes from below."""
     chord = math.sqrt(needed)
-    found = 2.0 * math.asin(min(1.0, chord / (2.0 * math.sqrt(theta * theta + chord))))
+    guess = 2.0 * math.asin(min(1.0, chord / (2.0 * math.sqrt(theta * theta + chord))))
     for _ in range(40):
-        rest, outer = 1.0 - math.cos(found), 2.0 * theta * (theta + found)
-        slope = 2.0 * (found + theta * rest) + outer * math.sin(found)
-        step = (found * found + outer * rest - needed) / slope if slope > 0.0 else math.inf
+        rest, outer = 1.0 - math.cos(guess), 2.0 * theta * (theta + guess)
+        slope = 2.0 * (guess + theta * rest) + outer * math.sin(guess)
+        step = (guess * guess + outer * rest - needed) / slope if slope > 0.0 else math.inf
         if not math.isfinite(step):
             raise Unproven("no next handle: the chain folds")
-        found -= max(-STEP_MOST, min(STEP_MOST, step))
+        guess -= max(-STEP_MOST, min(STEP_MOST, step))
         if abs(step) < 1e-14:
             break
-    return found
+    return guess
 
 
 def slopes(theta: arb, d: arb) -> tuple[arb, arb]:
@@ -153,12 +153,12 @@ def delta(theta: arb, needed: arb) -> arb:
     guess = arb(delta_guess(float(theta), float(needed)))
     around = guess + arb(0, GUESS_RADIUS)
     value = guess**2 + 2 * theta * (theta + guess) * (1 - guess.cos()) - needed
-    found = newton(guess, around, value, slopes(theta, around)[1])
-    if not found > 0:
+    root = newton(guess, around, value, slopes(theta, around)[1])
+    if not root > 0:
         raise Unproven("the next handle is not shown to be behind")
-    if not found < arb.pi() and not rises_to(theta, found):
+    if not root < arb.pi() and not rises_to(theta, root):
         raise Unproven("a next handle is not shown to be the nearest behind")
-    return found
+    return root
 
 
 def rises_to(theta: arb, d: arb) -> bool:

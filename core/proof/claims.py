@@ -18,7 +18,7 @@ from core.paths.spiral import Spiral, end_theta
 from core.proof.chain import Chain, delta_guess
 from core.proof.fold import verify_fold
 from core.proof.pairs import Unfinished, Unproven, above, below
-from core.proof.sweeps import AnyChain, OverlapFound, found, swept
+from core.proof.sweeps import AnyChain, OverlapFound, proven_sweeps, searched_stretches
 from core.proof.words import apart_words, contact_words, danced_words, dragon_words, near_words, spiral_words
 from core.sampling import bisect
 from core.values import Progress
@@ -39,7 +39,7 @@ class Claim:
     way: (highest, lowest) place of the head between which nothing may touch [rad], [m]
     find_overlap(): the record of an overlap that verify_overlap() verifies, returning the whole claim in words
     kind: name of the claim in certificates; search_share: fraction of a proof's work in find_overlap(); follows: see
-        swept()
+        proven_sweeps()
     """
 
     kind: ClassVar[str]
@@ -144,14 +144,14 @@ class MinimumPitchClaim(SpiralClaim):
         if fold := self._find_fold(below(less.start), above(circle)):
             return fold
         try:
-            swept(less, *self._way(less), less.repeats_from, found(less), progress, follows=False)
+            proven_sweeps(less, *self._way(less), less.repeats_from, searched_stretches(less), progress, follows=False)
         except OverlapFound as overlap:
             theta = head_theta(less, overlap.a, overlap.place, below(circle), above(less.start))
             theta = max(min(theta, below(less.start)), above(circle))
             return {"benches": [overlap.a, overlap.b], "head_theta": theta}
         free = "keeps the margin of {margin} too" if self.margin else "is free of contact too"
-        told = quantities("m", pitch=self.pitch, margin=self.margin) | STEP
-        raise ProofRefused.in_words("claim", f"{{step}} less than pitch {{pitch}} {free}", **told)
+        values = quantities("m", pitch=self.pitch, margin=self.margin) | STEP
+        raise ProofRefused.in_words("claim", f"{{step}} less than pitch {{pitch}} {free}", **values)
 
     def _find_fold(self, start: float, circle: float) -> dict[str, Any]:
         """The fold on the way with PITCH_STEP less, as doubles find it; empty if no bench folds [rad]."""
@@ -225,14 +225,14 @@ def near_pair(chain: AnyChain, head: arb, time: float) -> list[int]:
                 return [bench, bench + partner]
         place = pose.places[1]
     how = "come nearer to one another than {margin}" if chain.margin > 0 else "overlap"
-    told = {"margin": Quantity(float(chain.margin), "m"), "when": soon_after(time)}
-    raise ProofRefused.in_words("claim", f"no two benches {how} at {{when}}", **told)
+    values = {"margin": Quantity(float(chain.margin), "m"), "when": soon_after(time)}
+    raise ProofRefused.in_words("claim", f"no two benches {how} at {{when}}", **values)
 
 
-def verify_near(chain: AnyChain, head: arb, a: int, b: int, at: str, /, **told: Value) -> None:
+def verify_near(chain: AnyChain, head: arb, a: int, b: int, at: str, /, **values: Value) -> None:
     """Check that benches a < b strictly overlap, or are nearer than the margin, and are not neighbours.
 
-    head: its place [rad], [m]; at, told: template of that place, and its values; raises: Unproven
+    head: its place [rad], [m]; at, values: template of that place, and its values; raises: Unproven
     """
     checked_pair(chain, a, b)
     pose = chain.pose_at(0, head)
@@ -241,8 +241,8 @@ def verify_near(chain: AnyChain, head: arb, a: int, b: int, at: str, /, **told: 
     pose.grow_to(b - a + 1)
     if not pose.within(b - a, chain.margin):
         how = "be nearer than {margin}" if chain.margin > 0 else "overlap"
-        told |= {"a": a, "b": b, "margin": Quantity(float(chain.margin), "m")}
-        raise Unproven(f"benches {{a}} and {{b}} are not shown to {how} {at}", **told)
+        values |= {"a": a, "b": b, "margin": Quantity(float(chain.margin), "m")}
+        raise Unproven(f"benches {{a}} and {{b}} are not shown to {how} {at}", **values)
 
 
 def checked_pair(chain: AnyChain, a: int, b: int) -> tuple[int, int]:

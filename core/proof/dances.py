@@ -14,7 +14,7 @@ from core.errors import Given, InvalidValue, format_number
 from core.proof.claims import TIME_BRACKET, Claim, checked_margin, near_pair, settle, soon_after, verify_near
 from core.proof.fold import folding
 from core.proof.pairs import Unproven, above, below
-from core.proof.paths import chain_on, core_path, described
+from core.proof.paths import chain_on, core_path, path_words
 from core.proof.route import RouteChain
 from core.proof.sweeps import AnyChain
 from core.proof.words import apart_words, contact_words, danced_words
@@ -35,7 +35,7 @@ class DanceClaim(Claim):
 
 
 @dataclass(frozen=True)
-class ClearClaim(DanceClaim):
+class DanceClearClaim(DanceClaim):
     """Nothing touches in [start, stop] [s], or comes within the margin [m].
 
     until: "stop", or the end that the run has reached END_BRACKET later: a fold, the centre of the spiral, the end of
@@ -51,8 +51,9 @@ class ClearClaim(DanceClaim):
         _settle_span(self, self.stop)
         endings = ("stop", "fold", "centre") if self.path["kind"] == "spiral" else ("stop", "end")
         if self.until not in endings:
-            told = {"endings": " or ".join(endings), "kind": str(self.path["kind"])}
-            raise InvalidValue("until", "must be {endings} on a {kind}", got=Given(self.until, str(self.until)), **told)
+            values = {"endings": " or ".join(endings), "kind": str(self.path["kind"])}
+            got = Given(self.until, str(self.until))
+            raise InvalidValue("until", "must be {endings} on a {kind}", got=got, **values)
 
     @cached_property
     def chain(self) -> AnyChain:
@@ -67,7 +68,8 @@ class ClearClaim(DanceClaim):
 
     def verify_overlap(self, overlap: dict[str, Any]) -> str:
         span = f"from {format_number(self.start)} s to {format_number(self.stop)} s{self._ending()}"
-        return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {apart_words(self.margin)} {span}."
+        dance = danced_words(self.dragon, self.head_speed, path_words(self.path))
+        return f"{dance}: {apart_words(self.margin)} {span}."
 
     def _ending(self) -> str:
         if self.until == "stop":
@@ -87,7 +89,7 @@ class ClearClaim(DanceClaim):
 
 
 @dataclass(frozen=True)
-class ContactClaim(DanceClaim):
+class DanceContactClaim(DanceClaim):
     """Nothing touches in [start, time - 1e-10], and one pair strictly overlaps at time + 1e-10 [s].
 
     margin: as of CollisionTimeClaim
@@ -122,7 +124,7 @@ class ContactClaim(DanceClaim):
         verify_near(self.chain, self._after, a, b, "at {when}", when=soon_after(self.time))
         clear = bool(self.time - arb(TIME_BRACKET) > self.start)
         words = contact_words([a, b], self.margin, self.start, self.time, TIME_BRACKET, clear=clear)
-        return f"{danced_words(self.dragon, self.head_speed, described(self.path))}: {words}"
+        return f"{danced_words(self.dragon, self.head_speed, path_words(self.path))}: {words}"
 
 
 def last_stop(dance: Dance) -> tuple[float, str]:
@@ -132,11 +134,11 @@ def last_stop(dance: Dance) -> tuple[float, str]:
     return end.time - (0.0 if at_once else float(END_BRACKET) / 2), end.reason.value
 
 
-def _settle_span(claim: ClearClaim | ContactClaim, last: float) -> None:
+def _settle_span(claim: DanceClearClaim | DanceContactClaim, last: float) -> None:
     dance = Dance(claim.dragon, core_path(claim.path), claim.head_speed)
     settle(claim, head_speed=dance.head_speed, margin=checked_margin(claim.margin))
     start, stop = dance.span(claim.start, last)
-    settle(claim, start=start, **{"stop" if isinstance(claim, ClearClaim) else "time": stop})
+    settle(claim, start=start, **{"stop" if isinstance(claim, DanceClearClaim) else "time": stop})
 
 
 def _way(chain: AnyChain, first: arb, last: arb) -> tuple[float, float]:

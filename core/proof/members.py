@@ -12,7 +12,7 @@ from typing import Any
 
 from core.errors import Given, Parameter, ProofRefused, Quantity, Value, quantities
 from core.proof.claims import CollisionTimeClaim, MinimumPitchClaim
-from core.proof.dances import ENDINGS, ClearClaim, ContactClaim
+from core.proof.dances import ENDINGS, DanceClearClaim, DanceContactClaim
 from core.proof.ground import ONE_BY_ONE, SIDES
 from core.proof.pairs import ALL_FACES, CIRCLES, DIRECTION, malformed
 from core.proof.paths import FREE_TURN, PIECES, POINTS, TURN
@@ -24,8 +24,11 @@ PRECISION_LEAST, PRECISION_MOST = 53, 4096
 # Largest number in a certificate [m], [s], [rad], [m/s], [turns]: beyond it the sum of two doubles has no decimals.
 NUMBER_MOST = 1e15
 # Messages shorten longer values to this [characters].
-SHOWN_MOST = 40
-CLAIMS = {kind.kind: kind for kind in (CollisionTimeClaim, MinimumPitchClaim, ClearClaim, ContactClaim, ToleranceClaim)}
+TEXT_MOST = 40
+CLAIMS = {
+    kind.kind: kind
+    for kind in (CollisionTimeClaim, MinimumPitchClaim, DanceClearClaim, DanceContactClaim, ToleranceClaim)
+}
 
 Rule = Callable[[str, Any], None]
 
@@ -38,7 +41,7 @@ def refuse_malformed(certificate: Any) -> None:
     claim: Any = certificate.get("claim") if isinstance(certificate, dict) else None
     kind: Any = claim.get("kind") if isinstance(claim, dict) else None
     strays = kind == ToleranceClaim.kind
-    with_overlap = "shown" in claim if strays else kind != ClearClaim.kind
+    with_overlap = "shown" in claim if strays else kind != DanceClearClaim.kind
     _object("", certificate, MEMBERS | ({"overlap": _any_object} if with_overlap else {}))
     _one_of(*CLAIMS)("claim.kind", kind)
     optional = {name: _positive for name in ("shown" if strays else "margin",) if name in claim}
@@ -54,17 +57,17 @@ def refuse_malformed(certificate: Any) -> None:
 
 
 def _malformed(name: str, must: str, got: Any, **values: Value) -> ProofRefused:
-    return malformed(name, must, Given(got, _shown(got)), **values)
+    return malformed(name, must, Given(got, _json_text(got)), **values)
 
 
-def _shown(value: Any) -> str:
+def _json_text(value: Any) -> str:
     """A value as JSON writes it, an object or a list by name."""
     if isinstance(value, dict | list):
         return "an object" if isinstance(value, dict) else f"a list of {len(value)}"
     if value is None or isinstance(value, bool):
         return "null" if value is None else str(value).lower()
     text = f'"{value}"' if isinstance(value, str) else str(value)
-    return text if len(text) <= SHOWN_MOST else f"{text[:SHOWN_MOST]}..."
+    return text if len(text) <= TEXT_MOST else f"{text[:TEXT_MOST]}..."
 
 
 def _object(name: str, value: Any, members: dict[str, Rule]) -> None:
@@ -76,7 +79,7 @@ def _object(name: str, value: Any, members: dict[str, Rule]) -> None:
             raise malformed(missing, "is missing")
     for member in value:
         if member not in members:
-            unknown = f"{inside}{str(member)[:SHOWN_MOST]}"
+            unknown = f"{inside}{str(member)[:TEXT_MOST]}"
             raise malformed(unknown, "is unknown")
     for member, rule in members.items():
         rule(f"{inside}{member}", value[member])
@@ -242,7 +245,7 @@ _DANCE: dict[str, Rule] = {"path": _by_kind(PATHS), "head_speed": _number, "star
 CLAIM_MEMBERS: dict[str, dict[str, Rule]] = {
     CollisionTimeClaim.kind: _SPIRAL | dict.fromkeys(("head_speed", "time"), _number),
     MinimumPitchClaim.kind: _SPIRAL | {"turning_radius": _number},
-    ClearClaim.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
-    ContactClaim.kind: _DANCE | {"time": _number},
+    DanceClearClaim.kind: _DANCE | {"stop": _number, "until": _one_of(*ENDINGS)},
+    DanceContactClaim.kind: _DANCE | {"time": _number},
     ToleranceClaim.kind: _SPIRAL | dict.fromkeys(("head_speed", "start", "stop", "stray"), _number),
 }

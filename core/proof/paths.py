@@ -21,7 +21,7 @@ from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
 from core.proof.chain import Chain
-from core.proof.route import Coil, Path, Piece, RouteChain
+from core.proof.route import BallCoil, BallPath, Piece, RouteChain
 from core.proof.words import spiral_words
 
 Record = Mapping[str, Any]
@@ -57,11 +57,11 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
             why = "on such a path a dance is checked in double precision, with bounds on its rounding"
             raise InvalidValue.in_words(piece_at.name, must, got="waypoints", reason=why, piece=piece_at)
         kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
-        recorded.append({"kind": kind} | {name: _plain(name, getattr(piece, name)) for name in names})
+        recorded.append({"kind": kind} | {name: _as_numbers(name, getattr(piece, name)) for name in names})
     return {"kind": "route", "start": path.start, "pieces": recorded}
 
 
-def _plain(name: str, value: Any) -> float | list[float]:
+def _as_numbers(name: str, value: Any) -> float | list[float]:
     return [float(part) for part in value] if name in POINTS else float(value)
 
 
@@ -74,18 +74,18 @@ def core_path(record: Record) -> Spiral | Route:
             return Turn(**{name: record[name] for name in FREE_TURN if name in record})
         except InvalidValue as error:  # Turn does not name the path around its fields
             raise error.named(f"path.{error.field}") from error
-    given = []
+    parts = []
     for k, piece in enumerate(record["pieces"]):
         made, names = PIECES[piece["kind"]]
         values: dict[str, Any] = {name: tuple(piece[name]) if name in POINTS else piece[name] for name in names}
         try:
-            given.append(made(**values))
+            parts.append(made(**values))
         except InvalidValue as error:  # a piece does not name the route around its fields
             raise error.named(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
-    return Route(given, record["start"])
+    return Route(parts, record["start"])
 
 
-def described(record: Record) -> str:
+def path_words(record: Record) -> str:
     """The path in words, with all its numbers except those of pieces."""
     if record["kind"] == "spiral":
         return spiral_words(record["pitch"], record["start_turns"])
@@ -106,8 +106,8 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
         return Chain(dragon, arb(record["pitch"]), record["start_turns"], margin)
     if record["kind"] in ("turn", "free_turn"):
         return RouteChain(dragon, (_turn_path if record["kind"] == "turn" else _free_turn_path)(record), margin)
-    given = [_piece(piece) for piece in record["pieces"]]
-    path = Path([piece for piece, _, _ in given], (0, arb(record["start"])), *given[0][1:])
+    placed = [_piece(piece) for piece in record["pieces"]]
+    path = BallPath([piece for piece, _, _ in placed], (0, arb(record["start"])), *placed[0][1:])
     return RouteChain(dragon, path, margin)
 
 
@@ -115,14 +115,14 @@ def chain_on(dragon: Dragon, record: Record, margin: float) -> Chain | RouteChai
 # of it, E . T = -R sin gamma and E . n = -R cos gamma, tan gamma = 1 / theta. From C1 = E + r1 n to C2 = -E - r2 n goes
 # -2 E - S n = R / cos gamma (sin 2 gamma T + cos 2 gamma n), and from C1 to E goes -n. A clockwise rotation by alpha
 # brings -n to sin alpha T - cos alpha n: alpha = pi - 2 gamma, on both arcs by symmetry.
-def _turn_path(record: Record) -> Path:
+def _turn_path(record: Record) -> BallPath:
     growth, radius = arb(record["pitch"]) / (2 * arb.pi()), arb(record["entry_radius"])
     theta, start = radius / growth, 2 * arb.pi() * arb(record["start_turns"])
     total, ratio = radius * (1 + theta**2).sqrt() / theta, arb(record["ratio"])
     radii, angle = (total * ratio / (1 + ratio), total / (1 + ratio)), arb.pi() - 2 * (1 / theta).atan()
-    coils = Coil.between(growth, start, theta), Coil.between(growth, -theta, -start)
+    coils = BallCoil.between(growth, start, theta), BallCoil.between(growth, -theta, -start)
     arcs = Piece(-1 / radii[0], radii[0] * angle), Piece(1 / radii[1], radii[1] * angle)
-    return Path((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
+    return BallPath((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
 
 
 # With a free exit (core/paths/turn.py), as complex numbers: the place P(t) = growth t e^(it) of the coil inwards, its
@@ -130,7 +130,7 @@ def _turn_path(record: Record) -> Path:
 # point w = (C2 - C1) / (r1 + r2), so the clockwise angle on the first arc is arg(-n1 / w); from C2 to the tangent point
 # goes -w, to the exit n2, so the other angle is arg(-n2 / w). Both are from 0 to 2 pi; refusing arcs of almost no
 # length (core/paths/turn.py) keeps them from the ends of that range.
-def _free_turn_path(record: Record) -> Path:
+def _free_turn_path(record: Record) -> BallPath:
     growth, ratio = arb(record["pitch"]) / (2 * arb.pi()), arb(record["ratio"])
     inner, outer = (arb(record[name]) / growth for name in ("entry_radius", "exit_radius"))
     (entry, n1), (opposite, n2) = (_place_and_normal(growth, theta) for theta in (inner, outer))
@@ -141,9 +141,9 @@ def _free_turn_path(record: Record) -> Path:
     towards = (-opposite - least * n2 - entry - ratio * least * n1) / ((1 + ratio) * least)
     angles = [_positive_angle(-normal / towards) for normal in (n1, n2)]
     start = 2 * arb.pi() * arb(record["start_turns"])
-    coils = Coil.between(growth, start, inner), Coil.between(growth, -outer, -start)
+    coils = BallCoil.between(growth, start, inner), BallCoil.between(growth, -outer, -start)
     arcs = Piece(-1 / (ratio * least), ratio * least * angles[0]), Piece(1 / least, least * angles[1])
-    return Path((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
+    return BallPath((coils[0], *arcs, coils[1]), (1, arb(0)), acb(0), acb(1))
 
 
 def _place_and_normal(growth: arb, theta: arb) -> tuple[acb, acb]:
@@ -176,4 +176,4 @@ def _piece(record: Record) -> tuple[Piece, acb, acb]:
     if record["end_turns"] > record["start_turns"]:
         first, last = -first, -last
     growth = arb(record["pitch"]) / (2 * arb.pi())
-    return Coil.between(growth, first, last), centre, (acb(0, 1) * arb(record["rotation"])).exp()
+    return BallCoil.between(growth, first, last), centre, (acb(0, 1) * arb(record["rotation"])).exp()

@@ -74,7 +74,7 @@ class Piece:
 
 
 @dataclass
-class Coil(Piece):
+class BallCoil(Piece):
     """Part of the spiral r = growth |t|: inwards for t > 0, outwards for t < 0, so that t falls as the dance goes on.
 
     growth [m/rad]; first, last: t where it begins and ends [rad]; it continues beyond both, but not past its centre
@@ -85,7 +85,7 @@ class Coil(Piece):
     last: arb = field(default_factory=arb)
 
     @classmethod
-    def between(cls, growth: arb, first: arb, last: arb) -> Coil:
+    def between(cls, growth: arb, first: arb, last: arb) -> BallCoil:
         """The coil from one t to another."""
         coil = cls(arb(0), arb(0), growth=growth, first=first, last=last)
         coil.length = coil._arc(first) - coil._arc(last)
@@ -137,7 +137,7 @@ class Coil(Piece):
         return t + delta(t, (chord / self.growth) ** 2)
 
 
-class Path:
+class BallPath:
     """Pieces in the order they are danced, each moved so that it continues the one before in place and direction.
 
     anchor: (piece, place where it begins [m]); the first piece continues backwards, and the last one forwards
@@ -163,8 +163,8 @@ class Path:
     def ends(self, k: int) -> tuple[arb, arb]:
         """The parameters on both sides of the joint before piece k: of k, and of the piece before it."""
         after, before = self.pieces[k], self.pieces[k - 1]
-        start = after.first if isinstance(after, Coil) else after.high
-        return start, before.last if isinstance(before, Coil) else before.low
+        start = after.first if isinstance(after, BallCoil) else after.high
+        return start, before.last if isinstance(before, BallCoil) else before.low
 
     def holds(self, piece: Piece, z: arb) -> bool:
         """Whether this place is certainly on that piece. z: [m]"""
@@ -180,11 +180,11 @@ class Path:
 
     def curvature(self, front: tuple[Piece, arb], rear: tuple[Piece, arb]) -> tuple[arb, arb]:
         """Lower and upper bound of the curvature from a place back to another one [1/m]."""
-        found = [front[0].curvature_at(front[1]), rear[0].curvature_at(rear[1])]
+        bends = [front[0].curvature_at(front[1]), rear[0].curvature_at(rear[1])]
         for k in range(rear[0].index + 1, front[0].index + 1):
             start, end = self.ends(k)
-            found += [self.pieces[k].curvature_at(start), self.pieces[k - 1].curvature_at(end)]
-        hull = reduce(arb.union, found)
+            bends += [self.pieces[k].curvature_at(start), self.pieces[k - 1].curvature_at(end)]
+        hull = reduce(arb.union, bends)
         return hull.lower(), hull.upper()
 
     def behind(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
@@ -236,7 +236,7 @@ class RouteChain(Follower["RoutePose"]):
 
     floor = -math.inf
 
-    def __init__(self, dragon: Dragon, path: Path, margin: float = 0.0) -> None:
+    def __init__(self, dragon: Dragon, path: BallPath, margin: float = 0.0) -> None:
         super().__init__(dragon, margin)
         self.path = path
 
@@ -263,13 +263,13 @@ class RouteChain(Follower["RoutePose"]):
     def centre(self) -> acb | None:
         """The centre of the first piece if it coils inwards; else None."""
         first = self.path.pieces[0]
-        return first.shift if isinstance(first, Coil) and first.inwards else None
+        return first.shift if isinstance(first, BallCoil) and first.inwards else None
 
     def inner_circle(self, handle: tuple[Piece, arb]) -> arb | None:
         """Radius around the first piece's centre outside which every bench from this handle on lies (11.) [m], or None
         if no such circle is known."""
         piece, t = handle
-        if not (isinstance(piece, Coil) and piece.index == 0 and piece.inwards):
+        if not (isinstance(piece, BallCoil) and piece.index == 0 and piece.inwards):
             return None
         if not abs(piece.curvature_at(t)) * self.longest < 2:
             return None

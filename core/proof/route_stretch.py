@@ -5,7 +5,7 @@ from __future__ import annotations
 from flint import acb, arb
 
 from core.proof.pairs import TouchingLine, Unproven, above, below
-from core.proof.route import Coil, RouteChain
+from core.proof.route import BallCoil, RouteChain
 
 # Number of times that q of 9. is enclosed again from its own derivative: each time the excess is multiplied by the
 # angle of rotation in half a stretch.
@@ -40,7 +40,7 @@ class RouteStretch:
             pose.grow_to(k + 1)
         after, before = self.ends
         chord, front, rear, speed = after.sizes[k].chord, after.handles[k], before.handles[k + 1], self.speeds[k]
-        if front[0] is rear[0] and not isinstance(front[0], Coil):
+        if front[0] is rear[0] and not isinstance(front[0], BallCoil):
             curvature = front[0].curvature
             self.placed.append((acb(speed * (1 - (curvature * chord / 2) ** 2).sqrt()), speed * curvature))
             self.speeds.append(speed)
@@ -82,7 +82,7 @@ class RouteStretch:
 
         def radius(k: int) -> arb:
             piece, t = before.handles[k]
-            if piece.index == after.handles[k][0].index == 0 and isinstance(piece, Coil):
+            if piece.index == after.handles[k][0].index == 0 and isinstance(piece, BallCoil):
                 return piece.growth * t
             distances = abs(before.points[k] - centre) + abs(after.points[k] - centre)
             return (distances + before.places[k] - after.places[k]) / 2

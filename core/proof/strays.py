@@ -21,7 +21,7 @@ from core.tolerance.exhibit import Exhibit
 from core.values import Progress
 
 # Added to the strays of a pose in doubles, to be shown in balls: above the rounding of places up to 1e4 m [m].
-SHOWN_ROUNDING = 1e-9
+POSE_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,8 @@ class ToleranceClaim(SpiralClaim):
         if self.shown is None:
             return f"{words}."
         a, b = self._verify_pose(overlap, self.shown)
-        shown = f"in a pose with strays below {format_number(self.shown)} m at {format_number(overlap['time'])} s"
-        return f"{words}, and benches {a} and {b} overlap {shown}."
+        pose = f"in a pose with strays below {format_number(self.shown)} m at {format_number(overlap['time'])} s"
+        return f"{words}, and benches {a} and {b} overlap {pose}."
 
     def _verify_pose(self, overlap: dict[str, Any], most: float) -> list[int]:
         """Check that two benches that are not neighbours strictly overlap in a pose (17.), and return them.
@@ -113,4 +113,4 @@ def recorded_pose(exhibit: Exhibit) -> tuple[dict[str, Any], float]:
         raise InvalidValue("exhibit", "must be a pose of two benches: a venue is not part of a proof")
     links = exhibit.handles[:-1] - exhibit.handles[1:]
     pose = {"head": exhibit.handles[0].tolist(), "headings": np.arctan2(links[:, 1], links[:, 0]).tolist()}
-    return {"benches": list(exhibit.benches), "time": exhibit.time} | pose, exhibit.stray + SHOWN_ROUNDING
+    return {"benches": list(exhibit.benches), "time": exhibit.time} | pose, exhibit.stray + POSE_ROUNDING

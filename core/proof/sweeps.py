@@ -112,8 +112,8 @@ def _sides(stretch: SpiralStretch, partner: int) -> list[int]:
         if min(best_side(*grounds, pair, [instant])[1] for pair in ONE_BY_ONE) <= 0.0:
             a, b = _met(stretch, partner)
             words = "not proven: with strays up to {stray} benches {a} and {b} may touch when handle {a} is at {place}"
-            told = quantities("m", stray=float(stretch.chain.stray)) | {"place": stretch.chain.named(place)}
-            raise ProofRefused.in_words("claim", words, a=a, b=b, **told)
+            values = quantities("m", stray=float(stretch.chain.stray)) | {"place": stretch.chain.named(place)}
+            raise ProofRefused.in_words("claim", words, a=a, b=b, **values)
     raise _unshown("benches {a} and {b} are not shown to stay apart", stretch, partner)
 
 
@@ -124,7 +124,7 @@ def _apart(stretch: AnyStretch, partner: int, face: Face, direction: float) -> b
     return stretch.within_circles(partner) if face == CIRCLES else stretch.apart(partner, face, direction)
 
 
-def found(chain: AnyChain) -> Source:
+def searched_stretches(chain: AnyChain) -> Source:
     """Stretches as wide as the balls can prove."""
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
@@ -138,8 +138,8 @@ def found(chain: AnyChain) -> Source:
                 width = (high - start) / 2
                 if width < WIDTH_LEAST:
                     words = f"not proven where handle {{at}} is at {{place}}: {why.template}"
-                    told = {"at": bench, "place": chain.named(high), **why.values}
-                    raise ProofRefused.in_words("claim", words, **told) from None
+                    values = {"at": bench, "place": chain.named(high), **why.values}
+                    raise ProofRefused.in_words("claim", words, **values) from None
                 continue
             yield stretch, tile
             high, width = start, width * WIDTH_GROWTH
@@ -147,7 +147,7 @@ def found(chain: AnyChain) -> Source:
     return source
 
 
-def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
+def recorded_stretches(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
     """The stretches of a certificate, each verified as it stands."""
 
     def source(bench: int, high: float, low: float, places: Sequence[float]) -> Iterator[tuple[AnyStretch, Tile]]:
@@ -179,7 +179,7 @@ def recorded(chain: AnyChain, sweeps: Sequence[Any]) -> Source:
     return source
 
 
-def swept(
+def proven_sweeps(
     chain: AnyChain, high: float, low: float, repeats_from: int, source: Source, progress: Progress, follows: bool
 ) -> list[dict[str, Any]]:
     """Sweeps that prove that nothing touches while the head goes from the place high on to low [rad], [m].
@@ -209,8 +209,8 @@ def swept(
             end = stretch.low
             progress((bench + min(1.0, (high - end) / (high - low))) / (repeats_from + 1))
         if not end <= low:
-            told = {"end": chain.named(end), "low": chain.named(low)}
-            raise Unproven("the sweep of bench {bench} ends at {end}, short of {low}", bench=bench, **told)
+            values = {"end": chain.named(end), "low": chain.named(low)}
+            raise Unproven("the sweep of bench {bench} ends at {end}, short of {low}", bench=bench, **values)
         sweeps.append({"bench": bench, "stretches": tiles})
         high, low = max(rear[1] for rear in rears), min(rear[0] for rear in rears)
     return sweeps

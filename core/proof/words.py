@@ -8,7 +8,7 @@ from core.dragon import Dragon
 from core.errors import format_number
 
 # Largest number of runs of equal benches that are listed; beyond it only their number is given.
-RUNS_SHOWN = 4
+RUNS_LISTED = 4
 
 
 def runs(dragon: Dragon) -> list[list[float]]:
@@ -20,7 +20,7 @@ def runs(dragon: Dragon) -> list[list[float]]:
 def dragon_words(dragon: Dragon) -> str:
     """A dragon in words."""
     rows = runs(dragon)
-    if len(rows) > RUNS_SHOWN:
+    if len(rows) > RUNS_LISTED:
         return f"A dragon of {dragon.benches} benches with the sizes that the certificate lists"
     sizes = "; ".join(
         f"{n} of {format_number(length)} m by {format_number(width)} m, overhang {format_number(over)} m"

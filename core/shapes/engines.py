@@ -60,12 +60,12 @@ def engine_pairs(
     poses: (T, n, 3); sizes: (n, 2); margin: [m]; chained: leave out neighbours
     raises: InvalidValue for the angle-sum rule with a margin; TooLarge as meeting_pairs()
     """
-    found, budget = [], budget or Budget()
+    pairs_at, budget = [], budget or Budget()
     for pairs in FINDERS[engine](poses, sizes, margin, chained, budget):
         budget.afford()
         kept = pairs[pairs[:, 1] - pairs[:, 0] != 1] if chained else pairs
-        found.append(kept[np.lexsort((kept[:, 1], kept[:, 0]))])
-    return found
+        pairs_at.append(kept[np.lexsort((kept[:, 1], kept[:, 0]))])
+    return pairs_at
 
 
 def _refuse_hopeless(frame: Floats, margin: float, chained: bool, budget: Budget) -> None:
@@ -203,13 +203,13 @@ def _shapely(poses: Floats, sizes: Floats, margin: float, chained: bool, budget:
     frame = frames(poses, sizes)
     for rows, polygons in zip(frame, shapely.polygons(corners(poses, sizes)), strict=True):
         _refuse_hopeless(rows, margin, chained, budget)
-        asking = polygons
+        grown = polygons
         if margin > 0.0:
             reach = margin + ROUNDING * (margin + np.abs(rows).max(initial=0.0))
-            asking = shapely.box(*(shapely.bounds(polygons) + reach * np.array([-1.0, -1.0, 1.0, 1.0])).T)
-        first, second = shapely.STRtree(polygons).query(asking)
-        asked = second > first + chained  # each pair once, without neighbours
-        first, second = first[asked], second[asked]
+            grown = shapely.box(*(shapely.bounds(polygons) + reach * np.array([-1.0, -1.0, 1.0, 1.0])).T)
+        first, second = shapely.STRtree(polygons).query(grown)
+        apart = second > first + chained  # each pair once, without neighbours
+        first, second = first[apart], second[apart]
         shapely.prepare(polygons)
         a, b = polygons[first], polygons[second]
         meet = shapely.dwithin(a, b, margin) if margin > 0.0 else shapely.intersects(a, b)
@@ -221,8 +221,8 @@ def unions_meet(a: Floats, b: Floats, margin: float) -> NDArray[np.bool_]:
     import shapely
 
     meet = shapely.dwithin(shapely.polygons(a)[:, :, None], shapely.polygons(b)[:, None, :], margin)
-    found: NDArray[np.bool_] = np.any(meet, axis=(1, 2))
-    return found
+    any_meet: NDArray[np.bool_] = np.any(meet, axis=(1, 2))
+    return any_meet
 
 
 def polygon_fault(rings: Sequence[ArrayLike]) -> tuple[str, float, float] | None:
@@ -244,8 +244,8 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
     """True for points inside a valid polygon, not on its boundary. rings: as in polygon_fault(); points: (P, 2) [m]"""
     import shapely
 
-    found: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
-    return found
+    within: NDArray[np.bool_] = shapely.contains_xy(shapely.Polygon(rings[0], rings[1:]), points)
+    return within
 
 
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
@@ -266,11 +266,11 @@ def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_ou
 def _hulls(polygons: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
     import shapely
 
-    found = []
+    hulls = []
     for some in polygons:
         budget.look()
-        found.append(shapely.convex_hull(shapely.polygons(some)))
-    return np.concatenate(found)
+        hulls.append(shapely.convex_hull(shapely.polygons(some)))
+    return np.concatenate(hulls)
 
 
 def _union(parts: NDArray[np.object_], budget: Budget) -> object:

@@ -68,8 +68,8 @@ class CrossCheck(WithArrays):
     left_out: tuple[Engine, ...]
 
     def _line(self) -> str:
-        found = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in self.pairs.items())
-        return f"{'agree' if self.agree else 'disagree'}; pairs by engine: {found}"
+        counts = ", ".join(f"{engine.value} {len(pairs)}" for engine, pairs in self.pairs.items())
+        return f"{'agree' if self.agree else 'disagree'}; pairs by engine: {counts}"
 
     def _rows(self) -> list[tuple[str, str]]:
         counts = [
@@ -133,11 +133,11 @@ def cross_check(
     poses, lengths, widths, raises: as overlaps(), with CROSS_CANDIDATES_MAX
     """
     pose, size, margin = checked_benches(poses, lengths, widths, margin)
-    found = {
+    pairs_of = {
         engine: engine_pairs(engine, pose[None], size, margin, chained=chained, budget=budget)[0]
         for engine in able(margin)
     }
-    codes = {engine: pairs[:, 0] * len(pose) + pairs[:, 1] for engine, pairs in found.items()}
+    codes = {engine: pairs[:, 0] * len(pose) + pairs[:, 1] for engine, pairs in pairs_of.items()}
     some = np.unique(np.concatenate(list(codes.values())))
     every = some[np.all([np.isin(some, code) for code in codes.values()], axis=0)]
 
@@ -146,10 +146,10 @@ def cross_check(
 
     return CrossCheck(
         agree=some.size == every.size,
-        pairs=found,
+        pairs=pairs_of,
         only={engine: decoded(np.setdiff1d(code, every)) for engine, code in codes.items()},
         missing={engine: decoded(np.setdiff1d(some, code)) for engine, code in codes.items()},
-        left_out=tuple(engine for engine in Engine if engine not in found),
+        left_out=tuple(engine for engine in Engine if engine not in pairs_of),
     )
 
 
@@ -236,8 +236,8 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
                 rule = "must be a finite number"
             elif low > 0.0 and column[k] <= 0.0:
                 rule = "must be positive"
-            told = from_to(unit, low, high) | quantities(unit, got=column[k])
-            raise InvalidValue(f"{subject}.{k}.{name}", rule, **told)
+            values = from_to(unit, low, high) | quantities(unit, got=column[k])
+            raise InvalidValue(f"{subject}.{k}.{name}", rule, **values)
 
 
 def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:

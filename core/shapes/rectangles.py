@@ -197,14 +197,14 @@ def meeting_pairs(frame: Floats, margin: float, chained: bool, *, exact: bool, b
     while True:
         meetings.find(margin, exact, chained, *most, pairs)
         budget.afford(float(meetings.met))
-        counts = (meetings.found, meetings.met)
+        counts = (meetings.count, meetings.met)
         for count, limit, what in zip(counts, most, words, strict=True):
             if count > limit:
                 rule, got = "must have at most {most} pairs {which}", f"more among {len(frame)}"
                 raise TooLarge("benches", rule, got=got, most=limit, which=what)
-        if meetings.found <= len(pairs):
-            return pairs[: meetings.found]
-        pairs = np.empty((meetings.found, 2), dtype=np.int64)
+        if meetings.count <= len(pairs):
+            return pairs[: meetings.count]
+        pairs = np.empty((meetings.count, 2), dtype=np.int64)
 
 
 def _tree_order(centres: Floats, leaves: int) -> Pairs:

@@ -30,8 +30,8 @@ The least N. The shapes are cut into cells of half width h. Within a cell d_02 d
 at most min(c_0, c_1) h, d_13 likewise, d_03 by (c_0 + c_2) h, a sag by (u + v) h, and the separation of the two benches
 by (r_0 + r_2) h, with r the distance of a bench's furthest corner from the handle that it hangs on. So benches do not
 touch in a cell whose middle has a larger separation than this. For the other cells N in the middle less its change is a
-lower bound. They are cut further while this bound is below the stray asked for, and below N of a middle in which
-benches touch. Mirrored shapes are alike: 0 <= a <= pi is enough.
+lower bound. They are cut further while this bound is below the largest stray of interest, and below N of a middle in
+which benches touch. Mirrored shapes are alike: 0 <= a <= pi is enough.
 
 The pose. For a shape and a direction, the least value of the largest stray is the radius of the smallest circle around
 the four handles' differences from their places, and this is the largest of the radii for three of them. Grids that

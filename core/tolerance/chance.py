@@ -140,11 +140,11 @@ def contact_probability(
     steady, at = dance.steady, dance.steady_times(times)  # people wobble in a pause too, so instants are even in time
     sampled = _Sampled(steady, model, at, math.exp(-step / model.correlation_time), seed, budget)
     together = max(1, HANDLES_TOGETHER // (dance.dragon.benches + 1))
-    found = _Found(len(which))
+    first_contacts = _FirstContacts(len(which))
     try:
         for first in range(0, len(which), together):
             batch = which[first : first + together]
-            for share in sampled.dance(batch, found, first):
+            for share in sampled.dance(batch, first_contacts, first):
                 (progress or unheard)((first + share * len(batch)) / len(which))
         bound = None if model.pitch_error or model.play else union_bound(steady, model, at, budget)
     except Halted as halted:
@@ -152,15 +152,15 @@ def contact_probability(
         many = ("samples", rule, len(which)) if len(which) > 1 else ("dragon.benches", rule, dance.dragon.benches)
         raise too_much(halted.budget, *many) from halted
     safe = None if model.pitch_error else tolerance(dance, start=begin, stop=until, budget=budget).stray
-    touched = np.flatnonzero(found.instant < count)
-    contacts, total = touched.size, len(which)
+    touched = np.flatnonzero(first_contacts.instant < count)
+    contacts, total, pairs = touched.size, len(which), first_contacts.benches[touched]
     return ContactProbability(
-        contacts / total, clopper_pearson(contacts, total), contacts, total, times[found.instant[touched]],
-        np.asarray(which)[touched], found.benches[touched], found.strays, safe, bound, step, count, begin, until, seed,
+        contacts / total, clopper_pearson(contacts, total), contacts, total, times[first_contacts.instant[touched]],
+        np.asarray(which)[touched], pairs, first_contacts.strays, safe, bound, step, count, begin, until, seed,
     )  # fmt: skip
 
 
-class _Found:
+class _FirstContacts:
     """Result of each sample: the instant of its first contact, or one past the last; the pair; the largest stray."""
 
     def __init__(self, samples: int) -> None:
@@ -187,13 +187,13 @@ class _Sampled:
         self.memory[0] = 0.0
         self.numbers = _Numbers(seed)
 
-    def dance(self, batch: range, found: _Found, first: int) -> Iterator[float]:
-        """Let a batch of samples dance side by side, from entry `first` of `found` on; yields the share done."""
+    def dance(self, batch: range, contacts: _FirstContacts, first: int) -> Iterator[float]:
+        """Let a batch of samples dance side by side, from entry `first` of `contacts` on; yields the share done."""
         handles, count = self.nominal.dragon.benches + 1, self.times.size
         state = np.zeros((len(batch), handles, 2))
         play, pitches = self._play(batch), self._pitches(batch)
         going = list(range(len(batch)))
-        found.instant[first : first + len(batch)] = count
+        contacts.instant[first : first + len(batch)] = count
         for part, low in enumerate(range(0, count, INSTANTS_PER_COUNTER), 2):
             if not going:
                 break
@@ -205,13 +205,13 @@ class _Sampled:
                 length = len(places)
                 self.budget.afford(float(length * handles))
                 drawn = self.numbers.of(batch[k], part).standard_normal((length, handles, 2))
-                self.wobbler.furthest = found.strays[first + k]
+                self.wobbler.furthest = contacts.strays[first + k]
                 memory = self.memory[low : low + length]
                 clear = self.wobbler.dance(memory, drawn, play[k], places, tangents, safe, state[k])
-                found.strays[first + k] = self.wobbler.furthest
+                contacts.strays[first + k] = self.wobbler.furthest
                 if clear < length:
-                    found.instant[first + k] = low + clear
-                    found.benches[first + k] = self.wobbler.first, self.wobbler.second
+                    contacts.instant[first + k] = low + clear
+                    contacts.benches[first + k] = self.wobbler.first, self.wobbler.second
                 elif length == rows.stop - low:
                     still.append(k)
             self.budget.look()

@@ -115,6 +115,6 @@ def time_on_circle(dance: Dance, radius: float) -> float:
     time = dance.clock.time(spiral.travel_to(radius))
     if time > dance.end.time:
         rule = f"must be larger: {dance.end.template} at {{end}}, before the head is on that circle"
-        told = {"got": Quantity(radius, "m"), "end": Quantity(round(dance.end.time, 6), "s"), **dance.end.told}
-        raise InvalidValue("turning_radius", rule, **told)
+        values = {"got": Quantity(radius, "m"), "end": Quantity(round(dance.end.time, 6), "s"), **dance.end.values}
+        raise InvalidValue("turning_radius", rule, **values)
     return time

@@ -38,7 +38,7 @@ NARROWER, ROUNDS = 0.35, 16
 CHORD_WITHIN, CHORD_STEPS = 1e-13, 40
 # Largest stray that is tried, and the smallest and the largest step to it, relative to the safe one [1].
 TRIED_TO, TRIED_STEPS = 1.5, (0.001, 0.01)
-# Three benches in a row of different sizes that are tried beside the pair asked about, 0.1 s each [1].
+# Three benches in a row of different sizes that are tried beside the given pair, 0.1 s each [1].
 THREES_TRIED = 4
 
 
@@ -164,8 +164,8 @@ def exhibit(
     assert other is not None
     if second == first + 2:  # the least strays that fold three may be those of others
         threes = {first, *range(min(dragon.uniform_from + 1, dragon.benches - 2, THREES_TRIED))}
-        folds = [found for k in sorted(threes) for found in [_folded(dragon, handles, k, time)] if found is not None]
-        return min(folds, key=lambda found: found.stray, default=None)
+        folds = [pose for k in sorted(threes) for pose in [_folded(dragon, handles, k, time)] if pose is not None]
+        return min(folds, key=lambda pose: pose.stray, default=None)
     high = min(TRIED_TO * safe + 2.0 * DEPTH, 0.5 * float(dragon.chords.min()))
     # A stray larger by x lets the middle of each bench go x further in any direction, so the gap closes by as much.
     moving = 1 if second is None else 2
@@ -176,10 +176,10 @@ def exhibit(
         wanted = {first: a.strays(way, rotation_a, stray)}
         if second is not None:
             wanted[second] = other.strays(way + math.pi, rotation_b, stray)
-        shown = _shown(dragon, handles, wanted, (*pair, edge), time)
-        if shown is not None and shown.depth > 0.0:
-            return shown
-        stray += most if shown is None else min(max(least, -shown.depth / moving), most)
+        pose = _pose_with(dragon, handles, wanted, (*pair, edge), time)
+        if pose is not None and pose.depth > 0.0:
+            return pose
+        stray += most if pose is None else min(max(least, -pose.depth / moving), most)
     return None
 
 
@@ -187,15 +187,15 @@ def _folded(dragon: Dragon, handles: Floats, first: int, time: float) -> Exhibit
     """A pose in which two benches with one between them overlap: that bench couples them (between.py)."""
     three = slice(first, first + 3)
     sizes = np.stack([dragon.chords[three], dragon.lengths[three], dragon.widths[three]], axis=1)
-    pose = touching_pose(sizes, handles[first : first + 4])
-    if pose is None:
+    folded = touching_pose(sizes, handles[first : first + 4])
+    if folded is None:
         return None
-    strays = pose - handles[first : first + 4]
-    shown = _shown(dragon, handles, {first: strays[:2], first + 2: strays[2:]}, (first, first + 2, None), time)
-    return shown if shown is not None and shown.depth > 0.0 else None
+    strays = folded - handles[first : first + 4]
+    pose = _pose_with(dragon, handles, {first: strays[:2], first + 2: strays[2:]}, (first, first + 2, None), time)
+    return pose if pose is not None and pose.depth > 0.0 else None
 
 
-def _shown(
+def _pose_with(
     dragon: Dragon, handles: Floats, wanted: dict[int, Floats], met: tuple[int, int | None, Body | None], time: float
 ) -> Exhibit | None:
     """The pose with strays as extended() takes them, None if it has none; it shows no contact if its depth is negative.

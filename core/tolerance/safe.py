@@ -65,9 +65,9 @@ class Field:
     def search(self, stray: float, covered: Callable[[Dragon, float], Reach] = reach) -> ContactSearch:
         """A search for contacts of the ground that benches may cover."""
         where = (self.dance.dragon, self.dance.path, 0.0, self.edges)
-        found = ContactSearch(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
-        found.between = found.scene.between = self.between
-        return found
+        search = ContactSearch(*where, work=self.work, budget=self.budget, stray=stray, covered=covered)
+        search.between = search.scene.between = self.between
+        return search
 
     @cached_property
     def gain(self) -> float:
@@ -104,15 +104,15 @@ def held_stray(field: Field, most: float) -> SafeStray:
     """_safe_stray(), or a larger stray if the bench between two others is known to hold them apart with it."""
     safe = _safe_stray(field, most)
     simple, independent = _simple(field, safe), safe.stray
-    found = replace(safe, independent=independent, simple=simple)
+    alone = replace(safe, independent=independent, simple=simple)
     if safe.touches or field.edges is not None or safe.dip is None or safe.dip.benches[1] != safe.dip.benches[0] + 2:
-        return found
+        return alone
     held = held_apart(field.dance, field.span[1], most, field.budget)
     others = SafeStray(held, None, 0)
     if field.dance.dragon.benches > 3 and held > safe.stray:
         others = _safe_stray(replace(field, between=2), held)
     if others.stray <= safe.stray:
-        return found
+        return alone
     dip = safe.dip if others.dip is None and held < most else others.dip
     return SafeStray(others.stray, dip, safe.steps + others.steps, False, independent, simple)
 
@@ -151,22 +151,22 @@ def _safe_stray(field: Field, most: float) -> SafeStray:
             if tried < STRAY_MIN:
                 return SafeStray(0.0, limiting, steps)
             search = field.search(tried)
-            state, met = search.march(until, NO_BRACKET, start=proven_to)
+            state, result = search.march(until, NO_BRACKET, start=proven_to)
             search.budget.afford()
-            steps += met.steps
-            if state is Ended.REACHED or (state is Ended.STUCK and met.touching is None):
-                if field.fold is not None and not clear_to_fold(search, min(met.proven, until), field.fold):
+            steps += result.steps
+            if state is Ended.REACHED or (state is Ended.STUCK and result.touching is None):
+                if field.fold is not None and not clear_to_fold(search, min(result.proven, until), field.fold):
                     break
                 if state is Ended.REACHED or field.fold is not None:
                     return SafeStray(tried, limiting, steps)
                 break
-            if met.touching is None:
+            if result.touching is None:
                 break
-            proven_to = max(proven_to, met.proven)
+            proven_to = max(proven_to, result.proven)
             step = PROFILE_STEP * search.rings.all_shortest
-            around = (max(begin, met.touching - step), met.touching, min(until, met.touching + step))
-            found, limiting = _grazing(field, tried, refined_dip(search, *around))
-            stray = min(found, tried)
+            around = (max(begin, result.touching - step), result.touching, min(until, result.touching + step))
+            grazing, limiting = _grazing(field, tried, refined_dip(search, *around))
+            stray = min(grazing, tried)
     return SafeStray(0.0, limiting or nominal, steps)  # no stray was proven to be safe
 
 

@@ -60,7 +60,7 @@ class Tolerance(Readable):
     limited_by: see Limit; time: at which the two that limit it are nearest to meeting [s]; benches: these two, the
         second one None for the venue; area: its name. All None if nothing limits it
     exhibit: a pose of the whole dragon in which the two overlap, with strays up to the second end of the bracket
-    start, stop: of the time asked about [s]
+    start, stop: the interval of time [s]
     """
 
     stray: float
@@ -78,12 +78,12 @@ class Tolerance(Readable):
 
     def _line(self) -> str:
         safe = f"strays up to {display(self.stray, 'm')} are safe" if self.stray else "no stray is known to be safe"
-        shown = self.stray_bracket[1]
-        if shown is None or self.benches is None:
+        touching = self.stray_bracket[1]
+        if touching is None or self.benches is None:
             return safe
         other = self.area if self.benches[1] is None else f"bench {self.benches[1]}"
         touch = f"bench {self.benches[0]} and {other} touch at {display(self.time, 's')}"
-        return f"{safe}; with {display(shown, 'm')} {touch}"
+        return f"{safe}; with {display(touching, 'm')} {touch}"
 
 
 @question_about("dance", Dance, "how far people may stray was not found")
@@ -105,8 +105,8 @@ def tolerance(
     raises: InvalidValue; OutsideRun; TooMuchWork
 
     >>> from core import Dragon, Spiral
-    >>> found = tolerance(Dance(Dragon(), Spiral()), stop=300.0)
-    >>> round(found.stray, 4), found.benches
+    >>> answer = tolerance(Dance(Dragon(), Spiral()), stop=300.0)
+    >>> round(answer.stray, 4), answer.benches
     (0.0529, (0, 21))
     """
     if venue is not None:
@@ -114,24 +114,24 @@ def tolerance(
     budget = budget or Budget()
     begin, until = dance.span(dance.begin if start is None else start, stop)
     most = 0.5 * float(dance.dragon.chords.min())
-    found, limit = SafeStray(most, None, 0), None
+    least, limit = SafeStray(most, None, 0), None
     steps, independent, simple = 0, most, most
     for field in _fields(dance, venue, (begin, until), budget):
-        safe = held_stray(field, found.stray)
+        safe = held_stray(field, least.stray)
         steps, independent, simple = steps + safe.steps, min(independent, safe.independent), min(simple, safe.simple)
         if safe.dip is not None:
-            found, limit = safe, field
-    known = (found.stray, min(independent, found.stray), min(simple, found.stray))
-    proof = StrayProof(_claim(dance, found, known[1], (begin, until), venue), steps)
-    if found.dip is None or limit is None:
+            least, limit = safe, field
+    known = (least.stray, min(independent, least.stray), min(simple, least.stray))
+    proof = StrayProof(_claim(dance, least, known[1], (begin, until), venue), steps)
+    if least.dip is None or limit is None:
         return Tolerance(*known, (most, None), Limit.CHORD, None, None, None, None, begin, until, proof)
-    _, travel, (a, b) = found.dip
+    _, travel, (a, b) = least.dip
     time = min(max(dance.clock.time(travel), begin), until)
-    shown = _exhibit(limit, found, time, dance.path.frame)
-    benches = (a, b if limit.edges is None else None) if shown is None else shown.benches
-    bracket = (found.stray, None if shown is None else shown.stray)
+    pose = _exhibit(limit, least, time, dance.path.frame)
+    benches = (a, b if limit.edges is None else None) if pose is None else pose.benches
+    bracket = (least.stray, None if pose is None else pose.stray)
     by = Limit.BENCHES if limit.edges is None else Limit.VENUE
-    return Tolerance(*known, bracket, by, time, benches, limit.area, shown, begin, until, proof)
+    return Tolerance(*known, bracket, by, time, benches, limit.area, pose, begin, until, proof)
 
 
 def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget: Budget) -> list[Field]:
@@ -147,10 +147,10 @@ def _fields(dance: Dance, venue: Venue | None, span: tuple[float, float], budget
     return fields
 
 
-def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhibit | None:
+def _exhibit(field: Field, safe: SafeStray, time: float, frame: Frame) -> Exhibit | None:
     """A pose of the whole dragon in which the pair of a dip overlaps; None if not found. frame: of the search"""
-    assert found.dip is not None
-    dragon, (a, b) = field.dance.dragon, found.dip.benches
+    assert safe.dip is not None
+    dragon, (a, b) = field.dance.dragon, safe.dip.benches
     at = field.dance.clock.steady(np.array(time))
     handles = trajectory(field.dance.steady, at, budget=field.budget).position
     pose, size = bench_poses(handles), np.stack([dragon.lengths, dragon.widths], axis=-1)
@@ -164,8 +164,8 @@ def _exhibit(field: Field, found: SafeStray, time: float, frame: Frame) -> Exhib
         other = frames(np.array([[edge.x, edge.y, edge.heading]]), np.array([[2.0 * edge.half_length, 0.0]]))
     normal = frames_separation(frames(pose[a : a + 1], size[a : a + 1]), other).normal[0]
     pair = (a, b if field.edges is None else None)
-    shown = exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), found.stray, time)
-    return None if shown is None else replace(shown, handles=frame.points(shown.handles))
+    overlapping = exhibit(dragon, handles, pair, edge, math.atan2(normal[1], normal[0]), safe.stray, time)
+    return None if overlapping is None else replace(overlapping, handles=frame.points(overlapping.handles))
 
 
 def _claim(

@@ -169,11 +169,11 @@ def _meeting(dragon: Dragon, places: Floats, laid: FirstOrder, deviations: float
         except TooLarge:  # so many pairs that their sum would say nothing
             return 1.0
         budget.afford(float(len(handles) + len(pairs)))
-        found = frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]])
-        if (found.separation <= 0.0).any():
+        nearest = frames_separation(frame[pairs[:, 0]], frame[pairs[:, 1]])
+        if (nearest.separation <= 0.0).any():
             return 1.0
-        apart = ((frame[pairs[:, 1], CENTRE] - frame[pairs[:, 0], CENTRE]) * found.normal).sum(axis=1)
-        first, second = (_corners(dragon, laid, bounds, t, pairs[:, side], found.normal) for side in (0, 1))
+        apart = ((frame[pairs[:, 1], CENTRE] - frame[pairs[:, 0], CENTRE]) * nearest.normal).sum(axis=1)
+        first, second = (_corners(dragon, laid, bounds, t, pairs[:, side], nearest.normal) for side in (0, 1))
         gap = apart[:, None, None] + second.place[:, None] - first.place[:, :, None] - ROUNDING
         gap -= first.left_out[:, :, None] + second.left_out[:, None]
         chance += float(ndtr(-gap / (first.deviation[:, :, None] + second.deviation[:, None] + ROUNDING)).sum())

@@ -59,8 +59,8 @@ class Wobble(Readable):
             most = self.correlation_time / INSTANTS_PER_TIME
             if step > most and not math.isclose(step, most):
                 rule, got = "must be at most {most}, 1 / {instants} of {time}", Quantity(step, "s")
-                told = quantities("s", 9, most=most) | {"time": Parameter("model.correlation_time")}
-                raise InvalidValue("model.step", rule, got=got, instants=INSTANTS_PER_TIME, **told)
+                values = quantities("s", 9, most=most) | {"time": Parameter("model.correlation_time")}
+                raise InvalidValue("model.step", rule, got=got, instants=INSTANTS_PER_TIME, **values)
         if self.pin > self.hole:
             raise wider_pin("model.pin", "model.hole", self)
 
@@ -79,18 +79,18 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
     """raises: InvalidValue for a model whose sizes do not fit a dance"""
     bench = int(dance.dragon.chords.argmin())
     most = SIZE_PART * float(dance.dragon.chords[bench])
-    of, told = "{part} of the chord of bench {bench} ({most})", quantities("m", 9, most=most)
-    told |= {"part": SIZE_PART, "bench": bench}
+    of, values = "{part} of the chord of bench {bench} ({most})", quantities("m", 9, most=most)
+    values |= {"part": SIZE_PART, "bench": bench}
     for name, size in (("lateral", model.lateral), ("forward", model.forward)):
         if size > most:
-            raise InvalidValue(f"model.{name}", f"must be at most {of}", got=Quantity(size, "m"), **told)
+            raise InvalidValue(f"model.{name}", f"must be at most {of}", got=Quantity(size, "m"), **values)
     if model.play > most:
         rule, got = f"must leave a play of at most {of} around its {{pin}}", f"{Quantity(model.play, 'm', 9)} of play"
-        raise InvalidValue("model.hole", rule, got=got, pin=Parameter("model.pin"), **told)
+        raise InvalidValue("model.hole", rule, got=got, pin=Parameter("model.pin"), **values)
     if model.pitch_error > 0.0:
         spiral, rule = dance.path.spiral, "must be 0 on a path that is not a spiral"
         most = PITCH_PART * spiral.pitch if spiral else 0.0
         if model.pitch_error > most:
             rule = "must be at most {part} of the pitch ({most})" if spiral else rule
-            told = quantities("m", got=model.pitch_error) | quantities("m", 9, most=most) | {"part": PITCH_PART}
-            raise InvalidValue("model.pitch_error", rule, **told)
+            values = quantities("m", got=model.pitch_error) | quantities("m", 9, most=most) | {"part": PITCH_PART}
+            raise InvalidValue("model.pitch_error", rule, **values)

@@ -14,7 +14,7 @@ import numpy as np
 from core import BenchDragonError, Dance, Dragon, InvalidValue, Spiral, Turn
 from core.design.turn_boxes import sizes_of, turns_in
 from core.design.turn_moves import box_of, least_bend
-from core.design.turn_overlap import Overlap
+from core.design.turn_overlap import OverlapSearch
 from tests.campaigns import hunting
 from tests.campaigns.hunt_contacts import GAP, SlowLook, judged, random_dragon
 from tests.support.slow_route import SlowRoute
@@ -83,7 +83,7 @@ def box_fault(rng):
     centre = np.array([entry, (leaving - entry) / growth, rng.uniform(-0.4, 0.4)])
     half = 10.0 ** rng.uniform(-3.0, -1.3, 3)
     box = box_of(pitch, turns_in(growth, centre[:, None], half[:, None]), 0, centre, half, least)
-    if box is None or not Overlap(dragon, 0.0, 26).exhibited(box).shared:
+    if box is None or not OverlapSearch(dragon, 0.0, 26).exhibited(box).shared:
         return "box without a shared overlap", ""
     for _ in range(LAID_OUT):
         a, v, log_ratio = centre + half * rng.choice([-1.0, 1.0], 3) * rng.uniform(0.0, 1.0, 3)

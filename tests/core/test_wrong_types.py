@@ -161,7 +161,7 @@ def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any]) -> None:
         assert expected in refused.message
 
 
-SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "found": "MinimumPitch"}
+SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "minimum": "MinimumPitch"}
 QUESTIONS = [call for call, good in CALLS.items() if next(iter(good)) in SUBJECTS and not isinstance(call, type)]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Dance, Dragon, first_contact
-from core.design.turn_overlap import Overlap
+from core.design.turn_overlap import OverlapSearch
 from tests.support.boxes_of_turns import CROSSING, SMALL, box_at, turn_at
 from tests.support.depth import examples
 
@@ -21,7 +21,7 @@ def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(
     box, centre = box_at(entry, leaving, ratio, SMALL)
     if box is None:
         pytest.fail("benches can follow no corner of the box")
-    found = Overlap(DRAGON, 0.0, MOST).exhibited(box)
+    found = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
     assert found.shared
     assert found.depth > 0.3
     rng, danced = np.random.default_rng(5), 0
@@ -42,7 +42,7 @@ def test_handles_stand_between_their_least_and_greatest_places(
     box, centre = box_at(entry, leaving, ratio, half)
     if box is None:
         pytest.fail("benches can follow no corner of the box")
-    overlap, last = Overlap(DRAGON, 0.0, MOST), 14
+    overlap, last = OverlapSearch(DRAGON, 0.0, MOST), 14
     place = box.nominal.length + 2.0
     within = overlap.chain_within(box, place, last)
     if within is None:
@@ -65,7 +65,7 @@ def test_nothing_is_exhibited_where_a_turn_can_be_danced(entry: float, leaving: 
     for size in (0.01, 1.0, 10.0):
         box, _ = box_at(entry, leaving, ratio, size * SMALL)
         if box is not None:
-            found = Overlap(DRAGON, 0.0, MOST).exhibited(box)
+            found = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
             assert not found.shared
             assert found.depth < 0.0
 
@@ -73,4 +73,4 @@ def test_nothing_is_exhibited_where_a_turn_can_be_danced(entry: float, leaving: 
 def test_a_dragon_of_two_benches_has_no_pair() -> None:
     box, _ = box_at(2.3, 4.45, 1.2, SMALL)
     assert box is not None
-    assert not Overlap(Dragon(2), 0.0, MOST).exhibited(box).shared
+    assert not OverlapSearch(Dragon(2), 0.0, MOST).exhibited(box).shared

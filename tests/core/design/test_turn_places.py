@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core.design.turn_boxes import sizes_of
-from core.design.turn_places import polished, starts
+from core.design.turn_places import locally_shortest, starts
 
 GROWTH = 1.7 / (2.0 * math.pi)
 LEAST, INNER, CIRCLE = 1.43 / 0.999, 1.4, 4.5  # [m]
@@ -21,7 +21,7 @@ ROUNDED = 1e-9  # [m]
 def test_a_polished_place_is_followed_and_no_neighbour_is_shorter(ratio: float) -> None:
     count = 0
     for start in starts(GROWTH, INNER, CIRCLE, ratio, LEAST):
-        place = polished(GROWTH, start, INNER, CIRCLE, ratio, LEAST)
+        place = locally_shortest(GROWTH, start, INNER, CIRCLE, ratio, LEAST)
         if place is None:
             continue
         count += 1

@@ -29,5 +29,5 @@ def test_the_search_stops_soon_after_it_found_more_than_asked() -> None:
     kernels.grow_tree(boxes, tree := np.empty((32, kernels.BOX_COLUMNS)))
     meetings = kernels.Meetings(rectangles, boxes, tree, np.arange(50), kernels.Budget())
     meetings.find(0.0, True, False, 60, 10**9, pairs := np.zeros((100, 2), dtype=np.int64))
-    assert 60 < meetings.found < 60 + 50
-    assert len(np.unique(pairs[: meetings.found], axis=0)) == meetings.found
+    assert 60 < meetings.count < 60 + 50
+    assert len(np.unique(pairs[: meetings.count], axis=0)) == meetings.count

@@ -30,9 +30,9 @@ def test_before_the_first_excess_no_sample_exceeds_the_limit_and_there_one_handl
     limit = 1.0 + part * (rates.max() - 1.0)
     outcome, excess, search = excess_over(limit)
     assert outcome is kernels.Judged.EXCEEDED
-    assert excess.found - 2.0 * WIDTH <= excess.proven <= excess.found
+    assert excess.exceeded - 2.0 * WIDTH <= excess.proven <= excess.exceeded
     assert (rates[travels < excess.proven] <= limit).all()
-    assert abs(search.rates(excess.found)[excess.handle]) > limit
+    assert abs(search.rates(excess.exceeded)[excess.handle]) > limit
 
 
 def test_a_limit_above_all_rates_is_kept_to_the_end() -> None:
@@ -42,4 +42,4 @@ def test_a_limit_above_all_rates_is_kept_to_the_end() -> None:
 
 
 def test_a_search_without_links_is_given_up() -> None:
-    assert excess_over(1.2, links=0)[0] is kernels.Judged.GIVEN_UP
+    assert excess_over(1.2, links=0)[0] is kernels.Judged.UNDECIDED

@@ -11,7 +11,7 @@ from flint import arb
 
 from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, trajectory
 from core.proof.chain import Chain
-from core.proof.paths import chain_on, core_path, described, recorded_path
+from core.proof.paths import chain_on, core_path, path_words, recorded_path
 from core.proof.route import RouteChain
 
 BEND = Arc((30.0, 3.0), 3.0, -math.pi / 2, 1.0)
@@ -38,7 +38,7 @@ def test_a_path_reads_back_from_json_to_the_last_bit(path: Spiral | Route, words
     assert type(again) is type(path)
     assert again.position(s).tolist() == path.position(s).tolist()
     assert recorded_path(again) == record
-    assert words in described(record)
+    assert words in path_words(record)
 
 
 @pytest.mark.parametrize(("path", "_"), PATHS.values(), ids=PATHS)

@@ -14,7 +14,7 @@ from core import Dance, Dragon, Spiral, bench_poses, first_contact, trajectory
 from core.proof import prove_collision_time, verify
 from core.proof.chain import Chain
 from core.proof.pairs import Unproven
-from core.proof.sweeps import OverlapFound, found, recorded, swept
+from core.proof.sweeps import OverlapFound, proven_sweeps, recorded_stretches, searched_stretches
 from core.shapes.rectangles import corners
 from tests.core.proof.test_certificate import CONTACTS, DOUBLES
 from tests.support.forgeries import stretches
@@ -65,10 +65,13 @@ def test_stretches_join_from_the_highest_place_to_the_lowest_and_read_back_as_th
     shares: list[float] = []
     with ctx.workprec(128):
         chain = Chain(Dragon(9), arb(0.55), 16.0, margin)
-        sweeps = swept(chain, HIGH, LOW, 1, found(chain), shares.append, follows=False)
-        assert swept(chain, HIGH, LOW, 1, recorded(chain, sweeps), shares.append, follows=False) == sweeps
+        sweeps = proven_sweeps(chain, HIGH, LOW, 1, searched_stretches(chain), shares.append, follows=False)
+        assert (
+            proven_sweeps(chain, HIGH, LOW, 1, recorded_stretches(chain, sweeps), shares.append, follows=False)
+            == sweeps
+        )
         with pytest.raises(Unproven, match="short of"):
-            swept(chain, HIGH, LOW - 0.1, 1, recorded(chain, sweeps), shares.append, follows=False)
+            proven_sweeps(chain, HIGH, LOW - 0.1, 1, recorded_stretches(chain, sweeps), shares.append, follows=False)
     assert [sweep["bench"] for sweep in sweeps] == [0, 1]
     for sweep in sweeps:
         tiles = sweep["stretches"]
@@ -83,7 +86,7 @@ def test_a_sweep_into_a_contact_names_a_pair_that_overlaps_there() -> None:
     with ctx.workprec(128):
         chain = Chain(Dragon(14), arb(0.55), 16.0)
         with pytest.raises(OverlapFound) as met:
-            swept(chain, 28.0, 26.0, 1, found(chain), lambda share: None, follows=False)
+            proven_sweeps(chain, 28.0, 26.0, 1, searched_stretches(chain), lambda share: None, follows=False)
         a, b = met.value.a, met.value.b
         pose = chain.pose_at(a, arb(met.value.place))
         pose.grow_to(b - a + 1)
