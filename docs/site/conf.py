@@ -1,0 +1,90 @@
+"""Settings of Sphinx for the site that docs/site/build.py assembles."""
+
+import re
+from importlib.metadata import version as version_of
+from pathlib import Path
+
+from sphinx.pycode import ModuleAnalyzer
+
+import core
+
+ROOT = Path(core.__file__).parent.parent
+
+project = "Bench Dragon"
+author = "Bench Dragon contributors"
+project_copyright = author
+version = release = version_of("bench-dragon")
+root_doc = "index"
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.viewcode"]
+# No file of the theme and none of ours comes from another host, and two builds give the same bytes.
+html_theme = "pydata_sphinx_theme"
+html_title = project
+html_static_path = ["_static"]
+html_css_files = ["guide.css"]
+html_copy_source = False
+html_show_sourcelink = False
+html_last_updated_fmt = None
+html_theme_options = {
+    "show_prev_next": False,
+    "navbar_align": "left",
+    "header_links_before_dropdown": 9,
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "logo": {"text": project},
+}
+myst_heading_anchors = 4
+myst_enable_extensions = ["html_image"]
+highlight_language = "none"
+suppress_warnings = ["misc.highlighting_failure"]  # bodies of several lines in a console session
+default_role = "code"  # single backquotes in docstrings are code
+add_module_names = False
+autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
+autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Floats": "Floats"}
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 80
+
+# An entry of a docstring says what a parameter or an attribute is, or follows returns:, raises: or source:.
+ENTRY = re.compile(r"(\w+(?:, \w+)*)(?: (\[[^]]+\]))?[:;]\s+(\S.*)")
+# Marks of reStructuredText, which docstrings do not use; what stands between backquotes is code and stays.
+MARKS = re.compile(r"(`[^`]*`)|([*|\\])|(?<=\w)(_)(?!\w)")
+
+
+def escape(text: str) -> str:
+    return MARKS.sub(lambda mark: mark[1] or f"\\{mark[2] or mark[3]}", text)
+
+
+def as_fields(lines: list[str]) -> list[str]:
+    """A docstring in reStructuredText: its entries become fields; its examples, which come last, stay as they are."""
+    examples = next((at for at, line in enumerate(lines) if line.lstrip().startswith(">>>")), len(lines))
+    result: list[str] = []
+    in_entry = False
+    for line in lines[:examples]:
+        entry = ENTRY.fullmatch(line)
+        continues = in_entry and not entry and bool(re.match("[ a-z(\\[]", line))
+        if not entry and not continues and line and in_entry or entry and not in_entry:
+            result.append("")
+        if entry:
+            names, unit, meaning = entry.groups()
+            result.append(f":{names}: " + escape(f"{unit}; {meaning}" if unit else meaning))
+        else:
+            result.append(f"    {escape(line.strip())}" if continues else escape(line))
+        in_entry = bool(entry) or continues
+    return [*result, "", *lines[examples:], ""]
+
+
+def setup(app):
+    def convert(_app, _kind, _name, _object, _options, lines):
+        lines[:] = as_fields(list(lines))
+
+    # The source of a compiled module is not where Python finds the module.
+    def find_source(_app, module):
+        path = ROOT / f"{module.replace('.', '/')}.py"
+        if not path.is_file():
+            return None
+        analyzer = ModuleAnalyzer.for_file(path, module)
+        return analyzer.code, analyzer.find_tags()
+
+    app.connect("autodoc-process-docstring", convert)
+    app.connect("viewcode-find-source", find_source)
