@@ -18,6 +18,7 @@ MODULES = {
     "dxf": _DXF,
     "figures": _FIGURES,
     "film": ("av", *_FIGURES),
+    "mcp": ("mcp", *_SERVICE),
     "proof": ("flint",),
     "service": (*_SERVICE, "av", *_DXF, *_FIGURES, *_SWEEP, *_XLSX),
     "sweep": _SWEEP,

@@ -51,6 +51,7 @@ app.contest
 app.sweeps
 app.jobs
 app.service
+app.assistant
 app.command
 """
 # Arrays whose columns core/kernels/constants.py names.

@@ -50,6 +50,7 @@ ROOMS = {
     "overlaps": "overlaps",
     "paper": "paper",
     "serve": "serve",
+    "mcp": "mcp",
     "prove": "prove",
     "jobs": "jobs",
     "sweep": "sweep",

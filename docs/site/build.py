@@ -89,7 +89,7 @@ def assemble(source: Path) -> None:
 
 
 def build(target: Path) -> int:
-    """Build the site into a folder, whose files it replaces. returns: the exit code of Sphinx, where a warning counts"""
+    """Build the site into a folder, whose files it replaces. returns: exit code of Sphinx; a warning is an error"""
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "source")
         source.mkdir()

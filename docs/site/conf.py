@@ -63,7 +63,7 @@ def as_fields(lines: list[str]) -> list[str]:
     for line in lines[:examples]:
         entry = ENTRY.fullmatch(line)
         continues = in_entry and not entry and bool(re.match("[ a-z(\\[]", line))
-        if not entry and not continues and line and in_entry or entry and not in_entry:
+        if (not entry and not continues and line and in_entry) or (entry and not in_entry):
             result.append("")
         if entry:
             names, unit, meaning = entry.groups()

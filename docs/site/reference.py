@@ -135,7 +135,8 @@ def _call(path: str, method: str, operation: dict[str, Any]) -> str:
             f"`{medium}` {_kind(content['schema']) if content.get('schema') else ''}".strip()
             for medium, content in response.get("content", {}).items()
         ]
-        parts.append(f"- **{status}** {response.get('description', '')}" + (f": {', '.join(contents)}" if contents else ""))
+        forms = f": {', '.join(contents)}" if contents else ""
+        parts.append(f"- **{status}** {response.get('description', '')}{forms}")
     lists = "\n".join(part for part in parts if part.startswith("- "))
     return "\n\n".join([*(part for part in parts if not part.startswith("- ")), lists])
 
@@ -149,7 +150,10 @@ def http_pages(description: dict[str, Any]) -> dict[str, str]:
     for path, operations in description["paths"].items():
         for method, operation in operations.items():
             calls[operation["tags"][0]].append(_call(path, method, operation))
-    text = "# HTTP reference\n\nFrom the description of the service, `/openapi.json`. Lengths are in metres, angles in radians, times in seconds.\n"
+    text = (
+        "# HTTP reference\n\nFrom the description of the service, `/openapi.json`. "
+        "Lengths are in metres, angles in radians, times in seconds.\n"
+    )
     for tag in description["tags"]:
         text += "\n\n".join(["", f"## {tag['name']}", tag.get("description", ""), *calls.pop(tag["name"], [])]) + "\n"
     if calls:

@@ -9,6 +9,8 @@ from functools import cache
 import httpx
 import pytest
 
+from tests.support.serving import serving
+
 # httpx reads the certificates of all authorities for each client and each httpx.get(), also for http://, which takes
 # 18 ms; the tests that ask in a loop did little else.
 ssl.create_default_context = cache(ssl.create_default_context)
@@ -21,3 +23,10 @@ def client(server: str) -> Iterator[httpx.Client]:
     """Keeps its connections to the real server open."""
     with httpx.Client(base_url=server, timeout=ANSWER_TIMEOUT) as client:
         yield client
+
+
+@pytest.fixture(scope="session")
+def patient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Base URL of a real server whose answers may take minutes."""
+    with serving(tmp_path_factory.mktemp("patient") / "server.log", deadline_seconds=600) as service:
+        yield service.url

@@ -49,12 +49,6 @@ def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield service.url
 
 
-@pytest.fixture(scope="module")
-def patient(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    with serving(tmp_path_factory.mktemp("patient") / "server.log", deadline_seconds=600) as service:
-        yield service.url
-
-
 def sample(url: str, name: str) -> float:
     """Value of one line of /metrics; 0 where it is not there yet."""
     lines = httpx.get(f"{url}/metrics").text.splitlines()
