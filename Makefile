@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd examples figures dist install-time lock clean
+.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist install-time lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -36,6 +36,7 @@ help:
 	@echo 'make ccd      100,000 queries of continuous collision detection to every engine, into docs/dragon-ccd.md: some'
 	@echo '              hours, continued after an interruption (QUERIES=, SEED=)'
 	@echo 'make examples new answers for the examples in /docs'
+	@echo 'make docs     the documentation as a site, which the service shows at /guide/'
 	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
 	@echo 'make install-time  how long pip takes to install the wheel of core and its command, downloads not counted'
@@ -144,6 +145,15 @@ ccd: test-setup
 examples: test-setup
 	@$(BIN)/python -m tests.support.renew_examples
 
+# A warning of Sphinx, a dead link and a file from another host are errors.
+docs: test-setup $(VENV)/docs
+	@$(BIN)/python docs/site/build.py app/guide
+	@$(BIN)/python docs/site/links.py app/guide
+
+$(VENV)/docs: $(VENV)/tests requirements-docs.lock
+	@$(INSTALL) $(VENV) requirements-docs.lock
+	@touch $@
+
 figures: test-setup
 	@$(BIN)/bench-dragon figures docs
 
@@ -179,13 +189,15 @@ lock: setup
 	@$(RESOLVE) pyproject.toml --extra dev --group tools --output-file build/all.lock
 	@$(RESOLVE) pyproject.toml --extra service --group tools --constraint build/all.lock --output-file build/requirements.lock
 	@$(RESOLVE) pyproject.toml --extra ccd --constraint build/all.lock --output-file build/ccd.lock
+	@$(RESOLVE) --group docs --constraint build/all.lock --output-file build/docs.lock
 	@$(RESOLVE) --group dist --output-file build/requirements-dist.lock
 	@sed -i "/ == 'none'$$/d" build/*.lock
 	@grep -vxFf build/requirements.lock build/all.lock >build/requirements-test.lock
+	@grep -vxFf build/all.lock build/docs.lock >build/requirements-docs.lock
 	@grep -vxFf build/requirements.lock build/ccd.lock | grep -vxFf build/all.lock >build/requirements-ccd.lock
 	@for file in requirements*.lock; do \
 		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done
 
 clean:
-	@rm -rf $(VENV) build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
+	@rm -rf $(VENV) app/guide build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -19,10 +19,10 @@ from app.service.main import create_app
 from app.service.version import VERSION
 
 INSTRUCTIONS = (
-    "Bench Dragon checks a dance of benches joined by handles that follow a curve: where everyone is and how fast, when two "
-    "benches first touch, how tight the spiral may be, how far people may stray. Lengths are in metres, times in seconds, "
-    "angles in radians. An argument that is left out takes the value of problem A of the contest CUMCM 2024. Each answer "
-    "says how it is known (certificate). Errors name the argument, its value, its unit and its limit. "
+    "Bench Dragon checks a dance of benches joined by handles that follow a curve: where everyone is and how fast, "
+    "when two benches first touch, how tight the spiral may be, how far people may stray. Lengths are in metres, times "
+    "in seconds, angles in radians. An argument that is left out takes the value of problem A of the contest CUMCM "
+    "2024. Each answer says how it is known (certificate). Errors name the argument, its value, unit and limit. "
     "Long questions: ask_later gives a job, job_status and job_result its answer."
 )
 # Address under which calls over the standard streams count.

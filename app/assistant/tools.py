@@ -1,7 +1,7 @@
 """The tools of the door: every call of the service under its operation id, made from the description of the service.
 
-A tool takes the arguments of the call in one object: its query, its path, the fields of its body. A file is given as its
-content or by its name in the folder of the door.
+A tool takes the arguments of the call in one object: its query, its path, the fields of its body. A file is given as
+its content or by its name in the folder of the door.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ def mcp(
     host: Annotated[str, typer.Option(help="Address to listen on, with --port.")] = "127.0.0.1",
     folder: Annotated[
         Path | None,
-        typer.Option(parser=path, metavar="FOLDER", help="Tools may read the files of this folder by name."),
+        typer.Option("--folder", parser=path, metavar="FOLDER", help="Tools may read its files by name."),
     ] = None,
     twins: Annotated[
         bool, typer.Option("--twins", help="Also the calls with a body that have a twin with flat arguments.")

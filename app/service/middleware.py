@@ -19,9 +19,14 @@ from app.service.problems import Refused, http_problem, server_problem
 
 logger = logging.getLogger("uvicorn.error")
 
-SELF_ONLY = "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-# Swagger UI uses inline styles and icons from data: addresses.
-DOCS_POLICY = f"{SELF_ONLY}; style-src 'self' 'unsafe-inline'; img-src 'self' data:"
+# Headers of every response that does not have its own. Browsers load only from this service, trust the stated content
+# type, and ask again for each file of the page, so that modules of two versions never mix.
+SAFETY = (
+    (b"content-security-policy", b"default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cache-control", b"no-cache"),
+)
 # A name that a client may give its request.
 REQUEST_ID = re.compile(r"[A-Za-z0-9._:-]{1,100}")
 
@@ -76,22 +81,13 @@ class HeadAsGet(Layer):
 
 
 class SafetyHeaders(Layer):
-    """Tells browsers to load only from this service and to trust the stated content type."""
+    """Adds the headers of SAFETY to a response, but those that it has; a page that needs another policy brings it."""
 
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
-        policy = DOCS_POLICY if scope["path"] == "/docs" else SELF_ONLY
-        added = [
-            (b"content-security-policy", policy.encode()),
-            (b"x-content-type-options", b"nosniff"),
-            (b"referrer-policy", b"no-referrer"),
-        ]
-
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                headers = message["headers"] = [*message["headers"], *added]
-                # Browsers revalidate the page's files, so that modules of two versions never mix.
-                if not any(name == b"cache-control" for name, _ in headers):
-                    headers.append((b"cache-control", b"no-cache"))
+                own = {name for name, _ in message["headers"]}
+                message["headers"] = [*message["headers"], *(header for header in SAFETY if header[0] not in own)]
             await send(message)
 
         await self.app(scope, receive, send_with_headers)

@@ -9,6 +9,8 @@ from __future__ import annotations
 import gzip
 import hashlib
 import os
+import re
+from base64 import b64encode
 from functools import cache, lru_cache
 from mimetypes import guess_type
 from pathlib import Path
@@ -19,13 +21,17 @@ from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
+from starlette.responses import RedirectResponse
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from app.service.negotiation import GZIPPED, accepted, tags_in
+from app.service.problems import Refused
 from app.wire.question import JSON
 
 PAGE = Path(__file__).parent.parent / "page"
+GUIDE = Path(__file__).parent.parent / "guide"
+INLINE = re.compile(rb"<script(?![^>]*\ssrc=)[^>]*>(.+?)</script>", re.DOTALL)
 # Swagger UI comes from a pip package; its start script is a separate file because the policy forbids inline scripts.
 DOCS = b"""<!doctype html>
 <html lang="en">
@@ -43,6 +49,12 @@ DOCS = b"""<!doctype html>
 </html>
 """
 DOCS_START = b'SwaggerUIBundle({ url: "openapi.json", dom_id: "#calls", deepLinking: true });\n'
+# Swagger UI and the guide use inline styles and icons from data: addresses, and the guide has a search form.
+POLICY = (
+    "default-src 'self'; base-uri 'none'; frame-ancestors 'none'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data:"
+)
+DOCS_POLICY = f"{POLICY}; form-action 'none'"
 PYTHON = (".py", ".pyc")
 # Files that gzip makes smaller.
 TEXT = ("text/", "application/javascript", "application/json", "image/svg")
@@ -123,13 +135,37 @@ class Files(StaticFiles):
         return response
 
 
+class Guide(Files):
+    """The pages of the documentation as `make docs` makes them."""
+
+    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
+        return StaticFiles.lookup_path(self, path)
+
+    def _found(self, path: str, headers: Headers, edition: str | None) -> Response:
+        content, kind = self.content("index.html" if path == "." else path)
+        response = reply_with(headers, content, kind)
+        if kind == "text/html":
+            response.headers["Content-Security-Policy"] = guide_policy(content)
+        return response
+
+
+@lru_cache(KEPT_FILES)
+def guide_policy(page: bytes) -> str:
+    """What a browser may load for a page of the guide; the short scripts in the page are named by their digests."""
+    digests = sorted({b64encode(hashlib.sha256(script).digest()).decode() for script in INLINE.findall(page)})
+    scripts = " ".join(["script-src 'self'", *(f"'sha256-{digest}'" for digest in digests)])
+    return f"{POLICY}; form-action 'self'; {scripts}"
+
+
 def add_pages(app: FastAPI) -> None:
     """The pages for people and where their files are, and the description of all calls."""
     description = cache(lambda: orjson.dumps(app.openapi()))
 
     @app.get("/docs", include_in_schema=False)
     async def docs(request: Request) -> Response:
-        return reply_with(request.headers, DOCS, "text/html")
+        response = reply_with(request.headers, DOCS, "text/html")
+        response.headers["Content-Security-Policy"] = DOCS_POLICY
+        return response
 
     @app.get("/docs/start.js", include_in_schema=False)
     async def docs_start(request: Request) -> Response:
@@ -152,6 +188,18 @@ def add_pages(app: FastAPI) -> None:
     @app.get("/how", include_in_schema=False)
     def how(request: Request) -> Response:
         return page(request, "how.html")
+
+    @app.get("/guide", include_in_schema=False)
+    async def guide() -> Response:
+        return RedirectResponse("guide/")
+
+    if GUIDE.is_dir():
+        app.mount("/guide", Guide(directory=GUIDE))
+    else:
+
+        @app.get("/guide/{path:path}", include_in_schema=False)
+        async def no_guide(path: str) -> Response:
+            raise Refused(404, "This installation has no guide: make docs makes it, before the service starts.")
 
     app.mount("/docs/assets", Files(packages=[("fastapi_swagger", "resources")]))
     app.mount("/page-{edition}", files)

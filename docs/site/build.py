@@ -26,7 +26,7 @@ SECTIONS = {
     "students": ("Students", ["contest", "grade", "method", "paper"]),
     "organisers": ("Organisers", ["paths-and-venues", "maps", "plan", "tolerance", "envelope"]),
     "scientists": ("Scientists", ["library", "proofs", "claims", "sweeps", "performance", "dragon-ccd"]),
-    "operators": ("Operators", ["http", "operations"]),
+    "operators": ("Operators", ["http", "operations", "assistants"]),
     "reference": ("Reference", [*(f"reference/{page}" for page in ROOMS), "http-reference"]),
     "project": ("Project", ["architecture", "contributing", "changelog", "security"]),
 }
@@ -96,6 +96,10 @@ def build(target: Path) -> int:
         assemble(source)
         shutil.rmtree(target, ignore_errors=True)
         code = sphinx(["-q", "-W", "--keep-going", "-b", "html", "-d", f"{folder}/doctrees", str(source), str(target)])
+        # The pages as text, for assistants.
+        (target / "pages").mkdir()
+        for page in source.glob("*.md"):
+            shutil.copy(page, target / "pages")
     for name in (".buildinfo", "objects.inv", "_static/webpack-macros.html"):
         (target / name).unlink(missing_ok=True)
     return code

@@ -1,0 +1,33 @@
+"""Docstrings of core in reStructuredText, for Sphinx."""
+
+from __future__ import annotations
+
+import re
+
+# An entry of a docstring says what a parameter or an attribute is, or follows returns:, raises: or source:.
+ENTRY = re.compile(r"(\w+(?:, \w+)*)(?: (\[[^]]+\]))?[:;]\s+(\S.*)")
+# Marks of reStructuredText, which docstrings do not use; what stands between backquotes is code and stays.
+MARKS = re.compile(r"(`[^`]*`)|([*|\\])|(?<=\w)(_)(?!\w)")
+
+
+def escape(text: str) -> str:
+    return MARKS.sub(lambda mark: mark[1] or f"\\{mark[2] or mark[3]}", text)
+
+
+def as_fields(lines: list[str]) -> list[str]:
+    """A docstring in reStructuredText: its entries become fields; its examples, which come last, stay as they are."""
+    examples = next((at for at, line in enumerate(lines) if line.lstrip().startswith(">>>")), len(lines))
+    result: list[str] = []
+    in_entry = False
+    for line in lines[:examples]:
+        entry = ENTRY.fullmatch(line)
+        continues = in_entry and not entry and bool(re.match("[ a-z(\\[]", line))
+        if (not entry and not continues and line and in_entry) or (entry and not in_entry):
+            result.append("")
+        if entry:
+            names, unit, meaning = entry.groups()
+            result.append(f":{names}: " + escape(f"{unit}; {meaning}" if unit else meaning))
+        else:
+            result.append(f"    {escape(line.strip())}" if continues else escape(line))
+        in_entry = bool(entry) or continues
+    return [*result, "", *lines[examples:], ""]
