@@ -29,7 +29,7 @@ SETTINGS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = SETTINGS["project"]
 LOCKS = {path.name: path.read_text(encoding="utf-8").splitlines() for path in ROOT.glob("requirements*.lock")}
 # A locked version: the name, the version, and where it is needed; never an address.
-LOCKED = re.compile(r"([A-Za-z0-9._-]+)==([0-9][A-Za-z0-9.+!]*)( ; [a-z_]+ [\w .<>=!'()]+)?")
+LOCKED = re.compile(r"([A-Za-z0-9._-]+)==([0-9][A-Za-z0-9.+!]*)( ; [a-z_]+ [\w .*<>=!'()]+)?")
 BUILD = runpy.run_path(str(ROOT / "setup.py"))
 # Systems on which requirements may differ.
 SYSTEMS = {"linux": "Linux", "darwin": "Darwin", "win32": "Windows"}

@@ -18,6 +18,7 @@ ROOT = Path(__file__).parent.parent
 TESTS = ROOT / "tests"
 # Files of tests of app, and modules without a file of their own that each of them tests.
 TOGETHER = {
+    "assistant/test_assistant.py": "assistant/guide assistant/requests assistant/server assistant/tools command/mcp",
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
     " contest/sensitivity contest/solved contest/tables",
     "files/test_film.py": "files/film_spec questions/films",

@@ -22,7 +22,9 @@ def as_fields(lines: list[str]) -> list[str]:
     for line in lines[:examples]:
         entry = ENTRY.fullmatch(line)
         continues = in_entry and not entry and bool(re.match("[ a-z(\\[]", line))
-        if (not entry and not continues and line and in_entry) or (entry and not in_entry):
+        starts = entry is not None and not in_entry
+        ends = in_entry and not entry and not continues
+        if (starts or ends) and result and result[-1] and line:
             result.append("")
         if entry:
             names, unit, meaning = entry.groups()

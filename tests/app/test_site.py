@@ -1,0 +1,114 @@
+"""The site of the documentation: its reference, its links, and how the service shows it."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import httpx
+import pytest
+
+import core
+from app.service.main import create_app
+from app.service.pages import GUIDE, guide_policy
+
+SITE = Path(__file__).parents[2] / "docs" / "site"
+
+
+def module(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"docs_site_{name}", SITE / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+def test_every_public_name_of_core_stands_on_one_page() -> None:
+    text = "\n".join(module("reference").library_pages().values())
+    names = re.findall(r"^\.\. [\w:]+:: core\.(\w+)$", text, re.MULTILINE)
+    assert sorted(names) == sorted(core.__all__)
+
+
+def test_every_call_and_every_schema_has_its_place() -> None:
+    description = create_app().openapi()
+    text = module("reference").http_pages(description)["http-reference"]
+    calls = [f"{method.upper()} {path}" for path, calls in description["paths"].items() for method in calls]
+    schemas = list(description["components"]["schemas"])
+    assert sorted(re.findall(r"^### (.+)$", text, re.MULTILINE)) == sorted([*calls, *schemas])
+    anchors, links = (set(re.findall(form, text)) for form in (r"\((schema-[\w-]+)\)=", r"\(#(schema-[\w-]+)\)"))
+    assert links <= anchors
+
+
+def test_entries_of_docstrings_become_fields() -> None:
+    docstring = """What comes back.
+
+margin: required clearance [m]; `x*y` and a * b
+    goes on here
+pitch, radius [m]; speed: of a_
+the same entry goes on
+A paragraph.
+
+>>> 1 *1"""
+    assert module("docstrings").as_fields(docstring.split("\n")) == [
+        "What comes back.",
+        "",
+        ":margin: required clearance [m]; `x*y` and a \\* b",
+        "    goes on here",
+        ":pitch, radius: [m]; speed: of a\\_",
+        "    the same entry goes on",
+        "",
+        "A paragraph.",
+        "",
+        "",
+        ">>> 1 *1",
+        "",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("page", "dead"),
+    [
+        ('<a href="other.html#here">', []),
+        ('<a href="https://example.org/gone">', []),
+        ('<a href="none.html">', ["none.html does not exist: index.html"]),
+        ('<a href="other.html#gone">', ["other.html#gone has no such anchor: index.html"]),
+        ('<a href="../outside.html">', ["../outside.html does not exist: index.html"]),
+        (
+            '<img src="https://example.org/a.png">',
+            ["https://example.org/a.png is loaded from another host: index.html"],
+        ),
+        ('<link rel="stylesheet" href="none.css">', ["none.css does not exist: index.html"]),
+    ],
+)
+def test_dead_links_are_named(tmp_path: Path, page: str, dead: list[str]) -> None:
+    site = tmp_path / "site"
+    site.mkdir()
+    (tmp_path / "outside.html").write_text("")
+    (site / "index.html").write_text(page)
+    (site / "other.html").write_text('<p id="here">')
+    assert module("links").dead_links(site) == dead
+
+
+def test_a_page_of_the_guide_may_run_its_own_scripts_and_no_others() -> None:
+    policy = guide_policy(b'<script src="a.js"></script><script>let a = 1;</script><script data-b="c">b()</script>')
+    assert policy.count("'sha256-") == 2
+    assert "script-src 'self' 'sha256-" in policy
+    assert "unsafe" not in policy.split("script-src")[1]
+
+
+def test_the_service_shows_the_guide_or_says_that_there_is_none(client: httpx.Client) -> None:
+    assert client.get("/guide").headers["location"] == "guide/"
+    answer: Any = client.get("/guide/")
+    if GUIDE.is_dir():
+        assert answer.status_code == 200
+        assert "'sha256-" in answer.headers["content-security-policy"]
+        assert client.get("/guide/none.html").status_code == 404
+    else:
+        assert answer.status_code == 404
+        assert (
+            answer.json()["detail"] == "This installation has no guide: make docs makes it, before the service starts."
+        )
