@@ -58,15 +58,16 @@ def create_server(*, folder: Path | None = None, twins: bool = False) -> Server[
     ) -> types.CallToolResult:
         if parameters.name not in calls:
             raise MCPError(INVALID_PARAMS, f"{parameters.name} is no tool of this door; it has {', '.join(calls)}")
-        headers, client = {}, LOCAL
+        headers: dict[str, str] = {}
+        client = LOCAL
         if context.request is not None:  # over HTTP: the token and the address are those of the assistant
             if "authorization" in context.request.headers:
                 headers["Authorization"] = context.request.headers["authorization"]
-            client = context.request.client or LOCAL
+            client = tuple(context.request.client or LOCAL)
         elif token := service.state.settings.token:
             headers["Authorization"] = f"Bearer {token}"
         call = calls[parameters.name]
-        return await answer(service, call, parameters.arguments or {}, headers, tuple(client), folder)
+        return await answer(service, call, parameters.arguments or {}, headers, client, folder)
 
     async def list_resources(_context: Any, _parameters: Any) -> types.ListResourcesResult:
         return types.ListResourcesResult(resources=guide.resources())

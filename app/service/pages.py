@@ -138,10 +138,7 @@ class Files(StaticFiles):
 class Guide(Files):
     """The pages of the documentation as `make docs` makes them."""
 
-    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
-        return StaticFiles.lookup_path(self, path)
-
-    def _found(self, path: str, headers: Headers, edition: str | None) -> Response:
+    def _response(self, path: str, headers: Headers, edition: str | None) -> Response:
         content, kind = self.content("index.html" if path == "." else path)
         response = reply_with(headers, content, kind)
         if kind == "text/html":

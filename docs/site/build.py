@@ -47,10 +47,15 @@ def _linked(text: str, folder: Path, pages: dict[Path, str]) -> str:
         if path.is_file() and path.is_relative_to(DOCS):
             return f"{words}({path.relative_to(DOCS)})"
         if path.is_file():
-            return f"{words}(files/{path.relative_to(ROOT)})"
+            return f"{words}({_copy_of(path)})"
         return words[1:-1]
 
     return LINK.sub(link, IMAGE.sub('src="', text))
+
+
+def _copy_of(file: Path) -> Path:
+    """Where the site has a file from outside docs/: as text, which a browser shows, not as a module of Python."""
+    return Path("files", f"{file.relative_to(ROOT)}.txt")
 
 
 def assemble(source: Path) -> None:
@@ -68,7 +73,7 @@ def assemble(source: Path) -> None:
         for target in {match[2] for match in LINK.finditer(text)}:
             file = (path.parent / target).resolve()
             if file.is_file() and file not in pages and not file.is_relative_to(DOCS):
-                copy = source / "files" / file.relative_to(ROOT)
+                copy = source / _copy_of(file)
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(file, copy)
         (source / f"{page}.md").write_text(_linked(text, path.parent, pages), "utf-8")
