@@ -144,10 +144,10 @@ class BenchDragonError(Exception):
     code:     stable word for programs
     field:    dotted name of the wrong parameter
     template: what the parameter must be, with {field} in its place and {word} in the place of each value
-    got:      what was given; None where the template says it
+    got:      the given value; None if the template names it
     reason:   template of the reason, or of what to change; empty without one
     values:   of both templates, by their words
-    message:  the sentence: the template, what was given, and the reason
+    message:  the sentence: the template, the given value, and the reason
 
     >>> start = Parameter("times.start")
     >>> error = InvalidValue("times.stop", "must be after {start}: it is earlier", got=3.0, start=start)

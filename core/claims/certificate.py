@@ -1,4 +1,4 @@
-"""Base of certificates: they carry a claim, and put it in words when asked for."""
+"""Base of certificates, which carry a claim as data and put it in words."""
 
 from __future__ import annotations
 

@@ -249,8 +249,7 @@ def _meeting_together(others: list[Pair], poses: Floats, sizes: Floats, margin: 
 
 
 def judged_benches(poses: Floats, sizes: Floats, pair: Pair, margin: float) -> Indices:
-    """The benches to judge, ascending: all, those near the pair, or the pair; the first of these that is not too much
-    work.
+    """The benches to judge, ascending: all of them, those near the pair, or only the pair, as the work allows.
 
     A bench is near if its upright box comes within the length of the longest bench of the box around the pair.
     poses: (n, 3); sizes: (n, 2)

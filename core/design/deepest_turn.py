@@ -2,7 +2,7 @@
 
 A closed form says whether handles can follow: the radius of a bend must be at least half a chord over ROUTE_SINE_LIMIT
 (core/kernels/constants.py). The sum of the arcs' radii is S = sqrt(E^2 + growth^2) for the entry radius E (see Turn).
-Both radii shrink with E, and so does that of the coil at the entry: so there is one least entry.
+Both radii shrink with E, and the radius of the coil at the entry shrinks too, so there is one least entry.
 
 Contacts are tested entry by entry, from the circle down. On the coil before the entry, first_contact() tests the
 spiral. From the entry on it tests the route, but only until the leading benches are out of reach, see below. The

@@ -51,7 +51,7 @@ LOOKS = 40
 
 
 class Descent(Enum):
-    """Why the proven pitches end there.
+    """Reason why a descent through the pitches ended.
 
     LOWEST: all are clear; BORDER: a contact that becomes a graze, as computed, less than 2 BORDER_WIDTH below
     STUCK: the next BAND_MIN could not be proven; UNBOUNDED: no bound holds, or a handle moves backwards

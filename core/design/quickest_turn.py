@@ -6,8 +6,8 @@ bends tightly, and where the curvature jumps from one arc to the other, handles 
 shortest turn is not the quickest.
 
 Scanned, not proven: the time is computed on a grid of entries and exits by samples of the rate, and then lowered from
-the best places of the grid by steps that halve. Turns with an overlap in a sampled pose are left out of both. The rate
-of the answer is proven, and so is that nothing touches.
+the best places of the grid by steps that halve. Turns with an overlap in a sampled pose are left out of both. For the
+answer the rate is proven, and that nothing touches.
 """
 
 from __future__ import annotations

@@ -155,9 +155,9 @@ def shortest_turn(
 class TurnSearch:
     """Branch and bound over boxes.
 
-    mirrored: whether a turn stands for the same danced backwards too; best, shortest: the shortest turn that was danced
-        with proof, and its length; longer: boxes that were excluded by their length; tried: places of locally shortest
-        turns; multipliers: those of the ones that are nearly the best
+    mirrored: whether each turn also stands for the same turn danced backwards; best, shortest: the shortest turn that
+        was danced with proof, and its length; longer: boxes excluded by their length; tried: places of locally shortest
+        turns; multipliers: of those turns that are nearly as short as the best one
     """
 
     def __init__(
@@ -221,7 +221,7 @@ class TurnSearch:
     def _improve(self, place: Floats) -> bool:
         """Dance the locally shortest turn near a place, and use its multipliers if it is nearly the best one.
 
-        returns: whether it was looked for: only so often from places of boxes
+        returns: False if POLISHED searches were made already
         """
         if self.polished >= POLISHED:
             return False

@@ -45,7 +45,7 @@ def checked_circle(
     *,
     any_ratio: bool = False,
 ) -> CheckedCircle:
-    """The circle of a question. any_ratio: whether a ratio of None counts, as a free one
+    """The circle of a question. any_ratio: True allows a ratio of None, which stands for any
 
     raises: InvalidValue for what no turn can have
     """

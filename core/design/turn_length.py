@@ -1,8 +1,8 @@
 """Lengths between which an answer to the question for the shortest turn is justifiable.
 
-The search is that of the shortest turn, but arcs may be as tight as half the longest chord, and turns above are not
-danced: a sampled pose without an overlap is enough for the length that the bound aims at. So a bound that holds may be
-lower than the shortest turn, never higher.
+The search is the one for the shortest turn, with two differences: arcs may be as tight as half the longest chord, and a
+turn counts as possible if none of its sampled poses overlaps, without a proof. So the proven bound may be lower than
+the shortest turn, but never higher.
 """
 
 from __future__ import annotations

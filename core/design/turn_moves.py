@@ -68,7 +68,7 @@ class Box:
 
 
 def box_of(pitch: float, turns: Turns, k: int, centre: Floats, half: Floats, least: float) -> Box | None:
-    """Box k of some, with a nominal turn that benches can follow; None if neither its middle nor a corner is one.
+    """Box k, with a nominal turn that benches can follow; None if neither its middle nor a corner is such a turn.
 
     centre, half: (3,) of the entry radius [m], the angle to the exit [rad], the log ratio; least: radius of a bend [m]
     """

@@ -76,8 +76,11 @@ SPARE = 1e-8
 
 
 class OverlapExhibit(NamedTuple):
-    """shared: whether a pose was found that overlaps in all turns of a box; depth of the deepest pose of the nominal
-    one [m]; excess: the moves of benches over the depth, the least found [1]; poses: number of tried ones."""
+    """Result of a search for a pose that overlaps in all turns of a box.
+
+    shared: whether there is one; depth: of the deepest pose of the nominal turn [m]; excess: the least ratio of the
+        moves of benches to the depth [1]; poses: number of tried ones
+    """
 
     shared: bool
     depth: float
@@ -157,7 +160,7 @@ class OverlapSearch:
         return sorted((self._pose(turn, float(place)) for place in places), reverse=True)
 
     def _pose(self, turn: Turn, place: float) -> tuple[float, float, int]:
-        """Greatest depth at which another bench overlaps the first one [m], the place of its handle, that bench."""
+        """Greatest depth at which another bench overlaps the first one [m], the given place, and that other bench."""
         turn.follow(-place, self.count, self.sizes, self.chain)
         self.frames[:, :FRAME_HALF_LENGTH] = self.chain[:-1, MX : UY + 1]
         kernels.pair_separations(np.repeat(self.frames[:1], self.count - 2, axis=0), self.frames[2:], self.out)

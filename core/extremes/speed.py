@@ -191,7 +191,7 @@ def first_excess(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> FirstExcess | None:
-    """First time at which a handle is faster than the limit; None if it is proven that none ever is by a millionth.
+    """First time at which a handle is faster than the limit; None if none is, proven to within a millionth of it.
 
     speed_limit: [m/s], exceeded by more than 1e-12 of it; an excess below SPEED_PROVEN, 1e-6 of it, may be passed over
     start, stop: as in highest_speed(), but stop may be a fold, towards which speeds grow without bound

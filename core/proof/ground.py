@@ -105,7 +105,7 @@ class Side(TouchingLine):
         self._outwards, self._corners = other.outwards, other.corners[beyond]
 
     def corners(self, axis: acb) -> Sequence[acb]:
-        """As in TouchingLine, but only those of 16. axis: of the other bench, seen along the line's normal"""
+        """The corners of TouchingLine that 16. needs. axis: of the other bench, seen along the line's normal"""
         towards = -axis.conjugate()
         guess = round(math.atan2(float(towards.imag), float(towards.real)) * SIDES / math.tau)
         off = towards * self._outwards[guess % SIDES].conjugate()

@@ -168,7 +168,7 @@ def _overlap(kind: str, value: Mapping[str, Any]) -> None:
 
 
 def _by_kind(members: Mapping[str, dict[str, Rule]]) -> Rule:
-    """An object whose kind tells its other members."""
+    """An object whose kind decides which other members it has."""
 
     def checked(name: str, value: Any) -> None:
         _any_object(name, value)

@@ -201,7 +201,7 @@ class BallPath:
         return rear
 
     def _on_earlier(self, front: tuple[Piece, arb], chord: arb) -> tuple[Piece, arb]:
-        """A point at a chord on a piece before that of the front handle."""
+        """The point at a chord behind the front handle, on an earlier piece than the front handle."""
         point, z = front[0].point(front[1]), front[0].place(front[1])
         for k in range(front[0].index - 1, -1, -1):
             piece, end = self.pieces[k], self.ends(k + 1)[1]

@@ -111,7 +111,7 @@ class _FclBoxes:
     # bodies, so only the geometries of a contact identify the benches. fcl.collide() makes its own result each time and
     # only appends the contact to ours, so one result can collect all contacts.
     def meeting(self, poses: Floats, budget: Budget) -> Pairs:
-        """Pairs (P, 2), a < b, that overlap, neighbours among them. poses: (n, 3) x [m], y [m], heading [rad]"""
+        """Pairs (P, 2), a < b, that overlap, neighbours included. poses: (n, 3) x [m], y [m], heading [rad]"""
         import fcl
 
         rotations, places = np.zeros((len(poses), 4)), np.zeros((len(poses), 3))

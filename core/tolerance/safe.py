@@ -173,7 +173,7 @@ def _safe_stray(field: Field, most: float) -> SafeStray:
 def _grazing(
     field: Field, stray: float, dip: Dip, covered: Callable[[Dragon, float], Reach] = reach
 ) -> tuple[float, Dip]:
-    """The stray near this one at which the grounds that meet in a dip only graze, to GRAZE_WITHIN of it [m]; that dip.
+    """The stray near this one at which the grounds in a dip only graze, to GRAZE_WITHIN of it [m], and the dip then.
 
     If the stray is larger by x, the ground of each bench reaches at least x further in every direction. So the gap
     falls by at least x for each bench, with the slope of the last two strays.
