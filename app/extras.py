@@ -8,7 +8,8 @@ from core import BenchDragonError
 from core.extras import not_installed
 
 _DXF, _FIGURES, _SWEEP, _XLSX = ("ezdxf",), ("matplotlib",), ("pyarrow",), ("xlsxwriter", "openpyxl")
-_SERVICE = ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn")
+_CALLS = ("fastapi", "fastapi_swagger", "prometheus_client", "uplot", "uvicorn")
+_SERVICE = (*_CALLS, "av", *_DXF, *_FIGURES, *_SWEEP, *_XLSX)
 # Modules that each extra of pyproject.toml installs, as far as this program imports them.
 MODULES = {
     "arrow": ("pyarrow",),
@@ -20,7 +21,7 @@ MODULES = {
     "film": ("av", *_FIGURES),
     "mcp": ("mcp", *_SERVICE),
     "proof": ("flint",),
-    "service": (*_SERVICE, "av", *_DXF, *_FIGURES, *_SWEEP, *_XLSX),
+    "service": _SERVICE,
     "sweep": _SWEEP,
     "xlsx": _XLSX,
 }
