@@ -9,7 +9,7 @@ from core.errors import Given, InvalidValue, Value
 # Longest name of a bench or an area [characters].
 NAME_MAX = 200
 # Unicode's categories of control characters, half characters, and ends of lines and paragraphs.
-NOT_PLAIN = ("Cc", "Cs", "Zl", "Zp")
+UNPRINTABLE = ("Cc", "Cs", "Zl", "Zp")
 # Characters that turn the direction of writing around for what follows, beyond the name (Unicode, report 9).
 TURNING = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 
@@ -25,7 +25,7 @@ def checked_name(field: str, name: object, what: str = "") -> None:
         rule = "must be a string"
     elif len(name) > NAME_MAX:
         rule, got = "must have at most {most} characters", len(name)
-    elif any(category(one) in NOT_PLAIN or one in TURNING for one in name):
+    elif any(category(one) in UNPRINTABLE or one in TURNING for one in name):
         rule = "must be one line of plain text"
     else:
         return

@@ -20,7 +20,7 @@ from app.wire.question import Coordinates
 from core import Dragon, InvalidValue, Venue
 from core.display import format_count
 from core.errors import COORDINATE_MAX, Quantity, quantities
-from core.names import NAME_MAX, NOT_PLAIN
+from core.names import NAME_MAX, UNPRINTABLE
 from core.values import Floats, Point
 from core.venue import refuse_many_edges
 
@@ -324,7 +324,7 @@ class _Names:
         self.used: set[str] = set()
 
     def new(self, name: str) -> str:
-        bare = "".join(" " if category(one) in NOT_PLAIN else one for one in name)[: NAME_MAX - 8].strip() or "area"
+        bare = "".join(" " if category(one) in UNPRINTABLE else one for one in name)[: NAME_MAX - 8].strip() or "area"
         unique, k = bare, 2
         while unique in self.used:
             unique, k = f"{bare} {k}", k + 1
