@@ -1,7 +1,8 @@
 /** The answers, each with its evidence. */
 
 import { button, make } from "./elements.js";
-import { bound } from "./numbers.js";
+import { strayOf } from "./fields.js";
+import { bound, formatNumber, isExact } from "./numbers.js";
 import { benchName, handleName, proofWords, refusalWords, say, sayOf, titleOf } from "./text.js";
 
 /** The mark of each outcome: a dance fails with a contact or a fold, passes, or is undecided. */
@@ -26,10 +27,13 @@ const bracket = (key, both, decimals) => [say("bracket"), say(key, ends(both, de
 const IDEAS = { "minimum-pitch": "staircase", tolerance: "stray", "head-speed": "chord", "turn-time": "chord", "highest-speed": "chord", "run-end": "chord" };
 const idea = ({ id }) => make("a", { href: `how?lang=${document.documentElement.lang.slice(0, 2)}#${IDEAS[id] ?? "step"}`, textContent: say("howPage") });
 
-/** Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box */
-function show(box, title, value, lines, known = [], outcome = "") {
+/**
+ * Replace the content of a box, but keep its details open. title: text; known: elements; outcome: colours the box; digits: the value
+ * with all of its digits, if the shown one may have fewer
+ */
+function show(box, title, value, lines, known = [], { outcome = "", digits = "" } = {}) {
   const open = box.querySelector("details")?.open ?? false;
-  const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...known, idea(box))] : [];
+  const details = known.length ? [make("details", { open }, make("summary", { textContent: say("how") }), ...(digits && !isExact() ? [facts([say("allDigits"), digits])] : []), ...known, idea(box))] : [];
   box.dataset.outcome = outcome;
   const heading = make("h3", { textContent: title });
   box.replaceChildren(paragraph(say("old"), { className: "old" }), heading, make("p", { className: "value" }, ...[value].flat()), ...lines.map((line) => paragraph(line)), ...details);
@@ -65,7 +69,9 @@ const stateOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "f
 /** The outcome in a few words. answer: of /collision-time */
 export function outcomeWords(answer, request) {
   const time = answer.time ?? answer.end?.time;
-  return sayOf(stateOf(answer), request, { time: time?.toFixed(6) });
+  const state = stateOf(answer);
+  if (state === "clear" && request.drawn && !(Number(request.margin) > 0 || strayOf(request) > 0)) return say("clearDrawn");
+  return sayOf(state, request, { time: time === undefined ? "" : formatNumber(time, 6, 2) });
 }
 
 /** The same with its mark, for small screens. */
@@ -75,7 +81,7 @@ export const verdictWords = (answer, request) => `${MARKS[stateOf(answer)]} ${ou
 export const foldOf = ({ outcome, end }) => (outcome === "clear" && end?.reason === "fold" ? end.time : null);
 
 /** An instant of a dance with its usual digits; just before the end it is written as the end. */
-export const instantWords = (time, { answer, end }) => (time === end && answer.time === null ? (answer.end?.time ?? time) : time).toFixed(6);
+export const instantWords = (time, { answer, end }) => formatNumber(time === end && answer.time === null ? (answer.end?.time ?? time) : time, 6, 2);
 
 function contactLine(answer, request) {
   const { time_bracket, overlapping: met, point, benches: both, head, end, gap } = answer;
@@ -86,8 +92,8 @@ function contactLine(answer, request) {
     return met ? sayOf("undecidedMet", request, { ...pair(met, benches), time, late }) : say("undecidedFrom", { time });
   }
   if (state === "folds") return sayOf("foldsUntil", request, { name: benchName(end.bench, benches) });
-  if (state === "clear") return end ? sayOf("clearUntil", request, { time: end.time.toFixed(6) }) : sayOf("clearAll", request);
-  const [x, y, radius] = [...point, head.radius].map((one) => one.toFixed(6));
+  if (state === "clear") return end ? sayOf("clearUntil", request, { time: formatNumber(end.time, 6, 2) }) : sayOf("clearAll", request);
+  const [x, y, radius] = [...point, head.radius].map((one) => formatNumber(one, 6, 2));
   const values = { ...pair(both, benches), x, y, radius };
   if (request.drawn) return sayOf("pairDrawn", request, values);
   const millis = millimetres(gap);
@@ -105,7 +111,7 @@ const methodOf = (certificate) => paragraph(proofWords(certificate), { className
 
 /** answer: of /collision-time */
 export function showFirstContact(box, answer, request) {
-  const { time_bracket, certificate } = answer;
+  const { time, time_bracket, certificate } = answer;
   const lines = [contactLine(answer, request)];
   const open = answer.outcome === "undecided" && !answer.overlapping;
   const known = (values) => (open ? say("bracketOpen", values) : sayOf("bracketTime", request, values));
@@ -119,7 +125,7 @@ export function showFirstContact(box, answer, request) {
   const state = stateOf(answer);
   const mark = make("span", { className: "mark", "aria-hidden": "true", textContent: MARKS[state] });
   const evidence = [facts(...rows), methodOf(certificate), engines(answer.cross_check, request.benches, request)];
-  show(box, titleOf("firstContact", request), [mark, outcomeWords(answer, request)], lines, evidence, state);
+  show(box, titleOf("firstContact", request), [mark, outcomeWords(answer, request)], lines, evidence, { outcome: state, digits: time === null || time === undefined ? "" : `${time.toFixed(6)} s` });
 }
 
 /** A button of an answer, with its text and its action. */
@@ -146,7 +152,8 @@ export function showMinimumPitch(box, answer, request, key, use) {
     [say("evaluations"), answer.evaluations],
   ];
   const known = [facts(...rows), engines(answer.cross_check, benches, request)];
-  show(box, titleOf("minimumPitch", request), `${answer.pitch.toFixed(9)} m`, lines, known);
+  const digits = `${answer.pitch.toFixed(9)} m`;
+  show(box, titleOf("minimumPitch", request), isExact() ? digits : `${(100 * answer.pitch).toFixed(1)} cm`, lines, known, { digits });
   offer(box, key, () => use(high));
 }
 
@@ -155,7 +162,7 @@ export function showShortestTurn(box, answer, request, use) {
   const { entry_radius, exit_radius, length, limited_by } = answer;
   const lines = [say("turnIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) }), sayOf(`entry_${limited_by}`, request)];
   const known = facts(bracket("bracketLength", answer.length_bracket, 9), bracket("bracketEntry", answer.entry_bracket, 9), bracket("bracketExit", answer.exit_bracket, 9));
-  show(box, titleOf("shortestTurn", request), `${length.toFixed(6)} m`, lines, [known]);
+  show(box, titleOf("shortestTurn", request), `${formatNumber(length, 6, 2)} m`, lines, [known], { digits: `${length.toFixed(6)} m` });
   offer(box, "useEntry", () => use(entry_radius, exit_radius));
 }
 
@@ -165,13 +172,13 @@ const timeWords = ({ length, head_speed }, { speed_limit: limit }) => say("turnT
 export function showQuickestTurn(box, answer, request, use) {
   const { entry_radius, exit_radius, time, scan_step } = answer;
   const lines = [timeWords(answer, request), say("quickestIs", { entry: entry_radius.toFixed(6), exit: exit_radius.toFixed(6) })];
-  show(box, say("quickestTurn"), `${time.toFixed(6)} s`, lines, [paragraph(say("quickestKnown", { step: centimetres(scan_step) }))]);
+  show(box, say("quickestTurn"), `${formatNumber(time, 6, 2)} s`, lines, [paragraph(say("quickestKnown", { step: centimetres(scan_step) }))], { digits: `${time.toFixed(6)} s` });
   offer(box, "useQuickest", () => use(entry_radius, exit_radius));
 }
 
 /** answer: of /turn-time */
 export function showTurnTime(box, answer, request) {
-  show(box, say("turnTime"), `${answer.time.toFixed(6)} s`, [timeWords(answer, request)], [paragraph(say("turnTimeKnown"))]);
+  show(box, say("turnTime"), `${formatNumber(answer.time, 6, 2)} s`, [timeWords(answer, request)], [paragraph(say("turnTimeKnown"))], { digits: `${answer.time.toFixed(6)} s` });
 }
 
 /** answer: of /maximum-head-speed; use(speed) sets it */
@@ -180,7 +187,7 @@ export function showHeadSpeed(box, answer, request, use) {
   const name = handles.map((handle) => handleName(handle, Number(request.benches))).join(say("listed"));
   const lines = [say("headSpeedIs", { limit: request.speed_limit, name, time: time.toFixed(6) })];
   const known = low === null ? paragraph(say("headSpeedOpen", { high: bound(high, 9, 1) })) : facts(bracket("bracketHeadSpeed", [low, high], 9));
-  show(box, say("headSpeed"), `${head_speed.toFixed(9)} m/s`, lines, [known]);
+  show(box, say("headSpeed"), `${formatNumber(head_speed, 9, 3)} m/s`, lines, [known], { digits: `${head_speed.toFixed(9)} m/s` });
   offer(box, "useSpeed", () => use(low ?? head_speed));
 }
 
@@ -193,7 +200,7 @@ export function showTolerance(box, answer, benches, diameter) {
   const cm = (metres, way) => bound(100 * metres, 7, way);
   const both = high === null ? say("bracketStrayOpen", { low: cm(low, -1) }) : say("bracketStray", { low: cm(low, -1), high: cm(high, 1) });
   const rows = [[say("bracket"), both], [say("certificate"), say("stepsTaken", { steps: certificate.steps })]];
-  show(box, say("tolerance"), `${centimetres(stray)} cm`, lines, [facts(...rows), methodOf(certificate)]);
+  show(box, say("tolerance"), `${isExact() ? centimetres(stray) : bound(100 * stray, 1, -1)} cm`, lines, [facts(...rows), methodOf(certificate)], { digits: `${centimetres(stray)} cm` });
 }
 
 /** fastest: highest_speed of /check; null in a run to a fold */
@@ -203,14 +210,15 @@ export function showHighestSpeed(box, fastest, { benches }) {
   const name = handles.map((handle) => (handle === benches ? handleName : benchName)(handle, benches)).join(say("listed"));
   const whose = handles.includes(0) ? say("headFastest") : say("whose", { name, time: time.toFixed(6) });
   const known = speed_bracket[1] === null ? [] : [facts(bracket("bracketSpeed", speed_bracket, 9))];
-  show(box, say("highest"), `${speed.toFixed(6)} m/s`, [whose], known);
+  show(box, say("highest"), `${formatNumber(speed, 6, 2)} m/s`, [whose], known, { digits: `${speed.toFixed(6)} m/s` });
 }
 
 export function showEnd(box, answer, time, request) {
   const reason = answer.end?.reason ?? { undecided: "undecided", clear: "turn" }[answer.outcome] ?? "contact";
   const name = reason === "fold" ? benchName(answer.end.bench, request.benches) : "";
   const words = reason === "contact" ? sayOf("end_contact", request) : say(`end_${reason}`, { name });
-  show(box, say("end"), `${(answer.end?.time ?? time).toFixed(6)} s`, [words], [paragraph(say("endKnown"))]);
+  const last = answer.end?.time ?? time;
+  show(box, say("end"), `${formatNumber(last, 6, 2)} s`, [words], [paragraph(say("endKnown"))], { digits: `${last.toFixed(6)} s` });
 }
 
 /** problem: the service's problem; null if it is shown elsewhere; names: of the fields beside which it is shown */

@@ -48,6 +48,7 @@ export class Controls {
     // The default pitch and the set of numbers depend on the path.
     state.listen((names) => names.forEach((name) => this.#show(name === "path" ? "pitch" : name)));
     state.listen((names) => names.has("path") && this.#offer());
+    form.append(button({ id: "more", "aria-expanded": "false", "data-text": "more" }, null));
     this.#offer();
     for (const type of ["focusin", "focusout"]) form.addEventListener(type, ({ target }) => this.#point(type === "focusin" ? target.id : null));
   }
@@ -57,7 +58,7 @@ export class Controls {
     for (const part of $$("#sketch [data-part]")) part.classList.toggle("chosen", PARTS[name] === part.dataset.part);
   }
 
-  #row({ name, slider: [min, max, step] }) {
+  #row({ name, slider: [min, max, step], doors = [] }) {
     const change = ({ target }) => this.state.set({ [name]: times(typed(target.value), 1 / SHOWN[name]) });
     const typing = new Pause(name);
     const acts = { oninput: (event) => typing.begin(TYPING, () => change(event)), onchange: change };
@@ -77,7 +78,7 @@ export class Controls {
     const label = make("label", { htmlFor: name, "data-text": name });
     const help = make("span", { id: `${name}-help`, className: "help", "data-text": `${name}_is` });
     const what = make("div", { className: "what" }, label, help, row.limits);
-    row.box = make("div", { className: "field", "data-field": name }, what, row.text, row.unit, row.reset, row.ends[0], row.slider, row.ends[1], row.error);
+    row.box = make("div", { className: "field", "data-field": name, "data-doors": doors.join(" ") }, what, row.text, row.unit, row.reset, row.ends[0], row.slider, row.ends[1], row.error);
     return row.box;
   }
 
@@ -128,6 +129,7 @@ export class Controls {
       const words = error ? refusalWords(error) : { textContent: "" };
       if (row.error.textContent !== words.textContent) Object.assign(row.error, words);
       row.error.hidden = !error;
+      row.box.classList.toggle("wrong", Boolean(error));
       row.text.setAttribute("aria-invalid", Boolean(error));
     }
   }

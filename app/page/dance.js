@@ -12,8 +12,14 @@ const SPEED_SPREAD_MIN = 1e-9;
 const PICK_RADIUS = 22;
 /** Longest scale bar [px], its distance from the edges, and its possible lengths in metres, times a power of ten. */
 const [BAR, BAR_EDGE, ROUND] = [120, 14, [5, 2, 1]];
-/** Number of arrows along the path, and their size [px]; length of the head's arrow before its bench [px]. */
-const [ARROWS, ARROW, AHEAD] = [9, 5, 24];
+/** Number of arrows along the path, and their size [px]. */
+const [ARROWS, ARROW] = [9, 5];
+/** Least width of a drawn bench on a route, and least size of the head [px]. */
+const [LEAST_WIDTH, HEAD] = [6, 15];
+/** The head of the dragon, 2 units long, looking along x: skull with snout, horns, eyes. */
+const SKULL = new Path2D("M-.6 .45Q-.1 .75 .45 .5Q.75 .4 1.1 .42Q1.35 .3 1.3 0Q1.35 -.3 1.1 -.42Q.75 -.4 .45 -.5Q-.1 -.75 -.6 -.45Q-.45 0 -.6 .45Z");
+const HORNS = new Path2D("M.1 .5Q-.6 .7 -1.1 1.15Q-.9 .6 -.3 .35ZM.1 -.5Q-.6 -.7 -1.1 -1.15Q-.9 -.6 -.3 -.35Z");
+const EYES = new Path2D("M.5 .27A.13 .13 0 1 1 .24 .27A.13 .13 0 1 1 .5 .27ZM.5 -.27A.13 .13 0 1 1 .24 -.27A.13 .13 0 1 1 .5 -.27Z");
 /** Half side of the inset around the point of contact, in bench widths. */
 const INSET_WIDTHS = 1.6;
 
@@ -50,9 +56,10 @@ export function scaleBar(scale) {
 /** {overhang, width} of bench k of a dragon; listed: its benches one by one, if they are given so. */
 const sizeOf = ({ listed, overhang, width }, k) => (listed ? { overhang: listed.overhangs[k], width: listed.widths[k] } : { overhang, width });
 
-/** Corners of bench k in a drawn pose: front left, front right, rear right, rear left. */
-function outline({ x, y }, dragon, k) {
-  const { overhang, width } = sizeOf(dragon, k);
+/** Corners of bench k in a drawn pose: front left, front right, rear right, rear left. least: width that it has at least [m] */
+function outline({ x, y }, dragon, k, least = 0) {
+  const { overhang, width: own } = sizeOf(dragon, k);
+  const width = Math.max(own, least);
   const length = Math.hypot(x[k] - x[k + 1], y[k] - y[k + 1]);
   const [ux, uy] = [(x[k] - x[k + 1]) / length, (y[k] - y[k + 1]) / length];
   const [ox, oy, wx, wy] = [ux * overhang, uy * overhang, (-uy * width) / 2, (ux * width) / 2];
@@ -238,11 +245,10 @@ export class Dance {
     this.#grounds(pen);
     this.#benches(pen);
     pen.stroke(this.bench(0), colours.head, 2.5);
-    this.#drawWay(pen);
     if (contact) this.#pair(pen);
     if (contact?.point) pen.stroke(pen.circle(...contact.point, 9), colours.text, 3);
     const [[x], [y]] = [pose.x, pose.y];
-    pen.fill(pen.circle(x, y, 4), colours.head);
+    this.#drawHead(pen);
     pen.label(headName, x, y, colours.head, colours.card);
     if (handle !== null && handle < pose.x.length) {
       const [x, y] = [pose.x[handle], pose.y[handle]];
@@ -273,20 +279,34 @@ export class Dance {
     }
   }
 
-  /** An arrow before the head. */
-  #drawWay(pen) {
-    const { pose: { x, y }, dragon: { overhang } } = this.scene;
-    const [dx, dy] = [x[0] - x[1], y[0] - y[1]];
-    const at = (way) => [x[0] + (dx * way) / Math.hypot(dx, dy), y[0] + (dy * way) / Math.hypot(dx, dy)];
-    const tip = at(overhang + AHEAD / pen.scale);
-    const shaft = trace([at(overhang), tip], new Path2D(), false);
-    shaft.addPath(pen.tip(...tip, dx, dy, 1.6 * ARROW));
-    pen.stroke(shaft, this.#colours.head, 2.5);
+  /** Least width of a drawn bench [m], so that a dragon on a long route is no hairline; a spiral has no room for it. */
+  #leastWidth(scale) {
+    return this.drawn ? LEAST_WIDTH / scale : 0;
+  }
+
+  /** The head of the dragon, from above, at the front end of its bench. */
+  #drawHead(pen) {
+    const { pose: { x, y }, dragon } = this.scene;
+    const { overhang, width } = sizeOf(dragon, 0);
+    const way = Math.atan2(y[0] - y[1], x[0] - x[1]);
+    const size = Math.max(1.5 * Math.max(width, this.#leastWidth(pen.scale)), HEAD / pen.scale);
+    const { context } = pen;
+    context.save();
+    context.translate(x[0] + overhang * Math.cos(way), y[0] + overhang * Math.sin(way));
+    context.rotate(way);
+    context.scale(size, size);
+    Object.assign(context, { lineWidth: 1.5 / (size * pen.scale), lineJoin: "round", strokeStyle: this.#colours.card });
+    for (const [shape, colour] of [[HORNS, "text"], [SKULL, "head"], [EYES, "card"]]) {
+      context.fillStyle = this.#colours[colour];
+      context.fill(shape);
+      if (shape === SKULL) context.stroke(shape);
+    }
+    context.restore();
   }
 
   /** Outline of bench k in the picture. */
   bench(k, path = new Path2D()) {
-    return trace(outline(this.scene.pose, this.scene.dragon, k), path);
+    return trace(outline(this.scene.pose, this.scene.dragon, k, this.#leastWidth(this.view.scale)), path);
   }
 
   #benches(pen) {
@@ -296,7 +316,7 @@ export class Dance {
     const share = (speed) => Math.min(Math.max((speed - low) / (high - low), 0), 1);
     const shade = (speed) => (low === null || high - low < SPEED_SPREAD_MIN ? SHADES - 1 : Math.round(share(speed) * (SHADES - 1)));
     for (let k = pose.x.length - 2; k >= 0; k--) {
-      const corners = outline(pose, this.scene.dragon, k);
+      const corners = outline(pose, this.scene.dragon, k, this.#leastWidth(pen.scale));
       trace([...corners, corners[0]], paths[shade(pose.speed[k])], false); // in Chromium each closePath() looks at the whole path
     }
     const all = new Path2D();

@@ -2,26 +2,27 @@
 
 /**
  * The numbers a person may set. Limits and units come from the service's OpenAPI document; `slider` is a useful range to
- * begin with: [from, to, step]; only: the path that has this number; centimetres: the unit here and on the slider. An
+ * begin with: [from, to, step]; only: the path that has this number; centimetres: the unit here and on the slider;
+ * doors: behind which it is one of the few numbers. An
  * empty text leaves the number to the service.
- * @type {{name: string, value: string, group: string, slider: [number, number, number], only?: string, centimetres?: boolean}[]}
+ * @type {{name: string, value: string, group: string, slider: [number, number, number], only?: string, centimetres?: boolean, doors?: string[]}[]}
  */
 export const FIELDS = [
-  { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001] },
+  { name: "pitch", value: "0.55", group: "path", slider: [0.3, 2, 0.001], doors: ["contest", "look"] },
   { name: "start_turns", value: "16", group: "path", slider: [4, 40, 0.5] },
-  { name: "turning_diameter", value: "9", group: "path", slider: [2, 16, 0.1] },
+  { name: "turning_diameter", value: "9", group: "path", slider: [2, 16, 0.1], doors: ["contest"] },
   { name: "ratio", value: "2", group: "path", slider: [0.5, 4, 0.05], only: "turn" },
   { name: "entry_radius", value: "", group: "path", slider: [4, 5, 0.001], only: "turn" },
   { name: "exit_radius", value: "", group: "path", slider: [3.5, 5, 0.001], only: "turn" },
-  { name: "benches", value: "223", group: "dragon", slider: [1, 400, 1] },
+  { name: "benches", value: "223", group: "dragon", slider: [1, 400, 1], doors: ["contest", "village", "look"] },
   { name: "head_length", value: "3.41", group: "dragon", slider: [1, 6, 0.01] },
-  { name: "body_length", value: "2.2", group: "dragon", slider: [1, 4, 0.01] },
+  { name: "body_length", value: "2.2", group: "dragon", slider: [1, 4, 0.01], doors: ["village"] },
   { name: "width", value: "0.3", group: "dragon", slider: [0.05, 0.6, 0.005] },
   { name: "overhang", value: "0.275", group: "dragon", slider: [0, 0.45, 0.005] },
-  { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05] },
+  { name: "head_speed", value: "1", group: "motion", slider: [0.1, 3, 0.05], doors: ["village"] },
   { name: "margin", value: "0", group: "motion", slider: [0, 0.2, 0.005] },
   { name: "speed_limit", value: "2", group: "motion", slider: [1, 4, 0.05], only: "turn" },
-  { name: "stray", value: "0", group: "people", slider: [0, 20, 0.1], centimetres: true },
+  { name: "stray", value: "0", group: "people", slider: [0, 20, 0.1], centimetres: true, doors: ["contest", "village"] },
   { name: "hole", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
   { name: "pin", value: "0", group: "people", slider: [0, 10, 0.1], centimetres: true },
 ];

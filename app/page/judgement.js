@@ -2,6 +2,8 @@
 
 import { mendWords } from "./answers.js";
 import { $, button, make } from "./elements.js";
+import { formatNumber } from "./numbers.js";
+import { timeOfDay } from "./passages.js";
 import { benchName, handleName, refusalWords, say, sayOf } from "./text.js";
 
 const OUTCOMES = { passes: ["clear", "✓"], fails: ["contact", "✕"], undecided: ["undecided", "?"] };
@@ -20,7 +22,7 @@ function words({ kind, benches, area, peak_speed: peak }, { numbers, drawing }) 
   }
   if (kind === "speed") {
     const handle = a === undefined ? say("handle") : handleName(a, numbers.benches);
-    return say(peak === null ? "fail_speedOnly" : "fail_speed", { ...values, handle, peak: peak?.toFixed(DECIMALS) });
+    return say(peak === null ? "fail_speedOnly" : "fail_speed", { ...values, handle, peak: peak === null ? "" : formatNumber(peak, DECIMALS, 2) });
   }
   return say(`fail_${kind}`, values);
 }
@@ -42,10 +44,13 @@ export class Judgement {
   /** Show the verdict on a dance that the service has checked. */
   show(dance, course) {
     const [outcome, mark] = OUTCOMES[dance.verdict];
-    const rows = dance.failures.map((failure) => this.#row([`${failure.time.toFixed(DECIMALS)} s`, failure.clock].filter(Boolean).join(" · "), words(failure, dance), () => this.seek(failure)));
+    const rows = dance.failures.map((failure) => this.#row([`${formatNumber(failure.time, DECIMALS, 2)} s`, failure.clock].filter(Boolean).join(" · "), words(failure, dance), () => this.seek(failure)));
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
     const lines = [length === undefined ? "" : say(Number(time) ? "pathLength" : "pathOnly", { length: length.toFixed(2), time })];
+    const { clock } = dance.extras;
+    const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
+    if (clock) lines.push(say("startsEnds", { start, end }));
     this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent);
   }
 

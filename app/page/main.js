@@ -6,6 +6,7 @@ import { BenchTable } from "./bench_table.js";
 import { Controls, limitsIn } from "./controls.js";
 import { Dance, spanOf, speedRange } from "./dance.js";
 import { Designs } from "./designs.js";
+import { Doors } from "./doors.js";
 import { Drawn } from "./drawn.js";
 import { $, $$, onClick } from "./elements.js";
 import { CONTACT, FIELDS, strayOf } from "./fields.js";
@@ -13,6 +14,7 @@ import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
 import { announce, announceAgain, lost, markContact, placeInset } from "./overlays.js";
+import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { passagesText, quickened, timeOfDay } from "./passages.js";
 import { Player } from "./player.js";
@@ -75,6 +77,7 @@ const route = new Drawn({ state, service, questions, dance, draw });
 const { jobs, map } = new Designs(state, service, NUMBERS);
 const keep = new Keep({ state, service, questions, jobs, canvas: $("#canvas") });
 const grader = new Grader(service);
+const doors = new Doors(state);
 let limits = {};
 let drawing = 0;
 let opened = false;
@@ -109,8 +112,8 @@ function showPose(pose) {
   if (contact) $("#inset figcaption").textContent = answers.insetWords(contact, gap, numbers);
   const [low, high] = dance.scene.speeds ?? speedRange(pose);
   const [least, largest] = $$("#legend span");
-  const speed = high.toFixed(6);
-  least.textContent = low === null || low.toFixed(6) === speed ? say("allEqual") : low.toFixed(6);
+  const [speed, slowest] = [high, low].map((one) => one === null ? null : formatNumber(one, 6, 2));
+  least.textContent = low === null || low.toFixed(6) === high.toFixed(6) ? say("allEqual") : slowest;
   largest.textContent = answers.foldOf(questions.dance.answer) === null ? `${speed} m/s` : say("legendFold", { speed });
   showHandle();
   if (pose.dance) showTable(pose);
@@ -260,8 +263,13 @@ const TELL = {
   },
 };
 
-/** How each part of the state is shown; lang comes first because all texts depend on it. */
+/** How each part of the state is shown; door and language come first, because all numbers and texts depend on them. */
 const SHOW_STATE = {
+  door() {
+    doors.show();
+    translate();
+    restyle();
+  },
   lang: translate,
   follow: (follow) => $("#follow").setAttribute("aria-pressed", follow),
   rate: (rate) => ($("#rate").value = rate),
@@ -298,7 +306,7 @@ function press(name, value) {
 function translate() {
   const language = setLanguage(state.get("lang"));
   press("lang", language);
-  $("#how").href = `how?lang=${language}`;
+  for (const link of $$("[data-how]")) link.href = `how?lang=${language}`;
   grader.translate(language);
   graphs.help();
   controls.translate(limits);

@@ -20,10 +20,11 @@ const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, va
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
 /** time: null is the end of the dance; view: [x, y, pixels per metre], null shows the whole path. */
-const DEFAULTS = { ...NUMBERS, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
+const DEFAULTS = { ...NUMBERS, door: null, drawing: EMPTY, path: "spiral", time: null, rate: 20, follow: false, handle: null, view: null, lang: null };
 
 const oneOf = (values) => (text) => values.find((value) => String(value) === text);
 const READ = {
+  door: oneOf(["arrival", "contest", "village", "look", "all"]),
   path: oneOf(["spiral", "turn", "route"]),
   time: (text) => (text.trim() && Number.isFinite(Number(text)) ? Number(text) : null),
   rate: oneOf(RATES),
@@ -65,7 +66,7 @@ export class State {
     this.#values = values;
     for (const name of ["pitch", "benches"]) if (!address.has(name)) values[name] = this.initial(name);
     this.opensInMotion = isBare(address);
-    if (this.opensInMotion) values.time = 0;
+    if (this.opensInMotion) Object.assign(values, { time: 0, door: "arrival" });
   }
 
   get(name) {
@@ -112,10 +113,11 @@ export class State {
     this.set(Object.fromEntries(names.map((name) => [name, this.initial(name)])));
   }
 
-  choosePath(path) {
-    if (path === this.get("path")) return;
+  /** more: other changes, which are made in any case */
+  choosePath(path, more = {}) {
+    if (path === this.get("path")) return this.push(more);
     const benches = this.get("benches") === this.initial("benches") ? this.initial("benches", path) : this.get("benches");
-    this.push({ path, benches, pitch: this.initial("pitch", path), time: null, view: null });
+    this.push({ ...more, path, benches, pitch: this.initial("pitch", path), time: null, view: null });
   }
 
   /** Change the state so that the browser's back button leads back to the present view. */

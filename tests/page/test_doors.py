@@ -1,0 +1,118 @@
+"""Three doors: what a person came for decides which numbers and answers stand there, and the address keeps it."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.axe import serious
+from tests.support.pending import settled
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+FEW = {
+    "contest": ["pitch", "turning_diameter", "benches", "stray"],
+    "village": ["benches", "body_length", "head_speed", "stray"],
+    "look": ["pitch", "benches"],
+}
+ROUTE = "&path=route&route=*-40,0_40,0&begin=30&benches=9&start_clock=19:30&time=40"
+
+
+def numbers(page: Any) -> list[str]:
+    """Names of the numbers in sight."""
+    fields = page.locator(".field:visible")
+    return fields.evaluate_all("all => all.map((one) => one.dataset.field)")
+
+
+def test_a_bare_address_offers_three_doors_and_the_choice_is_in_the_address(open_page: Any) -> None:
+    page = open_page("", reduced_motion="reduce")
+    settled(page)
+    expect(page.locator("#arrival button")).to_have_count(3)
+    assert numbers(page) == []
+    page.locator("#arrival [data-door=contest]").click()
+    page.wait_for_url("**door=contest**")
+    assert numbers(page) == FEW["contest"]
+    expect(page.locator("#arrival")).to_be_hidden()
+    page.locator("#doors [data-door=village]").click()
+    page.wait_for_url("**path=route**")
+    expect(page.locator("#judgement .value")).to_have_text(re.compile("danced"))
+    assert numbers(page) == FEW["village"]
+    page.go_back()
+    expect(page.locator("#doors [data-door=contest]")).to_have_attribute("aria-pressed", "true")
+    assert "route" not in page.url
+    assert numbers(page) == FEW["contest"]
+
+
+def test_an_old_address_opens_all_that_it_opened_and_an_unknown_door_does_too(visit: Any) -> None:
+    for query in ("?benches=5&time=end", "?benches=5&time=end&door=cellar"):
+        page = visit(query)
+        expect(page.locator("#first-contact .value")).to_have_text(re.compile(r"\d\.\d{6} s|Nothing touches"))
+        assert len(numbers(page)) == 13
+        expect(page.locator("#more")).to_be_hidden()
+
+
+@pytest.mark.parametrize("door", FEW)
+def test_behind_a_door_stand_few_numbers_and_more_on_demand(visit: Any, door: str) -> None:
+    page = visit(f"?door={door}{ROUTE if door == 'village' else '&benches=20'}")
+    settled(page)
+    assert numbers(page) == FEW[door]
+    page.locator("#more").click()
+    assert {"width", "margin", "hole"} <= set(numbers(page))
+    page.locator("#more").click()
+    assert numbers(page) == FEW[door]
+    assert serious(page) == []
+
+
+def test_numbers_are_as_people_say_them_and_all_digits_are_with_the_evidence(visit: Any) -> None:
+    page = visit("?door=contest&time=end")
+    expect(page.locator("#first-contact .value")).to_have_text("✕Contact at 412.47 s")
+    expect(page.locator("#minimum-pitch .value")).to_have_text("45.0 cm")
+    expect(page.locator("#clock")).to_have_text("412.47 s")
+    expect(page.locator("#minimum-pitch button")).to_be_hidden()
+    for box, digits in (("#first-contact", "412.473838 s"), ("#minimum-pitch", "0.450337393 m")):
+        page.locator(f"{box} summary").click()
+        expect(page.locator(f"{box} dd").first).to_have_text(digits)
+    expect(page.locator("#minimum-pitch button")).to_be_visible()
+    page.locator("[data-door=all]:visible").click()
+    expect(page.locator("#first-contact .value")).to_have_text("✕Contact at 412.473838 s")
+
+
+def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any) -> None:
+    page = visit(f"?door=village{ROUTE}&limit=0.5")
+    expect(page.locator("#judgement")).to_have_attribute("data-outcome", "contact")
+    expect(page.locator("#judgement")).to_contain_text("It starts at 19:29:46 and ends at 19:30:50")
+    expect(page.locator("#first-contact .value")).to_have_text("✓Benches with each other: never touch")
+    # Nothing green stands beside a red verdict.
+    colour = "one => getComputedStyle(one).color"
+    text = page.locator("body").evaluate(colour)
+    assert page.locator("#first-contact .value").evaluate(colour) == text
+    order = page.evaluate("[...document.querySelectorAll('#judgement, #benches')].map((one) => one.id)")
+    assert order == ["judgement", "benches"]
+
+
+def test_the_dragon_on_a_long_route_is_no_hairline(visit: Any, picture: Any) -> None:
+    page = visit(f"?door=village{ROUTE}&view=30,0,3")
+    settled(page)
+    pixels = picture(page)
+    height, width = pixels.shape[:2]
+    # A bench is 0.3 m wide, one pixel at this scale; it is drawn at least 5 pixels wide.
+    column = pixels[:, width // 2, :3]
+    red = (column[:, 0] > 0.4) & (column[:, 2] < 0.6 * column[:, 0])
+    assert 5 <= red.sum() < 0.1 * height
+
+
+def test_on_a_phone_every_door_fits_and_a_finger_hits_every_control(visit: Any) -> None:
+    narrow = """[...document.querySelectorAll("button, select, input, a")]
+      .filter((one) => one.checkVisibility() && !one.matches(".skip, [type=checkbox], [type=file]"))
+      .filter((one) => one.getBoundingClientRect().height < 43.5 || one.getBoundingClientRect().right > innerWidth + 1)
+      .map((one) => one.outerHTML)"""
+    for door in ("contest", "village", "look", "arrival"):
+        page = visit(f"?door={door}{ROUTE if door == 'village' else '&benches=20&time=0'}", **PHONE)
+        settled(page)
+        for language in ("zh", "en"):
+            page.locator(f"[data-lang={language}]").tap()
+            assert page.evaluate("document.documentElement.scrollWidth") <= 390, door
+            assert page.evaluate(narrow) == [], door
+            assert "undefined" not in page.locator("body").inner_text()
