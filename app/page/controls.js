@@ -64,10 +64,10 @@ export class Controls {
     const acts = { oninput: (event) => typing.begin(TYPING, () => change(event)), onchange: change };
     const described = { "aria-describedby": `${name}-help ${name}-limits ${name}-error` };
     const row = {
-      text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, ...acts, ...described }),
-      slider: make("input", { type: "range", min, max, step }),
+      text: make("input", { id: name, inputMode: "decimal", autocomplete: "off", spellcheck: false, onkeydown: (event) => this.#key(event, name), ...acts, ...described }),
+      slider: make("input", { type: "range", tabIndex: -1, min, max, step }),
       ends: ENDS.map((end) => this.#end(name, end, end === "min" ? min : max)),
-      reset: button({ className: "reset", textContent: "↺" }, () => this.state.reset([name])),
+      reset: button({ className: "reset", tabIndex: -1, textContent: "↺" }, () => this.state.reset([name])),
       unit: make("span", { className: "unit" }),
       limits: make("span", { id: `${name}-limits`, className: "limits" }),
       error: make("p", { id: `${name}-error`, className: "error", hidden: true }),
@@ -82,6 +82,17 @@ export class Controls {
     return row.box;
   }
 
+  /** A number is one Tab stop: its arrow keys move the slider, and Escape resets it. */
+  #key(event, name) {
+    const { slider } = this.#rows.get(name);
+    if (event.key === "Escape") this.state.reset([name]);
+    else if (event.key === "ArrowUp") slider.stepUp();
+    else if (event.key === "ArrowDown") slider.stepDown();
+    else return;
+    event.preventDefault();
+    if (event.key !== "Escape") slider.dispatchEvent(new Event("input"));
+  }
+
   /** The field for one end of a slider. */
   #end(name, end, value) {
     const onchange = ({ target: field }) => {
@@ -90,7 +101,7 @@ export class Controls {
       if (field.value.trim() && low < high) slider[end] = end === "min" ? low : high;
       this.#show(name);
     };
-    return make("input", { className: "end", inputMode: "decimal", autocomplete: "off", value, onchange });
+    return make("input", { className: "end", tabIndex: -1, inputMode: "decimal", autocomplete: "off", value, onchange });
   }
 
   /** Show only the numbers of this path. */

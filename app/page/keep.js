@@ -4,7 +4,7 @@ import { Problem } from "./api.js";
 import { $, button, download, make, onClick } from "./elements.js";
 import { CONTACT, DRAGON, TURN, strayOf } from "./fields.js";
 import { bearer } from "./jobs.js";
-import { announce, announceRefusal } from "./overlays.js";
+import { announce, announceRefusal, copy } from "./overlays.js";
 import { isPlain } from "./questions.js";
 import { language, say } from "./text.js";
 
@@ -95,19 +95,14 @@ const REQUESTS = {
 export class Keep {
   /**
    * jobs: makes films
-   * @param {{ state: State, service: Service, questions: Questions, jobs: Jobs, canvas: any }} parts
+   * @param {{ service: Service, questions: Questions, jobs: Jobs, canvas: any }} parts
    */
-  constructor({ state, service, questions, jobs, canvas }) {
+  constructor({ service, questions, jobs, canvas }) {
     this.service = service;
     this.questions = questions;
     this.jobs = jobs;
     this.canvas = canvas;
-    onClick("#share", () => {
-      state.write();
-      // An address without anything opens in motion.
-      this.#copy(location.href + (location.search || state.get("time") !== null ? "" : "?time=end"));
-    });
-    onClick("#copy-curl", () => this.#copy($("#curl").textContent));
+    onClick("#copy-curl", () => copy($("#curl").textContent));
     $("#kept").append(...ITEMS.map((item) => this.#row(item)));
     const keys = [SHOWN, ...ITEMS.filter(({ ask }) => ask).map(({ key }) => key), PROOF];
     $("#curl-of").append(...keys.map((key) => make("option", { value: key, "data-text": key })));
@@ -167,11 +162,6 @@ export class Keep {
     const known = names.filter((name) => numbers[name] !== undefined).map((name) => `--${name.replaceAll("_", "-")} ${numbers[name]}`);
     if (kind === "turn") known.push(`--start=${begin}`, `--stop=${end}`);
     return `bench-dragon prove ${claim} ${known.join(" ")}\nbench-dragon prove --check ${claim}.proof.json`;
-  }
-
-  async #copy(text) {
-    const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
-    announce(() => say(copied ? "copied" : "copyFailed"));
   }
 
   async #save(item, form) {

@@ -30,6 +30,12 @@ export function announce(words, stays = false) {
   if (!stays) timer = setTimeout(end, Math.max(SHOWN_FOR, LETTER * box.textContent.length));
 }
 
+/** Copy a text, and say whether the browser allowed it: without HTTPS many do not. */
+export async function copy(text) {
+  const copied = await navigator.clipboard?.writeText(text).then(() => true, () => false);
+  announce(() => say(copied ? "copied" : "copyFailed"));
+}
+
 /** Show the refusal of a question that a person has asked, if it was refused. throws: any other error */
 export function announceRefusal(error) {
   if (error instanceof Problem) announce(() => refusalWords(error.problem).textContent);

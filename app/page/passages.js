@@ -49,6 +49,12 @@ export function beginsOf(passages, after) {
   return begins;
 }
 
+/** Seconds from one time of day to the next occurrence of another, or back to one less than half a day before. */
+export function secondsBetween(from, to) {
+  const [start, end] = [from, to].map((clock) => clock.split(":").reduce((sum, part, k) => sum + Number(part) * [HOUR, MINUTE, 1][k], 0));
+  return ((end - start + 1.5 * DAY) % DAY) - DAY / 2;
+}
+
 /** The time of day at a time of the dance [s], down to the whole second; clock: that at time 0, such as 19:30 */
 export function timeOfDay(time, clock) {
   const [hours, minutes, seconds = 0] = clock.split(":").map(Number);

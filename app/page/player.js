@@ -1,7 +1,8 @@
 /** The clock of the dance: plays, steps, scrubs, and stops at first contact. */
 
-import { $, onClick, onSlide } from "./elements.js";
+import { $, make, numberIn, onClick, onSlide } from "./elements.js";
 import { announce } from "./overlays.js";
+import { clockIn, secondsBetween } from "./passages.js";
 import { pending } from "./pending.js";
 import { RATES } from "./state.js";
 import { refusalWords, say } from "./text.js";
@@ -38,6 +39,7 @@ export class Player {
     onClick("#on", () => this.#step(1));
     onClick("#to-end", () => this.seek(Infinity));
     onSlide($("#time"), () => this.seek(Number($("#time").value)));
+    onClick("#clock", () => this.#typeTime());
     $("#rate").append(...RATES.map((rate) => new Option(`${rate}×`, String(rate))));
     $("#rate").addEventListener("change", (event) => state.set({ rate: Number(event.target.value) }));
   }
@@ -64,6 +66,37 @@ export class Player {
   seek(time) {
     const { begin, end } = this.#span;
     this.state.set({ time: time >= end ? null : Math.max(begin, time) });
+  }
+
+  /** Let a person type the time in place of the clock: in seconds, or a time of day if the start has one. */
+  #typeTime() {
+    if (this.#playing) this.#stop();
+    const clock = $("#clock");
+    const field = make("input", { id: "typed-time", inputMode: "decimal", autocomplete: "off", value: clock.textContent.split(" ")[0], "aria-label": say("typeTime") });
+    const end = () => {
+      field.onblur = null;
+      clock.hidden = false;
+      field.remove();
+    };
+    const take = () => {
+      const start = this.state.get("start_clock");
+      const [time, day] = [numberIn(field.value), start && clockIn(field.value)];
+      end();
+      if (typeof time === "number") this.seek(time);
+      else if (day) this.seek(secondsBetween(start, day));
+      else announce(() => say("timeWrong", { clock: start ? say("orClock") : "" }));
+    };
+    field.onkeydown = (event) => {
+      if (event.key === "Enter") take();
+      else if (event.key === "Escape") end();
+      else return;
+      event.preventDefault(); // Enter would press the clock.
+      clock.focus();
+    };
+    field.onblur = take;
+    clock.hidden = true;
+    clock.after(field);
+    field.select();
   }
 
   #step(seconds) {

@@ -130,8 +130,10 @@ export class State {
 
   write() {
     this.#writing.end();
-    const query = new URLSearchParams();
     const { drawing, csv, ...others } = this.#values;
+    // An address without anything is that of the doors.
+    const rest = Object.keys(others).every((name) => name === "lang" || others[name] === this.initial(name));
+    const query = new URLSearchParams(rest && !csv ? { door: "all" } : {});
     for (const [name, value] of Object.entries(others)) {
       if (value === this.initial(name)) continue;
       query.set(name, { view: () => value.map((one) => +one.toPrecision(6)), time: () => +value.toFixed(9) }[name]?.() ?? value);

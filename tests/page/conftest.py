@@ -57,7 +57,8 @@ GO = """(query) => {
 # Chromium's own message about a failed request; only tests that make one fail may see it.
 FAILED_REQUEST = "Failed to load resource"
 # But where many tests share a machine, any request may find the service busy: the page then comes again by itself.
-BUSY = f"{FAILED_REQUEST}: the server responded with a status of 503 (Service Unavailable)"
+REFUSED = f"{FAILED_REQUEST}: the server responded with a status of "
+BUSY = (f"{REFUSED}503 (Service Unavailable)", f"{REFUSED}429 (Too Many Requests)")
 
 
 @pytest.fixture(scope="session")
@@ -92,7 +93,7 @@ class Watched:
     failing: bool = False  # requests of this page are meant to fail
 
     def check(self) -> None:
-        told, asked = [line for line in self.told if line != BUSY], list(self.asked)
+        told, asked = [line for line in self.told if line not in BUSY], list(self.asked)
         self.told.clear()
         self.asked.clear()
         assert [line for line in told if not (self.failing and line.startswith(FAILED_REQUEST))] == []

@@ -401,5 +401,6 @@ def test_a_link_to_the_end_of_the_dance_opens_there_and_not_in_motion(open_page:
     page.get_by_role("button", name="Reset all").click()
     settled(page)
     page.locator("#share").click()
+    page.locator("#copy-address").click()
     page.locator("#status", has_text="Copied").wait_for()
-    assert page.evaluate("navigator.clipboard.readText()").endswith("/?time=end")
+    assert page.evaluate("navigator.clipboard.readText()").endswith("/?door=all")

@@ -10,7 +10,9 @@ from playwright.sync_api import expect
 
 from tests.support.axe import serious
 from tests.support.pending import settled
+from tests.support.qr_reader import read_qr
 
+EASY = "?benches=5&time=end"
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 FEW = {
     "contest": ["pitch", "turning_diameter", "benches", "stray"],
@@ -116,3 +118,67 @@ def test_on_a_phone_every_door_fits_and_a_finger_hits_every_control(visit: Any) 
             assert page.evaluate("document.documentElement.scrollWidth") <= 390, door
             assert page.evaluate(narrow) == [], door
             assert "undefined" not in page.locator("body").inner_text()
+
+
+MODULES = """canvas => {
+  const size = canvas.width / 4 - 8;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const isDark = (x, y) => data[4 * ((4 * y + 18) * canvas.width + 4 * x + 18)] < 128;
+  return Array.from({ length: size }, (_, y) => Array.from({ length: size }, (_, x) => isDark(x, y)));
+}"""
+
+
+@pytest.mark.parametrize("query", ["?benches=5&time=1", f"?door=village{ROUTE}"], ids=["short", "village"])
+def test_an_address_is_shared_without_a_clipboard(open_page: Any, query: str) -> None:
+    page = open_page(query)
+    settled(page)
+    page.locator("#share").click()
+    address = page.locator("#address").input_value()
+    assert address == page.url
+    assert len(address) < 500
+    # It is selected, so that it can be copied by hand; and a phone can read it.
+    assert page.evaluate("getSelection().toString() || document.activeElement.value") == address
+    assert read_qr(page.locator("#qr").evaluate(MODULES)) == address
+    assert serious(page, "#sharing") == []
+    page.keyboard.press("Escape")
+    expect(page.locator("#sharing")).to_be_hidden()
+
+
+def test_qr_codes_of_every_length_can_be_read_and_a_too_long_text_has_none(visit: Any) -> None:
+    code = "text => import('/page/qr.js').then(({ qrCode }) => qrCode(text))"
+    for length in (1, 17, 18, 107, 135, 155, 231, 272, 369, 500, 584, 640):
+        text = "https://dragon.example/?a=1,2_龙".ljust(length, "x")[:length]
+        assert read_qr(visit(EASY).evaluate(code, text)) == text
+    assert visit(EASY).evaluate(code, "x" * 1300) is None
+
+
+def test_a_time_can_be_typed_in_seconds_or_as_a_time_of_day(visit: Any) -> None:
+    page = visit(f"?door=village{ROUTE}")
+    settled(page)
+    for typed, clock in (("12,5", "12.50 s"), ("19:30:20", "20.00 s"), ("19:29:55", "-5.00 s"), ("999", "50.00 s")):
+        page.locator("#clock").click()
+        page.locator("#typed-time").fill(typed)
+        page.locator("#typed-time").press("Enter")
+        expect(page.locator("#clock")).to_contain_text(clock)
+        expect(page.locator("#clock")).to_be_focused()
+    page.locator("#clock").click()
+    page.locator("#typed-time").fill("soon")
+    page.locator("#typed-time").press("Enter")
+    expect(page.locator("#status")).to_contain_text("in seconds, such as 300, or as 19:31:00")
+    expect(page.locator("#clock")).to_contain_text("50.00 s")
+
+
+def test_a_number_is_one_tab_stop_with_arrow_keys_for_its_slider(visit: Any) -> None:
+    page = visit("?door=contest&benches=20")
+    settled(page)
+    page.locator("#pitch").focus()
+    for name in FEW["contest"][1:]:
+        page.keyboard.press("Tab")
+        expect(page.locator(f"#{name}")).to_be_focused()
+    page.locator("#benches").press("ArrowUp")
+    expect(page.locator("#benches")).to_have_value("21")
+    page.locator("#benches").press("ArrowDown")
+    page.locator("#benches").press("ArrowDown")
+    expect(page.locator("#benches")).to_have_value("19")
+    page.locator("#benches").press("Escape")
+    expect(page.locator("#benches")).to_have_value("223")
