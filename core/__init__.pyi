@@ -57,6 +57,10 @@ from .paths.pieces import Arc, Coil, Line, Piece, Waypoints
 from .paths.route import Route
 from .paths.spiral import Spiral
 from .paths.turn import Turn
+from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
+from .proposal.figures import Figure
+from .proposal.gates import Gate
+from .proposal.propose import propose
 from .shapes.engines import Engine
 from .shapes.overlaps import CrossCheck, Overlaps, Verdict, cross_check, overlaps, separation, verdicts
 from .shapes.rectangles import Separation, bench_outlines, bench_poses
@@ -97,8 +101,10 @@ __all__ = [
     "Failure",
     "FailureKind",
     "Feature",
+    "Figure",
     "FirstContact",
     "FirstExcess",
+    "Gate",
     "Given",
     "Graze",
     "GroundClaim",
@@ -115,7 +121,9 @@ __all__ = [
     "MaximumHeadSpeed",
     "MinimumPitch",
     "Misplaced",
+    "Near",
     "Nearest",
+    "Objective",
     "Outcome",
     "OutsideRun",
     "Overlaps",
@@ -126,7 +134,11 @@ __all__ = [
     "PitchScan",
     "ProbabilityClaim",
     "ProofRefused",
+    "Proposal",
+    "Proposals",
     "Quantity",
+    "Reason",
+    "ReasonKind",
     "Report",
     "Route",
     "RunEnd",
@@ -172,6 +184,7 @@ __all__ = [
     "overlaps",
     "pitch_check",
     "pitch_scan",
+    "propose",
     "quick_check",
     "quickest_turn",
     "separation",

@@ -47,6 +47,7 @@ ROOMS = {
     "contact-probability": "strays",
     "maximum-head-speed": "designs",
     "check": "check",
+    "propose": "propose",
     "overlaps": "overlaps",
     "paper": "paper",
     "serve": "serve",

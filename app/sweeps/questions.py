@@ -180,6 +180,7 @@ NO_ROWS = {
     "tolerance_curve": "it is a sweep itself: sweep tolerance over pitch",
     "envelope": "its answer is polygons: sweep check with a venue",
     "course": "its answer is a drawn path: sweep check",
+    "proposals": "its answers are dances: sweep check",
     "paper": "it takes no parameters",
     **{name: PICTURE for name, question in KNOWN.items() if question.model is None},
 }

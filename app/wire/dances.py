@@ -241,8 +241,8 @@ def _inside(outer: Any) -> list[Any]:
     return [inner for inner in entries if isinstance(inner, (dict, list))]
 
 
-class PlacedDance(DanceFields):
-    """A dance and its venue."""
+class VenueFields(Wire):
+    """A venue, and the unit of its coordinates."""
 
     venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
         None,
@@ -267,3 +267,7 @@ class PlacedDance(DanceFields):
                 raise InvalidValue("coordinates", rule + advice, unit=self.coordinates)
             return Place()
         return place_of(self.venue, self.coordinates, dragon)
+
+
+class PlacedDance(VenueFields, DanceFields):
+    """A dance and its venue."""

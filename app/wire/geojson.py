@@ -10,6 +10,7 @@ within 0.1 s.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -86,6 +87,20 @@ def geometry_of(envelope: Envelope) -> dict[str, object]:
     if len(several) == 1:
         return {"type": "Polygon", "coordinates": several[0]}
     return {"type": "MultiPolygon", "coordinates": several}
+
+
+def venue_geometry(venue: Venue, origin: Any = None) -> dict[str, object]:
+    """A venue in metres, the square first. origin: its longitude and latitude [degrees], None if unknown"""
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"name": area.name},
+            "geometry": {"type": "Polygon", "coordinates": [[list(point) for point in ring] for ring in area.rings]},
+        }
+        for area in venue.areas
+    ]
+    place = {} if origin is None else {"origin": {"longitude": origin.longitude, "latitude": origin.latitude}}
+    return {"type": "FeatureCollection", **place, "features": features}
 
 
 def _polygons(field: str, geometry: object, depth: int = 0) -> list[FoundPolygon]:

@@ -246,3 +246,15 @@ AnyPath = Annotated[
     Field(json_schema_extra={"discriminator": {"propertyName": "kind", "mapping": BY_KIND}}),
 ]
 KINDS = frozenset({*BY_KIND, "line", "arc", "coil"})
+
+
+def path_of(route: Route) -> dict[str, Any]:
+    """A route of lines, arcs and coils in a body."""
+    return {"kind": "route", "start": route.start, "pieces": [_body_of(piece) for piece in route.pieces]}
+
+
+def _body_of(piece: core.Piece) -> dict[str, Any]:
+    fields = ("pitch", "radius", "start_angle", "sweep", "start_turns", "end_turns", "rotation")
+    body: dict[str, Any] = {"kind": type(piece).__name__.lower()}
+    body |= {name: list(getattr(piece, name)) for name in ("start", "end", "centre") if hasattr(piece, name)}
+    return body | {name: getattr(piece, name) for name in fields if hasattr(piece, name)}

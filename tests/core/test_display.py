@@ -72,6 +72,9 @@ def results() -> Iterator[Any]:
     yield from (chance, chance.claim)
     drawn = core.course(core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0), Dragon(2))
     yield from (drawn, *drawn.bends)
+    proposals = core.propose(SQUARE, Dragon(6), figures=["ring"], count=1)
+    yield from (proposals, proposals.proposals[0], proposals.proposals[0].near)
+    yield core.propose(SQUARE, Dragon(150), figures=["ring"]).reason
     yield core.Misplaced("well", 3, (1.0, 2.0))
     overlaps = core.overlaps(*THREE)
     checked = core.cross_check(*THREE)
@@ -88,6 +91,7 @@ INPUTS = [
     Spiral(centre=(7.0, -2.0), clockwise=False),
     core.Passage(0.5, until_s=20.0),
     core.Stray(0.02, 0.055, 0.05),
+    core.Gate((-20.0, 3.0), 0.1),
     core.Wobble(lateral=0.02, pitch_error=0.001),
     Line((0.0, 1.0), (2.0, 3.0)),
     Arc((0.0, 0.0), 4.5, 0.25, -1.5),

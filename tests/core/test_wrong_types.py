@@ -50,6 +50,17 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     },
     core.pitch_check: {"minimum": PITCH, "dragon": DRAGON, "margin": 0.0},
     core.pitch_scan: {"dragon": DRAGON, "pitches": [0.5, 0.6], "start_turns": 8.0, "margin": 0.0},
+    core.propose: {
+        "venue": SQUARE,
+        "dragon": DRAGON,
+        "gates": [core.Gate((-30.0, 0.0), 0.0)],
+        "figures": ["ring"],
+        "stray": 0.02,
+        "margin": 0.0,
+        "speed_limit": 2.0,
+        "objective": "tolerance",
+        "count": 1,
+    },
     core.quick_check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},
     core.separation: {"poses_a": POSES, "sizes_a": [2.0, 1.0], "poses_b": POSES, "sizes_b": [2.0, 1.0]},
     core.sharpest_bend: {"dance": DANCE, "start": 0.0, "stop": 9.0},
@@ -73,6 +84,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.Dance: {"dragon": DRAGON, "path": SPIRAL, "head_speed": 1.0},
     core.Dragon: {"benches": 5, "head_length": 3.0, "body_length": 2.0, "width": 0.3, "overhang": 0.2},
     core.Dragon.of: {"lengths": COLUMN, "widths": COLUMN, "overhangs": [0.2, 0.2]},
+    core.Gate: {"point": (0.0, 0.0), "heading": 0.5},
     core.Legs: {"points": ((0, 0), (9, 0), (9, 9)), "straight": [0, 1], "radius": 4.0, "start": 1.0},
     core.Line: {"start": (0, 0), "end": (60, 0)},
     core.Route: {"pieces": [Line((0, 0), (60, 0))], "start": 0.0},
@@ -87,6 +99,7 @@ SPOKEN = {
     core.Coil: dict.fromkeys(CALLS[core.Coil], "coil."),
     core.Dragon: dict.fromkeys(CALLS[core.Dragon], "dragon."),
     core.Dragon.of: dict.fromkeys(CALLS[core.Dragon.of], "dragon."),
+    core.Gate: dict.fromkeys(CALLS[core.Gate], "gate."),
     core.Legs: dict.fromkeys(CALLS[core.Legs], "path."),
     core.Line: dict.fromkeys(CALLS[core.Line], "line."),
     core.Route: {"pieces": "path.pieces", "start": "path.start"},
@@ -116,13 +129,14 @@ WRONG = {
 ALLOWED = {
     ("nothing", name)
     for name in ("venue", "speed_limit", "start", "step", "stop", "entry_radius", "exit_radius", "ratio")
-} | {("nothing", name) for name in ("start_heading", "end_heading")}
+} | {("nothing", name) for name in ("start_heading", "end_heading", "gates", "figures")}
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 
 
 # Places where nothing is refused although it is taken elsewhere.
 SPELLED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
 SPELLED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
+SPELLED |= {(core.propose, "venue")}
 SPELLED |= {(core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
 
 

@@ -1,0 +1,162 @@
+"""The question proposals: dances that fit into a square."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import Field
+
+import core
+from app.wire.dances import DragonFields, VenueFields
+from app.wire.degrees import Origin, Place
+from app.wire.geojson import venue_geometry
+from app.wire.paths import Point, path_of
+from app.wire.question import Angle, Answer, Margin, Question, SpeedLimit, Terms, Whole, Wire, measure
+from core.proposal.gates import GATES_MAX
+from core.proposal.propose import COUNT_MOST
+
+# Time for a village square with gates [s], measured 2026-11-27.
+SECONDS = 6.0
+
+
+class GateBody(Wire, strict=True):
+    """A gate on the border of the square, with a straight street beyond it."""
+
+    point: Point = measure("m", "Place on the border of the square, x and y")
+    heading: Angle = measure("rad", "Direction of those who enter there, counter-clockwise from the x axis")
+
+    def to_gate(self) -> core.Gate:
+        return core.Gate((self.point[0], self.point[1]), self.heading)
+
+
+class ProposalsRequest(VenueFields, DragonFields, strict=True):
+    """A square, a dragon, and what its dances shall keep."""
+
+    gates: list[GateBody] = Field(
+        default_factory=list,
+        max_length=GATES_MAX,
+        description="Gates at which a dance begins and ends, with the dragon in the street beyond; default: the whole "
+        "dragon stands in the square",
+    )
+    figures: list[core.Figure] | None = Field(
+        None,
+        min_length=1,
+        strict=False,
+        description="Figures to try: spiral (in and out, with the turn between), eight, serpentine, ring, parade (from "
+        "gate to gate); default: all that are possible",
+    )
+    stray: float = measure("m", "Largest distance of a person from their place that must be safe", 0.05, ge=0, le=25)
+    margin: Margin = 0.0
+    speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; default: no limit", None)
+    objective: core.Objective = Field(
+        core.Objective.TOLERANCE,
+        strict=False,
+        description="What is best. tolerance: the largest proven stray; benches: the most benches; turns: the most "
+        "turns of the head; duration: the longest dance",
+    )
+    count: Annotated[Whole, Field(ge=1, le=COUNT_MOST, description="Number of proposals")] = 3
+
+
+class Near(Answer):
+    """What the benches come nearest to."""
+
+    name: str = Field(description="Name of the square or of the obstacle")
+    distance: float = measure("m", "Smallest distance found")
+    time: float = measure("s", "Time at which it is reached")
+
+
+class Proposal(Answer):
+    """A dance that fits, which passes its check."""
+
+    figure: core.Figure = Field(description="Figure of the dance")
+    dance: dict[str, Any] = Field(description="The dance with its venue and limits, as a body of POST /check")
+    tolerance: float = measure("m", "Largest stray of people that is proven safe, without the margin")
+    duration: float = measure("s", "Time from its start, with the whole dragon on its path, to its end")
+    length: float = measure("m", "Way of the head in this time")
+    area: float = measure("m2", "Area of the ground that benches sweep, which reaches at most 0.1 m beyond them")
+    turns: float = measure("turns", "Turns of the head, all bends added up")
+    sharpest_bend: float | None = measure("rad", "Largest angle of two consecutive benches; null for a single bench")
+    clearance: float | None = measure("m", "Least distance of two benches; null with fewer than three")
+    highest_speed: float | None = measure("m/s", "Highest speed of any handle")
+    near: Near = Field(description="What the benches come nearest to")
+    gates: list[int] = Field(description="Numbers of the gates by which it enters and leaves; none without gates")
+    summary: str = Field(description="The proposal in one sentence")
+
+    @classmethod
+    def of(cls, result: core.Proposal, body: dict[str, Any]) -> Self:
+        speed = result.report.highest_speed
+        return cls.known(result, dance=body, highest_speed=speed and speed.speed, summary=result.message)
+
+
+class Proposals(Answer):
+    """Dances that fit, the best one of those that were tried first; none is proven to be the best there is."""
+
+    proposals: list[Proposal] = Field(description="The proposals; none if no dance passes")
+    tried: int = Field(description="Dances that were laid out and measured")
+    checked: int = Field(description="Of these, dances that a check judged")
+    reason: str | None = Field(description="Why there is none, in one sentence; null if there is one")
+    reason_kind: core.ReasonKind | None = Field(
+        description="area: the benches cover more than the square has; width: nowhere is room for a turn; way: no way "
+        "between the gates is wide enough; stray: only a smaller stray is possible; benches: only a shorter dragon "
+        "fits; fails: none of the dances that were tried passes"
+    )
+    most_benches: int | None = Field(
+        description="Proven: no dragon of this kind with more benches fits, by the area of the square; null with gates"
+    )
+    summary: str = Field(description="The answer in one sentence")
+
+
+def proposals(asked: ProposalsRequest, terms: Terms) -> Proposals:
+    """Dances that fit into a square, the best first, each certified by a check; or the reason why none does."""
+    return answer_of(asked, *proposed(asked, terms))
+
+
+def answer_of(asked: ProposalsRequest, result: core.Proposals, place: Place) -> Proposals:
+    """The answer with the proposals of core."""
+    bodies = [Proposal.of(one, body_of(asked, one, place.origin)) for one in result.proposals]
+    reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
+    return Proposals.known(result, proposals=bodies, reason=reason, reason_kind=kind, summary=result.message)
+
+
+def proposed(asked: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:
+    """The proposals as objects of core, and the place of the venue. raises: TooLarge, InvalidValue"""
+    dragon = asked.to_dragon(terms.settings.checked_benches_max)
+    place = asked.to_place(dragon)
+    if place.venue is None:
+        raise core.InvalidValue("venue", "must be given: a dance is proposed for a square")
+    gates = [gate.to_gate() for gate in asked.gates]
+    limits: dict[str, Any] = {"stray": asked.stray, "margin": asked.margin, "speed_limit": asked.speed_limit}
+    wish: dict[str, Any] = {"objective": asked.objective, "count": asked.count}
+    result = core.propose(
+        place.venue, dragon, gates=gates, figures=asked.figures, budget=terms.budget, **wish, **limits
+    )
+    return result, place
+
+
+def body_of(asked: ProposalsRequest, one: core.Proposal, origin: Origin | None) -> dict[str, Any]:
+    """The body of POST /check for a proposal, with the limits that were asked for."""
+    body = {
+        "dragon": dragon_of(one.dance.dragon),
+        "path": path_of(one.dance.path.as_route(one.dance.path.end)),
+        "head_speed": one.dance.head_speed,
+        "venue": venue_geometry(one.venue, origin),
+        "margin": asked.margin,
+        "stray": asked.stray,
+        "start": 0.0,
+    }
+    return body if asked.speed_limit is None else {**body, "speed_limit": asked.speed_limit}
+
+
+def dragon_of(dragon: core.Dragon) -> dict[str, Any]:
+    """A dragon in a body: bench by bench, unless all but the head are alike."""
+    names = {"names": list(dragon.names)} if dragon.names else {}
+    summary = core.DragonSummary.of(dragon)
+    if summary.head_length is None:
+        columns = {"lengths": dragon.lengths, "widths": dragon.widths, "overhangs": dragon.overhangs}
+        return {name: column.tolist() for name, column in columns.items()} | names
+    body = summary.body_length or summary.head_length
+    sizes = {"width": summary.width, "overhang": summary.overhang}
+    return {"benches": dragon.benches, "head_length": summary.head_length, "body_length": body, **sizes, **names}
+
+
+QUESTION = Question(proposals, Proposals, body=ProposalsRequest, cost=lambda asked: SECONDS)

@@ -1,0 +1,191 @@
+"""Proposals: the dances that fit with what is good and what is tight about each, and the reason where there is none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from core.dance import Dance
+from core.display import Readable, display
+from core.errors import format_number
+from core.judgement import Report
+from core.proposal.figures import Figure
+from core.venue import Venue
+
+
+class Objective(StrEnum):
+    """What makes one proposal better than another. TOLERANCE: the stray of people that is proven safe; BENCHES: how
+    many benches can dance; TURNS: how often the head turns around; DURATION: how long the dance takes."""
+
+    TOLERANCE = "tolerance"
+    BENCHES = "benches"
+    TURNS = "turns"
+    DURATION = "duration"
+
+
+class ReasonKind(StrEnum):
+    """Why no dance is proposed. AREA: the benches cover more than the square has; WIDTH: nowhere is room for a turn;
+    WAY: no way between two gates is wide enough; STRAY: the best dance allows a smaller stray than wanted; BENCHES: a
+    dragon of fewer benches fits; FAILS: none of the dances that were tried passes its check."""
+
+    AREA = "area"
+    WIDTH = "width"
+    WAY = "way"
+    STRAY = "stray"
+    BENCHES = "benches"
+    FAILS = "fails"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Reason(Readable):
+    """Why no dance is proposed: what there is and what it takes, in the unit of the kind.
+
+    have, need: AREA [m2]; WIDTH, WAY, STRAY [m]; BENCHES: numbers of benches; FAILS: None
+    figure: the one that comes nearest, None for AREA, WIDTH and WAY; who: bench that needs the width, or both gates
+    failure: the sentence on its first failure, for FAILS
+    AREA is proven, and so is the width that there is; the others are about the dances that were tried.
+    """
+
+    kind: ReasonKind
+    tried: int
+    have: float | None = None
+    need: float | None = None
+    figure: Figure | None = None
+    who: tuple[int, ...] = ()
+    failure: str = ""
+    _units = {"have": "", "need": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    @property
+    def message(self) -> str:
+        """The reason in one sentence."""
+        have, need, figure = self.have or 0.0, self.need or 0.0, NAMES.get(self.figure or Figure.RING, "")
+        if self.kind is ReasonKind.AREA:
+            return f"The benches cover at least {need:.1f} m2 at any moment; the square has {have:.1f} m2."
+        if self.kind is ReasonKind.WIDTH:
+            bench = "the head bench" if self.who == (0,) else f"bench {self.who[0]}"
+            return f"The widest free circle is {have:.2f} m across; a turn of {bench} needs {need:.2f} m."
+        if self.kind is ReasonKind.WAY:
+            gates = f"gate {self.who[0]} and gate {self.who[1]}"
+            return (
+                f"The free ground between {gates} is {have:.2f} m wide at its narrowest; the benches need {need:.2f} m."
+            )
+        if self.kind is ReasonKind.STRAY:
+            best = f"the best of {self.tried} tried, {figure}, allows {have:.3f} m"
+            return f"People shall be free to stray {format_number(need)} m; {best}."
+        if self.kind is ReasonKind.BENCHES:
+            most = f"the longest dragon that was found to fit, in {figure}, has {have:.0f}"
+            return f"The dragon has {benches_of(int(need))}; {most}."
+        if not self.failure:
+            return f"None of {self.tried} tried has room for the whole dragon between the edges of the free ground."
+        return f"None of {self.tried} tried passes its check; the nearest, {figure}: {self.failure}"
+
+    def _line(self) -> str:
+        return self.message
+
+
+NAMES = {
+    Figure.SPIRAL: "a spiral",
+    Figure.EIGHT: "a figure eight",
+    Figure.SERPENTINE: "a serpentine",
+    Figure.RING: "a ring",
+    Figure.PARADE: "a parade",
+}
+
+
+def benches_of(count: int) -> str:
+    """A number of benches in words."""
+    return f"{count} {'bench' if count == 1 else 'benches'}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Near(Readable):
+    """What the benches come nearest to: the name of the square or of an obstacle, the distance [m], the time [s]."""
+
+    name: str
+    distance: float
+    time: float
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Proposal(Readable):
+    """A dance that fits, certified by its report.
+
+    dance: at time 0 the whole dragon is on its path; venue: with the streets in which it stands
+    report: of check(), which passes; margin, stray and speed limit are those that were asked for
+    tolerance: largest stray proven safe with no margin [m]; area: of the ground that benches sweep, GROUND too large at
+        most along its border [m2]; turns: that the head makes, all bends added up [1]
+    near: what the benches come nearest to; gates: numbers of the gates in and out, empty without
+    """
+
+    figure: Figure
+    dance: Dance
+    venue: Venue
+    report: Report
+    tolerance: float
+    area: float
+    turns: float
+    near: Near
+    gates: tuple[int, ...]
+    _units = {"area": "m2", "tolerance": "m", "turns": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    @property
+    def duration(self) -> float:
+        """Time from the beginning, with the whole dragon on its path, to the end of the path [s]."""
+        return self.report.stop - self.report.start
+
+    @property
+    def length(self) -> float:
+        """Way of the head in this time [m]."""
+        clock = self.dance.clock
+        return clock.travel(self.report.stop) - clock.travel(self.report.start)
+
+    @property
+    def clearance(self) -> float | None:
+        """Least distance of two benches [m]; None for fewer than three."""
+        least = self.report.least_clearance
+        return None if least is None else least.distance
+
+    @property
+    def sharpest_bend(self) -> float | None:
+        """Largest angle between two consecutive benches [rad]; None for a single bench."""
+        bend = self.report.sharpest_bend
+        return None if bend is None else bend.angle
+
+    @property
+    def message(self) -> str:
+        """The dance in one sentence."""
+        line = self._line()
+        return f"{line[0].upper()}{line[1:]}."
+
+    def _line(self) -> str:
+        benches = benches_of(self.dance.dragon.benches)
+        safe = f"strays up to {display(self.tolerance, 'm', 3)} are safe"
+        near = f"{display(self.near.distance, 'm', 3)} from {self.near.name!r}"
+        return f"{NAMES[self.figure]} of {benches}, {self.duration:.0f} s, {self.length:.0f} m; {safe}; {near}"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Proposals(Readable):
+    """Dances that fit, the best one first; not all that there are, and none is proven to be the best.
+
+    tried: number of dances that were laid out and measured; checked: of these, those that a check judged
+    reason: None if there is a proposal; most_benches: no dragon of more benches of this kind fits, by the area of the
+        square; None with gates, beyond which it may stand
+    """
+
+    proposals: tuple[Proposal, ...]
+    tried: int
+    checked: int
+    reason: Reason | None
+    most_benches: int | None
+
+    @property
+    def message(self) -> str:
+        """What was found in one sentence."""
+        if self.reason is not None:
+            return self.reason.message
+        return f"The best {len(self.proposals)} of {self.tried} tried, {self.checked} of them checked."
+
+    def _line(self) -> str:
+        first = f" First: {self.proposals[0]._line()}." if self.proposals else ""
+        return self.message + first

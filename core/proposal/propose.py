@@ -1,0 +1,266 @@
+"""Dances that fit into a square: propose, from the venue, the dragon and the gates to certified dances."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+from typing import Any, TypedDict, TypeVar, Unpack
+
+import numpy as np
+
+from core.contact.search import MARGIN_MAX
+from core.dance import Dance
+from core.dragon import Dragon, Stray, checked_stray
+from core.errors import (
+    Given,
+    InvalidValue,
+    TooMuchWork,
+    checked_list,
+    checked_number,
+    checked_type,
+    question_about,
+)
+from core.extremes.speed import checked_limit
+from core.kernels import Budget, Halted
+from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
+from core.proposal.designs import gate_poses
+from core.proposal.figures import Figure
+from core.proposal.gates import Gate, checked_gates
+from core.proposal.search import Rated, Search, Wish
+from core.tolerance.tolerance import tolerance
+from core.venue import Venue
+
+# Figures in the order in which they are tried: those that are soonest laid out first.
+ORDER = (Figure.RING, Figure.SPIRAL, Figure.EIGHT, Figure.SERPENTINE, Figure.PARADE)
+# Largest numbers of benches of a dragon, and of proposals [1].
+BENCHES_MOST, COUNT_MOST = 2_000, 12
+# Default work of a question, about a minute [1].
+PROPOSE_WORK = 3e8
+
+Kind = TypeVar("Kind", Figure, Objective)
+
+
+class Limits(TypedDict, total=False):
+    """What a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]."""
+
+    stray: float | Stray
+    margin: float
+    speed_limit: float | None
+
+
+@question_about("venue", Venue, "no dance was found")
+def propose(
+    venue: Venue,
+    dragon: Dragon,
+    *,
+    gates: Sequence[Gate] | None = None,
+    figures: Sequence[str] | None = None,
+    objective: str = "tolerance",
+    count: int = 3,
+    budget: Budget | None = None,
+    **limits: Unpack[Limits],
+) -> Proposals:
+    """Dances of a dragon that fit into a square, the best one first, each certified by check().
+
+    gates: on the border of the square; beyond each is a straight street, in which the dance begins or ends. Without
+        gates the whole dragon stands in the square
+    figures: those to try, all that are possible by default, see Figure; a parade needs two gates
+    stray: free for people, 0.05 m by default; margin: 0 [m]; speed_limit: of every handle, none by default [m/s]
+    objective: see Objective; for `benches` the dragon's last bench is left out or repeated; count: of proposals
+    returns: see Proposals; with a reason instead of a proposal where none of the dances that were tried passes
+    raises: InvalidValue; TooMuchWork if no dance was found within the budget, by default PROPOSE_WORK
+
+    >>> from core import Area
+    >>> hall = Venue(Area("hall", (((0, 0), (24, 0), (24, 20), (0, 20), (0, 0)),)))
+    >>> best = propose(hall, Dragon(12), figures=["ring"], count=1).proposals[0]
+    >>> best.report.passed, best.tolerance > 0.05
+    (True, True)
+    """
+    checked_type("dragon", dragon, Dragon)
+    wish = _wish(dragon, objective, limits)
+    doors = checked_gates(gates, venue)
+    kinds = _figures(figures, len(doors))
+    if checked_number("count", count, "", 1, COUNT_MOST) != int(count):
+        raise InvalidValue("count", "must be a whole number", got=Given(count))
+    if dragon.benches > BENCHES_MOST:
+        raise InvalidValue("dragon.benches", "must be at most {most}", got=dragon.benches, most=BENCHES_MOST)
+    work = (budget or Budget()).within(PROPOSE_WORK)
+    work.afford()
+    search = Search(venue, dragon, doors, wish, work)
+    most = None if doors else _area_bound(search, dragon)
+    if wish.objective is Objective.BENCHES:
+        return _most_benches(search, venue, kinds, int(count), most)
+    if most is not None and search.needs.least_area > search.ground.area:
+        lack = Reason(ReasonKind.AREA, 0, search.ground.area, search.needs.least_area)
+        return Proposals((), 0, 0, lack, most)
+    best = _collected(search, kinds, int(count))
+    reason = None if best else _reason(search, venue, kinds)
+    return Proposals(best, search.tried, search.checked, reason, most)
+
+
+def _wish(dragon: Dragon, objective: str, limits: Limits) -> Wish:
+    """The checked limits. raises: InvalidValue"""
+    unknown = [name for name in limits if name not in Limits.__annotations__]
+    if unknown:
+        raise TypeError(f"propose() got an unexpected keyword argument {unknown[0]!r}")
+    stray = checked_stray(limits.get("stray", 0.05), dragon)
+    margin = checked_number("margin", limits.get("margin", 0.0), "m", 0.0, MARGIN_MAX)
+    speed = limits.get("speed_limit")
+    return Wish(stray, margin, None if speed is None else checked_limit(speed), _one("objective", objective, Objective))
+
+
+def _one(name: str, value: str, kind: type[Kind]) -> Kind:
+    """The value as a member of an enumeration. raises: InvalidValue"""
+    try:
+        return kind(value)
+    except ValueError as error:
+        raise InvalidValue(name, "must be one of {names}", got=Given(value), names=", ".join(kind)) from error
+
+
+def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
+    """The figures to try, in ORDER. raises: InvalidValue"""
+    if figures is None:
+        return [figure for figure in ORDER if figure is not Figure.PARADE or gates > 1]
+    named = [
+        _one(f"figures.{k}", figure, Figure)
+        for k, figure in enumerate(checked_list("figures", figures, "a list of figures"))
+    ]
+    if not named:
+        raise InvalidValue("figures", "must name at least one figure")
+    if Figure.PARADE in named and gates < 2:
+        raise InvalidValue("figures", "must have two gates for a parade, which leads from one to the other", got=gates)
+    return [figure for figure in ORDER if figure in named]
+
+
+def _collected(search: Search, figures: Sequence[Figure], count: int) -> tuple[Proposal, ...]:
+    """The best proposals, each figure once before any twice. raises: TooMuchWork if none was found in time"""
+    proposals: list[Proposal] = []
+    try:
+        for proposal in search.proposals(figures, count):
+            proposals.append(proposal)
+            if len(proposals) >= max(count, len(figures)):
+                break
+    except (Halted, TooMuchWork):
+        if search.budget.stopped or not proposals:
+            raise
+    value = _VALUES[search.wish.objective]
+    firsts = {proposal.figure: proposal for proposal in reversed(proposals)}.values()
+    others = [proposal for proposal in proposals if all(proposal is not first for first in firsts)]
+    ranked = [*sorted(firsts, key=value, reverse=True), *sorted(others, key=value, reverse=True)][:count]
+    return tuple(sorted(ranked, key=value, reverse=True))
+
+
+_VALUES: dict[Objective, Callable[[Proposal], Any]] = {
+    Objective.TOLERANCE: lambda one: (one.tolerance, one.near.distance),
+    Objective.BENCHES: lambda one: (one.dance.dragon.benches, one.tolerance),
+    Objective.TURNS: lambda one: (one.turns, one.tolerance),
+    Objective.DURATION: lambda one: (one.duration, one.tolerance),
+}
+
+
+def _reason(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason:
+    """Why no dance was found, by the first cause that holds."""
+    needs, tried = search.needs, search.tried
+    _, _, _, most = search.ground.widest_circle()
+    if Figure.PARADE in figures:
+        inside = [gate_poses(gate, needs.chord)[0] for gate in search.gates]
+        pairs = list(combinations(range(len(inside)), 2))
+        widest, pair = max((search.ways.narrowest(inside[a], inside[b]), (a, b)) for a, b in pairs)
+        needed = 2.0 * (needs.straight_side + needs.free)
+        if widest < needed:
+            return Reason(ReasonKind.WAY, tried, widest, needed, who=pair)
+    if 2.0 * most < needs.turning_width:
+        bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
+        return Reason(ReasonKind.WIDTH, tried, 2.0 * most, needs.turning_width, who=(bench,))
+    return _less_stray(search, figures) or _fewer_benches(search, venue, figures) or _failing(search)
+
+
+def _less_stray(search: Search, figures: Sequence[Figure]) -> Reason | None:
+    """The reason that only a smaller stray is possible, with the largest one of the dances that were tried."""
+    wish, most = search.wish, None
+    if wish.stray == 0.0:
+        return None
+    search.wish = Wish(0.0, wish.margin, wish.speed_limit, Objective.TOLERANCE)
+    for figure in figures:
+        passing = search.first(search.ranked(figure))
+        if passing is not None:
+            stray = tolerance(passing[1], search.venue, start=0.0, budget=search.budget).stray
+            most = max(most or (0.0, figure), (stray, figure))
+    search.wish = wish
+    if most is None or not 0.0 < most[0] < wish.stray:
+        return None
+    return Reason(ReasonKind.STRAY, search.tried, most[0], wish.stray, most[1])
+
+
+def _fewer_benches(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason | None:
+    """The reason that only a shorter dragon fits, with the most benches that were found to."""
+    benches = search.dragon.benches
+    longest = _longest(venue, search, figures, (benches // 2, benches - 1))
+    if longest is None:
+        return None
+    fitting, (one, *_) = longest
+    most = float(fitting.dragon.benches)
+    return Reason(ReasonKind.BENCHES, search.tried, most, float(benches), one.design.figure)
+
+
+def _longest(
+    venue: Venue, like: Search, figures: Sequence[Figure], span: tuple[int, int]
+) -> tuple[Search, tuple[Rated, Dance, int]] | None:
+    """The search for the longest dragon that was found to fit, by doubling and by bisection, with a dance that passes.
+
+    like: a search for the same dragon and gates, whose numbers of tried dances grow
+    span: number of benches to begin with, and the largest one
+    returns: None if not even one bench fits
+    """
+    count, limit = span
+    low, high, best = 0, limit + 1, None
+    while high - low > 1:
+        count = min(max(count, low + 1), high - 1)
+        search = Search(venue, with_benches(like.dragon, count), like.gates, like.wish, like.budget)
+        every = (search.first(search.ranked(figure), briefly=True) for figure in figures)
+        passing = next((one for one in every if one is not None), None)
+        like.tried, like.checked = like.tried + search.tried, like.checked + search.checked
+        if passing is None:
+            high = count
+        else:
+            low, best = count, (search, passing)
+        count = 2 * count if high > limit else (low + high) // 2
+    return best
+
+
+def _failing(search: Search) -> Reason:
+    if search.nearest is None:
+        return Reason(ReasonKind.FAILS, search.tried)
+    one, report = search.nearest
+    failure = report.failures[0].message
+    return Reason(ReasonKind.FAILS, search.tried, figure=one.design.figure, failure=failure)
+
+
+def with_benches(dragon: Dragon, count: int) -> Dragon:
+    """The dragon with this number of benches: the last ones left out, or the last one repeated."""
+    if count <= dragon.benches:
+        return dragon.leading(count).named(())
+    more = count - dragon.benches
+    columns = (dragon.lengths, dragon.widths, dragon.overhangs)
+    return Dragon.of(*(np.concatenate([column, np.full(more, column[-1])]) for column in columns))
+
+
+def _area_bound(search: Search, dragon: Dragon) -> int:
+    """Number of benches that no dragon of this kind in the square exceeds: of every other one, which cannot overlap,
+    the areas are not larger than the square."""
+    left = search.ground.area - float(dragon.lengths[0] * dragon.widths[0])
+    return 2 * (1 + int(max(left, 0.0) / float(dragon.lengths[-1] * dragon.widths[-1])))
+
+
+def _most_benches(search: Search, venue: Venue, figures: Sequence[Figure], count: int, most: int | None) -> Proposals:
+    """Proposals with as many benches as were found to fit, one of each figure."""
+    limit = min(BENCHES_MOST, most or BENCHES_MOST)
+    every = []
+    for figure in figures:
+        longest = _longest(venue, search, [figure], (min(search.dragon.benches, limit), limit))
+        if longest is not None:
+            fitting, passing = longest
+            every.append(fitting.certified(*passing[:2]))
+    best = sorted((one for one in every if one is not None), key=_VALUES[Objective.BENCHES], reverse=True)[:count]
+    reason = None if best else _reason(search, venue, figures)
+    return Proposals(tuple(best), search.tried, search.checked, reason, most)

@@ -1,0 +1,283 @@
+"""The search for dances that fit: designs of a figure, rated, moved a little to a better rating, and checked.
+
+Nothing is random. Few dances are checked: a check takes as long as ten ratings, and its answer decides.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import permutations, product
+from typing import Any
+
+from core.dance import Dance
+from core.dragon import Dragon
+from core.extremes.speed import maximum_head_speed
+from core.ground.envelope import envelope
+from core.judgement import Report, check, quick_check
+from core.kernels import Budget
+from core.paths.route import Route
+from core.proposal.answer import Near, Objective, Proposal
+from core.proposal.designs import Design, laid_out, stand_length, street_length, with_gates
+from core.proposal.figures import Figure, Shape, shapes
+from core.proposal.free_ground import FreeGround
+from core.proposal.gates import Gate, with_streets
+from core.proposal.legs import Ways
+from core.proposal.needs import Needs
+from core.proposal.places import placements, sampled
+from core.proposal.rating import Rating, rated, strands
+from core.tolerance.tolerance import tolerance
+from core.venue import Venue
+
+# Head speed of a dance without a speed limit [m/s].
+HEAD_SPEED = 1.0
+# Room on each side of a street, beside the benches [m].
+STREET_ROOM = 1.0
+# Placed shapes of a figure that are laid out, without and with gates, pairs of gates, and dances that are checked for
+# one proposal [1].
+PLACED, PLACED_GATED, GATE_PAIRS, CHECKED = 8, 4, 2, 4
+# A rating is too low by this at most, in most dances [m]: dances below it are not checked.
+RATED_LOW = 0.08
+# A dance whose rating lacks more than this is not moved to a better one [m].
+HOPELESS = 0.6
+# Ratings of a local search, without and with gates [1]; its first steps: places [m], rotation [rad], sizes [1]; and how
+# often they are halved.
+MOVES, MOVES_GATED, FIRST_STEPS, HALVINGS = 60, 20, (0.8, 0.12, 0.06), 3
+# A venue of more edges gets fewer ratings, because each takes longer [1].
+EDGES = 250
+# Work of one rating, and of an edge in it [1]; and largest excess of the ground that a proposal states [m].
+RATING_WORK, EDGE_WORK, GROUND = 1_000.0, 50.0, 0.1
+
+
+@dataclass(frozen=True)
+class Rated:
+    """A design that was laid out, with its route and its rating."""
+
+    design: Design
+    route: Route
+    rating: Rating
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What a proposal must keep. stray, margin: [m]; speed_limit: of every handle [m/s], None for none."""
+
+    stray: float
+    margin: float
+    speed_limit: float | None
+    objective: Objective
+
+    @property
+    def limits(self) -> dict[str, Any]:
+        """The limits of a check."""
+        return {"margin": self.margin, "stray": self.stray, "speed_limit": self.speed_limit}
+
+
+class Search:
+    """The search for one dragon in one venue.
+
+    tried, checked: numbers of dances that were rated, and judged by a check
+    nearest: the best-rated dance that failed its check, with its report
+    """
+
+    def __init__(self, venue: Venue, dragon: Dragon, gates: Sequence[Gate], wish: Wish, budget: Budget) -> None:
+        self.dragon, self.gates, self.wish, self.budget = dragon, tuple(gates), wish, budget
+        self.needs = Needs(dragon, wish.stray, wish.margin)
+        width = 2.0 * (self.needs.straight_side + self.needs.free + STREET_ROOM)
+        self.street = street_length(self.needs) if gates else 0.0
+        self.venue = with_streets(venue, gates, width, self.street) if gates else venue
+        square = venue.square.edges.reshape(-1, 2)
+        self.ground = FreeGround(self.venue, (square.min(axis=0), square.max(axis=0)))
+        self.ways = Ways(self.ground, self.needs, budget)
+        self.tried = self.checked = 0
+        self.nearest: tuple[Rated, Report] | None = None
+
+    def value(self, rating: Rating) -> float:
+        """Value of a rating for the objective; a dance without room for the stray is worth less than any with it."""
+        if rating.stray < self.wish.stray:
+            return rating.stray - 1e6
+        if self.wish.objective is Objective.TURNS:
+            return rating.turns
+        return rating.length if self.wish.objective is Objective.DURATION else rating.stray
+
+    def ranked(self, figure: Figure) -> list[Rated]:
+        """Dances of a figure that are worth a closer look, the best-rated first."""
+        every = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
+        return sorted(every, key=lambda one: -self.value(one.rating))
+
+    def designs(self, figure: Figure) -> Iterator[Design]:
+        """Designs of a figure: the shapes at their roomiest places, each with its best ways from and to the gates."""
+        pairs = list(permutations(self.gates, 2))[:GATE_PAIRS] or [(gate, gate) for gate in self.gates]
+        if figure is Figure.PARADE:
+            yield from (Design(figure, None, (0.0, 0.0, 0.0), pair) for pair in pairs if pair[0] is not pair[1])
+            return
+        spots = self.spots(figure)
+        if not self.gates:
+            yield from (Design(figure, shape, pose) for _, shape, pose in spots[:PLACED])
+            return
+        for (_, shape, pose), pair in product(spots[:PLACED_GATED], pairs):
+            yield from with_gates(Design(figure, shape, pose), pair, self.needs, self.ways)
+
+    def spots(self, figure: Figure) -> list[tuple[float, Shape, tuple[float, float, float]]]:
+        """Room, shape and pose of a figure's shapes at their roomiest places, the roomiest first."""
+        widest = float(max(self.ground.high - self.ground.low))
+        spots = []
+        for shape in shapes(figure, self.needs, widest, gated=bool(self.gates)):
+            self.budget.afford(RATING_WORK)
+            places = placements(self.ground, self.needs, shape, 2)
+            own = self.own_room(shape) if places else 0.0
+            spots += [(min(room, own), shape, pose) for room, pose in places]
+        if self.wish.objective in (Objective.TURNS, Objective.DURATION):
+            return sorted(spots, key=lambda spot: -sum(spot[1].sizes))
+        return sorted(spots, key=lambda spot: -spot[0])
+
+    def own_room(self, shape: Shape) -> float:
+        """Room on each side of the benches on a shape that its own strands leave [m]."""
+        route = laid_out(Design(shape.figure, shape, (0.0, 0.0, 0.0)), self.needs, self.ways)
+        pieces = shape.pieces or ()
+        path = route or (Route(pieces) if self.gates else None)
+        return 0.5 * strands(sampled(path, self.needs), self.needs) if path else -math.inf
+
+    def rate(self, design: Design) -> Rated | None:
+        """A design laid out and rated; None if it cannot be laid out."""
+        self.budget.afford(RATING_WORK + EDGE_WORK * len(self.ground.edges))
+        self.tried += 1
+        route = laid_out(design, self.needs, self.ways)
+        if route is None:
+            return None
+        ends = stand_length(self.needs) if design.gates else 0.0
+        return Rated(design, route, rated(self.ground, self.needs, route, (ends, ends)))
+
+    def improved(self, start: Rated) -> Rated:
+        """The dance with place, rotation and sizes moved to a better rating, by steps that are halved."""
+        best, edges = start, len(self.ground.edges)
+        left = math.ceil((MOVES_GATED if start.design.gates else MOVES) * min(1.0, EDGES / edges))
+        shape = start.design.shape
+        if shape is None:
+            return best
+        fixed = 1 if shape.figure is Figure.SERPENTINE else 0
+        for halving in range(HALVINGS):
+            steps = [step * 0.5**halving for step in FIRST_STEPS]
+            moves: list[Callable[[Design], Design]] = [
+                _move(axis, sign * step)
+                for axis, step in ((0, steps[0]), (1, steps[0]), (2, steps[1]))
+                for sign in (1.0, -1.0)
+            ]
+            moves += [_resize(k, 1.0 + sign * steps[2]) for k in range(fixed, len(shape.sizes)) for sign in (1.0, -1.0)]
+            better = True
+            while better:
+                better = False
+                for move in moves:
+                    if left == 0:
+                        return best
+                    left -= 1
+                    one = self.rate(move(best.design))
+                    if one is not None and self.value(one.rating) > self.value(best.rating):
+                        best, better = one, True
+        return best
+
+    def dance_on(self, route: Route) -> Dance:
+        """The dance on a route, as fast as the speed limit allows, at most with HEAD_SPEED."""
+        dance = Dance(self.dragon, route, HEAD_SPEED)
+        limit = self.wish.speed_limit
+        if limit is None:
+            return dance
+        most = maximum_head_speed(dance, limit, start=0.0, budget=self.budget).head_speed_bracket[0]
+        # Down to the next cm/s, or by a thousandth where that would stop a very slow dance.
+        speed = HEAD_SPEED if most is None else min(HEAD_SPEED, math.floor(most * 100.0) / 100.0 or 0.999 * most)
+        return dance if speed == HEAD_SPEED else Dance(self.dragon, route, speed)
+
+    def passing(self, one: Rated) -> Dance | None:
+        """The dance of a design if it passes the quick check; None if not."""
+        self.checked += 1
+        dance = self.dance_on(one.route)
+        report = quick_check(dance, venue=self.venue, start=0.0, budget=self.budget, **self.wish.limits)
+        if report.passed:
+            return dance
+        if self.nearest is None or one.rating.stray > self.nearest[0].rating.stray:
+            self.nearest = (one, report)
+        return None
+
+    def first(self, candidates: Sequence[Rated], *, briefly: bool = False) -> tuple[Rated, Dance, int] | None:
+        """The first of some rated dances that passes, moved to a better rating if it passes then too; and its number.
+
+        briefly: as it is, without moves
+        """
+        for k, one in enumerate(candidates[:CHECKED]):
+            if one.rating.stray < self.wish.stray - HOPELESS:
+                continue
+            better = one if briefly else self.improved(one)
+            for each in (better, one) if better is not one else (one,):
+                if each.rating.stray < self.wish.stray - RATED_LOW:
+                    continue
+                dance = self.passing(each)
+                if dance is not None:
+                    return each, dance, k
+        return None
+
+    def proposals(self, figures: Sequence[Figure], count: int) -> Iterator[Proposal]:
+        """Certified dances: the first that passes of each figure, then others of the same figures, up to the count."""
+        left = {}
+        for figure in figures:
+            left[figure] = self.ranked(figure)
+            yield from self._next(left, figure)
+        further = 0
+        while any(left.values()) and further < count:
+            for figure in figures:
+                for proposal in self._next(left, figure):
+                    further += 1
+                    yield proposal
+
+    def _next(self, left: dict[Figure, list[Rated]], figure: Figure) -> Iterator[Proposal]:
+        """The next proposal of a figure, if there is one; what is near it leaves the list."""
+        passing = self.first(left[figure])
+        if passing is None:
+            left[figure] = []
+            return
+        one, dance, k = passing
+        left[figure] = [other for other in left[figure][k + 1 :] if _apart(one.design, other.design, self.needs.chord)]
+        proposal = self.certified(one, dance)
+        if proposal is not None:
+            yield proposal
+
+    def certified(self, one: Rated, dance: Dance) -> Proposal | None:
+        """The proposal of a dance; None if the whole check does not pass."""
+        report = check(dance, venue=self.venue, start=0.0, budget=self.budget, **self.wish.limits)
+        if not report.passed or report.venue is None:
+            return None
+        nearest = [(area.nearest, area.name) for area in report.venue.areas if area.nearest is not None]
+        least, name = min(nearest, key=lambda each: each[0].distance)
+        swept = envelope(dance, start=0.0, excess=GROUND, budget=self.budget)
+        safe = tolerance(dance, self.venue, start=0.0, budget=self.budget)
+        gates = tuple(self.gates.index(gate) for gate in one.design.gates or ())
+        near = Near(name, least.distance, least.time)
+        turns = one.rating.turns
+        return Proposal(one.design.figure, dance, self.venue, report, safe.stray, swept.area, turns, near, gates)
+
+
+def _apart(design: Design, other: Design, way: float) -> bool:
+    """True if people would call two designs of a figure different: another place, size or gate."""
+    if design.gates != other.gates:
+        return True
+    if design.shape is None or other.shape is None or math.dist(design.pose[:2], other.pose[:2]) > way:
+        return design.shape is not None
+    sizes = zip(design.shape.sizes, other.shape.sizes, strict=True)
+    return any(abs(math.log(one / two)) > 0.2 for one, two in sizes)
+
+
+def _move(axis: int, step: float) -> Callable[[Design], Design]:
+    def moved(design: Design) -> Design:
+        x, y, turn = (value + step * (k == axis) for k, value in enumerate(design.pose))
+        return replace(design, pose=(x, y, turn))
+
+    return moved
+
+
+def _resize(k: int, factor: float) -> Callable[[Design], Design]:
+    def resized(design: Design) -> Design:
+        assert design.shape is not None
+        sizes = tuple(size * factor if j == k else size for j, size in enumerate(design.shape.sizes))
+        return replace(design, shape=Shape(design.shape.figure, sizes, design.shape.mirror))
+
+    return resized
