@@ -41,14 +41,14 @@ def propose(
     held = read_dance(file)
     # A file for check may be asked about too: its path is what is looked for.
     wishes = {name: value for name, value in held.items() if name not in ("path", "head_speed", "start", "stop")}
-    asked = checked(ProposalsRequest, wishes, object_words(file))
-    with refusing(asked), show.waiting("propose"):
-        result, place = proposed(asked, Terms())
-    answer = answer_of(asked, result, place)
+    request = checked(ProposalsRequest, wishes, object_words(file))
+    with refusing(request), show.waiting("propose"):
+        result, place = proposed(request, Terms())
+    answer = answer_of(request, result, place)
     if output:
         for name, data in _files(result, answer).items():
             show.write(output / name, data)
-    show.print_found(answer, json, _parts(answer))
+    show.print_result(answer, json, _parts(answer))
 
 
 def _files(result: core.Proposals, answer: Proposals) -> dict[str, bytes]:

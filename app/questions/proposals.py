@@ -38,10 +38,9 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
         description="Gates at which a dance begins and ends, with the dragon in the street beyond; default: the whole "
         "dragon stands in the square",
     )
-    figures: list[core.Figure] | None = Field(
+    figures: list[Annotated[core.Figure, Field(strict=False)]] | None = Field(
         None,
         min_length=1,
-        strict=False,
         description="Figures to try: spiral (in and out, with the turn between), eight, serpentine, ring, parade (from "
         "gate to gate); default: all that are possible",
     )
@@ -106,45 +105,45 @@ class Proposals(Answer):
     summary: str = Field(description="The answer in one sentence")
 
 
-def proposals(asked: ProposalsRequest, terms: Terms) -> Proposals:
+def proposals(request: ProposalsRequest, terms: Terms) -> Proposals:
     """Dances that fit into a square, the best first, each certified by a check; or the reason why none does."""
-    return answer_of(asked, *proposed(asked, terms))
+    return answer_of(request, *proposed(request, terms))
 
 
-def answer_of(asked: ProposalsRequest, result: core.Proposals, place: Place) -> Proposals:
+def answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -> Proposals:
     """The answer with the proposals of core."""
-    bodies = [Proposal.of(one, body_of(asked, one, place.origin)) for one in result.proposals]
+    bodies = [Proposal.of(one, body_of(request, one, place.origin)) for one in result.proposals]
     reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
     return Proposals.known(result, proposals=bodies, reason=reason, reason_kind=kind, summary=result.message)
 
 
-def proposed(asked: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:
+def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:
     """The proposals as objects of core, and the place of the venue. raises: TooLarge, InvalidValue"""
-    dragon = asked.to_dragon(terms.settings.checked_benches_max)
-    place = asked.to_place(dragon)
+    dragon = request.to_dragon(terms.settings.checked_benches_max)
+    place = request.to_place(dragon)
     if place.venue is None:
         raise core.InvalidValue("venue", "must be given: a dance is proposed for a square")
-    gates = [gate.to_gate() for gate in asked.gates]
-    limits: dict[str, Any] = {"stray": asked.stray, "margin": asked.margin, "speed_limit": asked.speed_limit}
-    wish: dict[str, Any] = {"objective": asked.objective, "count": asked.count}
+    gates = [gate.to_gate() for gate in request.gates]
+    limits: dict[str, Any] = {"stray": request.stray, "margin": request.margin, "speed_limit": request.speed_limit}
+    wish: dict[str, Any] = {"objective": request.objective, "count": request.count}
     result = core.propose(
-        place.venue, dragon, gates=gates, figures=asked.figures, budget=terms.budget, **wish, **limits
+        place.venue, dragon, gates=gates, figures=request.figures, budget=terms.budget, **wish, **limits
     )
     return result, place
 
 
-def body_of(asked: ProposalsRequest, one: core.Proposal, origin: Origin | None) -> dict[str, Any]:
+def body_of(request: ProposalsRequest, one: core.Proposal, origin: Origin | None) -> dict[str, Any]:
     """The body of POST /check for a proposal, with the limits that were asked for."""
     body = {
         "dragon": dragon_of(one.dance.dragon),
         "path": path_of(one.dance.path.as_route(one.dance.path.end)),
         "head_speed": one.dance.head_speed,
         "venue": venue_geometry(one.venue, origin),
-        "margin": asked.margin,
-        "stray": asked.stray,
+        "margin": request.margin,
+        "stray": request.stray,
         "start": 0.0,
     }
-    return body if asked.speed_limit is None else {**body, "speed_limit": asked.speed_limit}
+    return body if request.speed_limit is None else {**body, "speed_limit": request.speed_limit}
 
 
 def dragon_of(dragon: core.Dragon) -> dict[str, Any]:
@@ -159,4 +158,4 @@ def dragon_of(dragon: core.Dragon) -> dict[str, Any]:
     return {"benches": dragon.benches, "head_length": summary.head_length, "body_length": body, **sizes, **names}
 
 
-QUESTION = Question(proposals, Proposals, body=ProposalsRequest, cost=lambda asked: SECONDS)
+QUESTION = Question(proposals, Proposals, body=ProposalsRequest, cost=lambda request: SECONDS)

@@ -17,7 +17,7 @@ from core.kernels import Budget
 from core.proposal.free_ground import FreeGround
 from core.proposal.needs import Needs
 from core.proposal.walks import Pose, Step, dubins, long_enough, moved
-from core.sampling import bisected
+from core.sampling import bisect
 from core.values import Floats
 
 # Distance of the points of a leg at which its room is measured [m].
@@ -136,7 +136,7 @@ class Ways:
         most = float(min(field.reshape(-1)[first], field.reshape(-1)[last]))
         if most <= 0.0 or not joined(0.0):
             return 0.0
-        return 2.0 * (most if joined(most) else bisected(lambda room: not joined(room), 0.0, most, width=0.01)[0])
+        return 2.0 * (most if joined(most) else bisect(lambda room: not joined(room), 0.0, most, width=0.01)[0])
 
     def _visible(self, a: Floats, b: Floats) -> bool:
         way = np.linspace(0.0, 1.0, int(np.hypot(*(b - a)) / (0.5 * self.ground.spacing)) + 2)[:, None]

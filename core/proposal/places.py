@@ -76,7 +76,7 @@ def placements(ground: FreeGround, needs: Needs, shape: Shape, count: int) -> li
     for division in range(DIVISIONS + 1):
         field = ground.nearest_node(tx[which] + centres[:, :1], ty[which] + centres[:, 1:])
         room = (field - outline.sides).min(axis=1)
-        order = np.argsort(-room, kind="stable")
+        order = np.argsort(-np.round(room, 6), kind="stable")
         if division == DIVISIONS:
             for k in order.tolist():
                 if room[k] < needed or len(best) == count:

@@ -39,6 +39,8 @@ STREET_ROOM = 1.0
 PLACED, PLACED_GATED, GATE_PAIRS, CHECKED = 8, 4, 2, 4
 # A rating is too low by this at most, in most dances [m]: dances below it are not checked.
 RATED_LOW = 0.08
+# Ratings and rooms that differ by less are equal [m], so that rounding on another processor chooses no other dance.
+SAME = 1e-6
 # A dance whose rating lacks more than this is not moved to a better one [m].
 HOPELESS = 0.6
 # Ratings of a local search, without and with gates [1]; its first steps: places [m], rotation [rad], sizes [1]; and how
@@ -104,7 +106,7 @@ class Search:
     def ranked(self, figure: Figure) -> list[Rated]:
         """Dances of a figure that are worth a closer look, the best-rated first."""
         every = [one for design in self.designs(figure) if (one := self.rate(design)) is not None]
-        return sorted(every, key=lambda one: -self.value(one.rating))
+        return sorted(every, key=lambda one: -round(self.value(one.rating), 6))
 
     def designs(self, figure: Figure) -> Iterator[Design]:
         """Designs of a figure: the shapes at their roomiest places, each with its best ways from and to the gates."""
@@ -129,8 +131,8 @@ class Search:
             own = self.own_room(shape) if places else 0.0
             spots += [(min(room, own), shape, pose) for room, pose in places]
         if self.wish.objective in (Objective.TURNS, Objective.DURATION):
-            return sorted(spots, key=lambda spot: -sum(spot[1].sizes))
-        return sorted(spots, key=lambda spot: -spot[0])
+            return sorted(spots, key=lambda spot: -round(sum(spot[1].sizes), 6))
+        return sorted(spots, key=lambda spot: -round(spot[0], 6))
 
     def own_room(self, shape: Shape) -> float:
         """Room on each side of the benches on a shape that its own strands leave [m]."""
@@ -173,7 +175,7 @@ class Search:
                         return best
                     left -= 1
                     one = self.rate(move(best.design))
-                    if one is not None and self.value(one.rating) > self.value(best.rating):
+                    if one is not None and self.value(one.rating) > self.value(best.rating) + SAME:
                         best, better = one, True
         return best
 
