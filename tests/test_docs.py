@@ -56,7 +56,8 @@ SNIPPETS = blocks("python")
 KITS = [block for block in blocks("console") if block[1].startswith("$ bench-dragon contest kit ")]
 SESSIONS = [block for block in blocks("console") if block not in KITS]
 # The others are sweeps, which tests/app/sweeps/test_spec.py reads.
-DANCES = [block for block in blocks("toml") if "[over]" not in block[1]]
+WISHES = [block for block in blocks("toml") if re.search(r"^(figures|gates) = ", block[1], re.MULTILINE)]
+DANCES = [block for block in blocks("toml") if "[over]" not in block[1] and block not in WISHES]
 
 
 def test_readme_is_short() -> None:
@@ -141,6 +142,12 @@ def test_a_command_gives_what_is_printed_below_it(place: str, session: str, serv
 def test_a_dance_that_is_shown_passes_its_check(place: str, dance: str, tmp_path: Path) -> None:
     (tmp_path / "dance.toml").write_text(dance, encoding="utf-8")
     assert run("bench-dragon check dance.toml", tmp_path).stdout.startswith("Passes. ")
+
+
+@pytest.mark.parametrize(("place", "wish"), WISHES, ids=[place for place, _ in WISHES])
+def test_a_wish_that_is_shown_has_proposals(place: str, wish: str, tmp_path: Path) -> None:
+    (tmp_path / "wish.toml").write_text(wish, encoding="utf-8")
+    assert run("bench-dragon propose wish.toml", tmp_path).stdout.startswith("The best ")
 
 
 @pytest.mark.parametrize(("values", "command"), RESULTS, ids=[command for _, command in RESULTS])

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
-from app.files.drawing import canvas, draw_venue, file_bytes, in_turn
+from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, with_square
 from core import Proposal, bench_outlines, trajectory
 from core.plots import GREY, VERMILION
 
@@ -19,6 +19,10 @@ SIZE, ACROSS, POINTS = 4.4, 3, 1_500
 MOMENTS = ((0.0, "#56b4e9"), (0.5, VERMILION))
 # Room around what is drawn [m], and part of the dragon's way in a street that is not drawn [1].
 AROUND, STREET = 4.0, 0.8
+# Room around a square [m].
+EDGE = 1.0
+# Shorter side of the drawn part over the longer one, at least [1].
+SHORTER = 0.75
 
 
 def proposal_picture(proposal: Proposal, format: str = "png") -> bytes:
@@ -60,9 +64,14 @@ def _draw(axes: Axes, proposal: Proposal) -> None:
 
 
 def _drawn_part(proposal: Proposal) -> tuple[list[float], list[float]]:
-    """Corners of the drawn part [m]: the way of the dance, of a street only its part beside the square."""
+    """Corners of the drawn part [m]: the dance and, without gates, the square; of a street only its end."""
     dance = proposal.dance
     street = STREET * float(dance.dragon.chords.sum()) if proposal.gates else 0.0
     s = np.linspace(dance.path.begin + street, dance.path.end - street, POINTS)
     points = dance.path.position(s)
-    return (points.min(axis=0) - AROUND).tolist(), (points.max(axis=0) + AROUND).tolist()
+    low, high = points.min(axis=0) - AROUND, points.max(axis=0) + AROUND
+    if not proposal.gates:
+        low, high = with_square(proposal.venue, low, high)
+        low, high = low - EDGE, high + EDGE
+    more = 0.5 * np.maximum(SHORTER * (high - low).max() - (high - low), 0.0)
+    return (low - more).tolist(), (high + more).tolist()

@@ -84,7 +84,7 @@ class Proposal(Answer):
     @classmethod
     def of(cls, result: core.Proposal, body: dict[str, Any]) -> Self:
         speed = result.report.highest_speed
-        return cls.known(result, dance=body, highest_speed=speed and speed.speed, summary=result.message)
+        return cls.from_result(result, dance=body, highest_speed=speed and speed.speed, summary=result.message)
 
 
 class Proposals(Answer):
@@ -114,7 +114,7 @@ def answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -
     """The answer with the proposals of core."""
     bodies = [Proposal.of(one, body_of(request, one, place.origin)) for one in result.proposals]
     reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
-    return Proposals.known(result, proposals=bodies, reason=reason, reason_kind=kind, summary=result.message)
+    return Proposals.from_result(result, proposals=bodies, reason=reason, reason_kind=kind, summary=result.message)
 
 
 def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:

@@ -41,6 +41,11 @@ def closed(points: Any) -> tuple[tuple[float, float], ...]:
     return tuple((float(x), float(y)) for x, y in [*points, points[0]])
 
 
+def box(name: str, x: float, y: float, width: float, height: float) -> Area:
+    """A rectangle from its lower left corner."""
+    return Area(name, (closed([(x, y), (x + width, y), (x + width, y + height), (x, y + height)]),))
+
+
 def random_case(seed: int) -> Case:
     """A square of 4 to 9 corners with up to ten obstacles, up to three gates, and a dragon of 2 to 60 benches."""
     random = np.random.default_rng(seed)

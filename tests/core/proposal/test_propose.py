@@ -9,15 +9,10 @@ import numpy as np
 import pytest
 
 import core
-from core import Area, Budget, Dragon, Figure, Gate, InvalidValue, Objective, ReasonKind, TooMuchWork, Venue, propose
+from core import Budget, Dragon, Figure, Gate, InvalidValue, Objective, ReasonKind, TooMuchWork, Venue, propose
 from core.proposal.propose import BENCHES_MOST
 from tests.support.depth import some
-from tests.support.random_squares import Case, closed, random_case, refuted, wrong_reason
-
-
-def box(name: str, x: float, y: float, width: float, height: float) -> Area:
-    return Area(name, (closed([(x, y), (x + width, y), (x + width, y + height), (x, y + height)]),))
-
+from tests.support.random_squares import Case, box, random_case, refuted, wrong_reason
 
 # What an organiser has: 30 m x 40 m with two trees and a stage, and 40 benches of 2 m.
 SQUARE = box("square", 0, 0, 40, 30)

@@ -1,0 +1,53 @@
+"""Figures: closed ones close, each is as long as it says, and impossible sizes are none."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from core import Dragon, Figure, Route
+from core.proposal.figures import Shape, eight, ring, serpentine, shapes
+from core.proposal.needs import Needs
+from core.proposal.walks import length_of, moved
+
+NEEDS = Needs(Dragon(20), 0.05, 0.0)
+CLOSED = [(Figure.RING, (8.0, 5.0, 3.0)), (Figure.RING, (5.0, 5.0, 5.0)), (Figure.EIGHT, (4.0, 1.4))]
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+@pytest.mark.parametrize(("figure", "sizes"), CLOSED)
+def test_a_closed_figure_ends_where_it_began(figure: Figure, sizes: tuple[float, ...], mirror: bool) -> None:
+    shape = Shape(figure, sizes, mirror)
+    pose = shape.first
+    for step in shape.steps or ():
+        pose = moved(pose, step)
+    assert pose[:2] == pytest.approx(shape.first[:2], abs=1e-9)
+    assert math.remainder(pose[2] - shape.first[2], math.tau) == pytest.approx(0.0, abs=1e-9)
+    assert shape.around == pytest.approx(Route(shape.pieces or ()).end, abs=1e-9)
+
+
+def test_figures_are_as_long_as_their_parts() -> None:
+    assert length_of(ring(8.0, 5.0, 3.0) or []) == pytest.approx(2 * (10.0 + 4.0) + 6.0 * math.pi)
+    lobe, line = 4.0 * (math.pi + 2.0 * math.asin(1.0 / 1.4)), 4.0 * math.sqrt(1.4**2 - 1.0)
+    assert length_of(eight(4.0, 1.4) or []) == pytest.approx(2.0 * lobe + 4.0 * line)
+    assert length_of(serpentine(3.0, 6.0, 2.0) or []) == pytest.approx(36.0 + 4.0 * math.pi)
+
+
+def test_impossible_sizes_are_no_figure() -> None:
+    assert ring(3.0, 2.0, 2.5) is None
+    assert eight(4.0, 1.0) is None
+    assert serpentine(3.0, 0.0, 2.0) is None
+    assert Shape(Figure.SPIRAL, (5.0, 6.0, 1.7)).pieces is None
+
+
+@pytest.mark.parametrize("gated", [False, True])
+@pytest.mark.parametrize("figure", Figure)
+def test_shapes_hold_the_dragon_and_bend_no_tighter_than_it_can(figure: Figure, gated: bool) -> None:
+    every = list(shapes(figure, NEEDS, 60.0, gated=gated))
+    assert bool(every) == (figure is not Figure.PARADE)
+    for shape in every:
+        route = Route(shape.pieces or ())
+        assert route.sharpest[0] <= 1.0 / NEEDS.tight + 1e-9
+        if shape.closed or not gated:
+            assert route.end - route.begin > NEEDS.length
