@@ -12,7 +12,7 @@ from core.errors import Given, InvalidValue
 SENTENCES = {"en": english.SENTENCES, "zh": chinese.SENTENCES}
 
 
-class Certificate(Readable):
+class WithClaim(Readable):
     """Base of certificates that carry a claim."""
 
     __slots__ = ()

@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from core import plots
-from core.claims.certificate import Certificate
+from core.claims.certificate import WithClaim
 from core.claims.claim import ContactClaim
 from core.contact.clearance import Graze
 from core.dance import Dance, EndReason, RunEnd
@@ -46,7 +46,7 @@ class Feature(Readable):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Evidence(Certificate):
+class Evidence(WithClaim):
     """Evidence for the answer; a certificate that others can check comes from `core.proof`.
 
     claim: what is known, as a kind and values; method: the claim and its proof in sentences (core/claims)

@@ -45,7 +45,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.claims.certificate import Certificate
+from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, GroundClaim
 from core.dance import Dance
 from core.display import Readable, WithArrays, format_count
@@ -79,7 +79,7 @@ CELL_WORK, ENVELOPE_WORK = 300.0, 1e8
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class SweepProof(Certificate):
+class SweepProof(WithClaim):
     """Evidence of an envelope: the claim, and the number of cells."""
 
     claim: GroundClaim

@@ -77,7 +77,7 @@ class Chain(Follower["Pose"]):
         self.needed = [kinds[size] for size in self.sizes]
 
     @staticmethod
-    def named(theta: float) -> Quantity:
+    def place_quantity(theta: float) -> Quantity:
         """A place in a message."""
         return Quantity(theta, "rad", text=f"theta = {format_number(theta)} rad")
 

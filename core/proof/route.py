@@ -241,7 +241,7 @@ class RouteChain(Follower["RoutePose"]):
         self.path = path
 
     @staticmethod
-    def named(place: float) -> Quantity:
+    def place_quantity(place: float) -> Quantity:
         """A place in a message."""
         return Quantity(-place, "m", text=f"s = {format_number(-place)} m")
 

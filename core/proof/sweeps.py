@@ -37,7 +37,7 @@ class OverlapFound(Unfinished):
     def __init__(self, chain: AnyChain, a: int, b: int, place: float) -> None:
         how = "are nearer than the margin" if chain.margin > 0 else "overlap"
         words = f"benches {{a}} and {{b}} {how} when handle {{a}} is at {{place}}"
-        super().__init__(words, a=a, b=b, place=chain.named(place))
+        super().__init__(words, a=a, b=b, place=chain.place_quantity(place))
         self.a, self.b, self.place = a, b, place
 
 
@@ -112,7 +112,7 @@ def _sides(stretch: SpiralStretch, partner: int) -> list[int]:
         if min(best_side(*grounds, pair, [instant])[1] for pair in ONE_BY_ONE) <= 0.0:
             a, b = _met(stretch, partner)
             words = "not proven: with strays up to {stray} benches {a} and {b} may touch when handle {a} is at {place}"
-            values = quantities("m", stray=float(stretch.chain.stray)) | {"place": stretch.chain.named(place)}
+            values = quantities("m", stray=float(stretch.chain.stray)) | {"place": stretch.chain.place_quantity(place)}
             raise ProofRefused.in_words("claim", words, a=a, b=b, **values)
     raise _unshown("benches {a} and {b} are not shown to stay apart", stretch, partner)
 
@@ -138,7 +138,7 @@ def searched_stretches(chain: AnyChain) -> Source:
                 width = (high - start) / 2
                 if width < WIDTH_LEAST:
                     words = f"not proven where handle {{at}} is at {{place}}: {why.template}"
-                    values = {"at": bench, "place": chain.named(high), **why.values}
+                    values = {"at": bench, "place": chain.place_quantity(high), **why.values}
                     raise ProofRefused.in_words("claim", words, **values) from None
                 continue
             yield stretch, tile
@@ -201,7 +201,9 @@ def proven_sweeps(
         end = high
         for stretch, tile in source(bench, high, low, places):
             if stretch.high < end or (tiles and stretch.high > end) or not chain.floor < stretch.low < stretch.high:
-                raise Unproven("the stretches of bench {bench} do not join at {end}", bench=bench, end=chain.named(end))
+                raise Unproven(
+                    "the stretches of bench {bench} do not join at {end}", bench=bench, end=chain.place_quantity(end)
+                )
             if not stretch.rising and len(places) > 1 and not stretch.rear[1] <= places[1]:
                 raise Unproven("handle {handle} may turn back far outside", handle=bench + 1)
             tiles.append(list(tile) if tile[3] else list(tile[:3]))
@@ -209,7 +211,7 @@ def proven_sweeps(
             end = stretch.low
             progress((bench + min(1.0, (high - end) / (high - low))) / (repeats_from + 1))
         if not end <= low:
-            values = {"end": chain.named(end), "low": chain.named(low)}
+            values = {"end": chain.place_quantity(end), "low": chain.place_quantity(low)}
             raise Unproven("the sweep of bench {bench} ends at {end}, short of {low}", bench=bench, **values)
         sweeps.append({"bench": bench, "stretches": tiles})
         high, low = max(rear[1] for rear in rears), min(rear[0] for rear in rears)

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import kernels
-from core.claims.certificate import Certificate
+from core.claims.certificate import WithClaim
 from core.claims.claim import ClaimKind, ProbabilityClaim
 from core.dance import Dance
 from core.display import WithArrays, display, format_count
@@ -49,7 +49,7 @@ CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class ContactProbability(WithArrays, Certificate):
+class ContactProbability(WithArrays, WithClaim):
     """Probability that two benches touch at one of some instants when people wobble.
 
     probability: share of the samples with a contact; limits: Clopper and Pearson's, between which the probability of

@@ -13,7 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from core.claims.certificate import Certificate
+from core.claims.certificate import WithClaim
 from core.claims.claim import BenchBetween, ClaimKind, DanceSummary, StrayClaim
 from core.contact.search import NEAR_WORK_BUDGET, before_fold
 from core.contact.walls import own_edges
@@ -39,7 +39,7 @@ class Limit(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class StrayProof(Certificate):
+class StrayProof(WithClaim):
     """Evidence of the safe stray: the claim, and the number of steps that the march took."""
 
     claim: StrayClaim

@@ -6,7 +6,7 @@ import pytest
 
 import core
 from core import Dance, Dragon, InvalidValue, Spiral
-from core.claims.certificate import Certificate, claim_words
+from core.claims.certificate import WithClaim, claim_words
 from core.claims.claim import ClaimKind
 
 DANCE = Dance(Dragon(5), Spiral())
@@ -15,7 +15,7 @@ DANCE = Dance(Dragon(5), Spiral())
 def test_every_certificate_shows_the_sentences_of_its_claim() -> None:
     contact, strays = core.first_contact(DANCE, stop=10.0), core.tolerance(DANCE, stop=10.0)
     for certificate in (contact.certificate, strays.certificate, core.envelope(DANCE, stop=1.0).certificate):
-        assert isinstance(certificate, Certificate)
+        assert isinstance(certificate, WithClaim)
         assert certificate.method == claim_words(certificate.claim)
         table = certificate._repr_html_()
         assert '<tr><th scope="row">method</th><td>' in table
