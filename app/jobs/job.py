@@ -63,8 +63,8 @@ class Job:
     @classmethod
     def of(cls, row: tuple[Any, ...]) -> Job:
         """The job in a row whose columns are these fields."""
-        found = dict(zip((field.name for field in fields(cls)), row, strict=True))
-        return cls(**found | {"state": JobState(found["state"])})
+        values = dict(zip((field.name for field in fields(cls)), row, strict=True))
+        return cls(**values | {"state": JobState(values["state"])})
 
     @property
     def is_finished(self) -> bool:

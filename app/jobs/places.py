@@ -62,10 +62,10 @@ class InFolder:
 
     def show(self, job: str) -> dict[str, Any]:
         with self._used():
-            found = self.store.get(job)
-        if found is None:
+            known = self.store.get(job)
+        if known is None:
             raise NoJob.in_words("job", "there is no job {job} in {folder}", job=job, folder=str(self.store.folder))
-        return found.status()
+        return known.status()
 
     def cancel(self, job: str) -> str:
         self.show(job)
@@ -86,11 +86,11 @@ class InFolder:
         return {JobState.DISMISSED: ended, REMOVED: len(finished)}
 
     def result(self, job: str) -> bytes:
-        known = self.show(job)
+        status = self.show(job)
         file = self.store.result(job)
-        if known["status"] != JobState.SUCCESSFUL or not file.is_file():
-            words, told = "job {job} is {status}, so it has no result: {why}", {"why": str(known["message"])}
-            raise NoJob.in_words("job", words, job=job, status=str(known["status"]), **told)
+        if status["status"] != JobState.SUCCESSFUL or not file.is_file():
+            words, why = "job {job} is {status}, so it has no result: {why}", str(status["message"])
+            raise NoJob.in_words("job", words, job=job, status=str(status["status"]), why=why)
         return file.read_bytes()
 
 
@@ -102,7 +102,7 @@ class OfService:
             raise InvalidValue.in_words("url", "--url must begin with http:// or https://", got=Given(url, url))
         self.url, self.token = url.rstrip("/"), token
 
-    def _ask(self, path: str, method: str = "GET") -> bytes:
+    def _request(self, path: str, method: str = "GET") -> bytes:
         headers = {"Authorization": f"Bearer {self.token}"} if self.token else {}
         try:
             with _opener(self.url).open(
@@ -120,25 +120,25 @@ class OfService:
             why = str(getattr(error, "reason", error)).strip() or type(error).__name__
             raise InvalidValue.in_words("url", "--url {url} does not answer: {why}", url=self.url, why=why) from error
 
-    def _told(self, path: str) -> dict[str, Any]:
+    def _read(self, path: str) -> dict[str, Any]:
         try:
-            found = orjson.loads(self._ask(path))
+            content = orjson.loads(self._request(path))
         except orjson.JSONDecodeError:
-            found = None
-        jobs = found.get("jobs", [found]) if isinstance(found, dict) else [None]
+            content = None
+        jobs = content.get("jobs", [content]) if isinstance(content, dict) else [None]
         if all(isinstance(job, dict) and job.keys() >= STATUS for job in jobs):
-            return cast(dict[str, Any], found)
+            return cast(dict[str, Any], content)
         raise InvalidValue.in_words("url", "--url {url} does not answer as Bench Dragon does", url=self.url)
 
     def list(self) -> list[dict[str, Any]]:
-        return cast(list[dict[str, Any]], self._told("/jobs")["jobs"])
+        return cast(list[dict[str, Any]], self._read("/jobs")["jobs"])
 
     def show(self, job: str) -> dict[str, Any]:
-        return self._told(f"/jobs/{quote(job, safe='')}")
+        return self._read(f"/jobs/{quote(job, safe='')}")
 
     def cancel(self, job: str) -> str:
         self.show(job)
-        return JobState.DISMISSED if self._ask(f"/jobs/{quote(job, safe='')}", "DELETE") else REMOVED
+        return JobState.DISMISSED if self._request(f"/jobs/{quote(job, safe='')}", "DELETE") else REMOVED
 
     def cancel_all(self, before: float) -> dict[str, int]:
         """As InFolder.cancel_all(); jobs that are gone meanwhile are not counted."""
@@ -150,7 +150,7 @@ class OfService:
         return counts
 
     def result(self, job: str) -> bytes:
-        return self._ask(f"/jobs/{quote(job, safe='')}/result")
+        return self._request(f"/jobs/{quote(job, safe='')}/result")
 
 
 def _opener(url: str) -> OpenerDirector:

@@ -20,7 +20,7 @@ class Reserve:
         self._fill()
 
     @contextmanager
-    def given(self) -> Iterator[None]:
+    def released(self) -> Iterator[None]:
         """Context of a change that must be possible on a full disk."""
         if shutil.disk_usage(self.file.parent).free < RESERVED:
             self.file.unlink(missing_ok=True)

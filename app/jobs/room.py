@@ -160,12 +160,12 @@ class Room:
 
         Of others with as much, the one whose oldest finished job is oldest comes first.
         """
-        wanted = measure(self._of[self.client]) + more
-        others = [jobs for name, jobs in self._of.items() if name != self.client and measure(jobs) >= wanted]
+        own_then = measure(self._of[self.client]) + more
+        others = [jobs for name, jobs in self._of.items() if name != self.client and measure(jobs) >= own_then]
         own = self._of[self.client]
 
         def rank(jobs: list[Row]) -> tuple[int, bool, float]:
-            most = wanted if jobs is own else measure(jobs)
+            most = own_then if jobs is own else measure(jobs)
             return -most, jobs is not own, jobs[0].finished or math.inf if jobs else math.inf
 
         return sorted([own, *others], key=rank)

@@ -136,13 +136,13 @@ class Store:
         setting = ", ".join(f"{name} = :{name}" for name in values)
         changed = run.execute(f"UPDATE jobs SET {setting} WHERE id = :id AND {where}", values | {"id": job}).rowcount
         if changed:
-            self._tell(run, job)
+            self._add_event(run, job)
         return bool(changed)
 
-    def _tell(self, run: sqlite3.Connection, job: str) -> None:
-        found = Job.of(run.execute(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", (job,)).fetchone())
+    def _add_event(self, run: sqlite3.Connection, job: str) -> None:
+        changed = Job.of(run.execute(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", (job,)).fetchone())
         last = run.execute("SELECT coalesce(max(number), 0) FROM events WHERE job = ?", (job,)).fetchone()[0]
-        run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(found.status())))
+        run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(changed.status())))
         run.execute("DELETE FROM events WHERE job = ? AND number <= ?", (job, last + 1 - EVENTS_KEPT))
 
     # Calls for every process.
@@ -166,7 +166,7 @@ class Store:
                 " VALUES (?, ?, ?, ?, 'accepted', ?, ?, 'Waiting for its turn.', ?)",
                 (job, question, call, name, now, now, min(COST_MAX, cost)),
             )
-            self._tell(run, job)
+            self._add_event(run, job)
         self._unlink(gone)
         self.check(job)
         return self.known(job)
@@ -197,10 +197,10 @@ class Store:
 
     def known(self, job: str) -> Job:
         """The job with that name. raises: KeyError if there is none"""
-        found = self.get(job)
-        if found is None:
+        known = self.get(job)
+        if known is None:
             raise KeyError(job)
-        return found
+        return known
 
     def all(self) -> list[Job]:
         """All jobs, the newest first."""
@@ -233,14 +233,14 @@ class Store:
     def dismiss(self, job: str) -> bool:
         """Dismiss an unfinished job: True if it was unfinished. The runner ends its process."""
         dismissed, words = {"time_left": None, "size": 0}, "Dismissed before it was finished."
-        with self._reserve.given():
+        with self._reserve.released():
             return self._finish(job, JobState.DISMISSED, words, dismissed, "state IN ('accepted', 'running')")
 
     def remove(self, *jobs: str) -> None:
         """Remove jobs with their events and their results; clear() then removes their last bytes."""
         for job in jobs:
             self.result(job).unlink(missing_ok=True)  # First, because on a full disk this makes room for the rest.
-        with self._reserve.given(), self._change() as run:
+        with self._reserve.released(), self._change() as run:
             run.executemany("DELETE FROM jobs WHERE id = ?", [(job,) for job in jobs])
             run.execute("UPDATE removals SET made = made + 1")
 
@@ -256,7 +256,7 @@ class Store:
         [(made,)] = self._read("SELECT made FROM removals")
         pages = "pragma_page_count, pragma_freelist_count, pragma_page_size"
         [(size,)] = self._read(f"SELECT (page_count - freelist_count) * page_size FROM {pages}")
-        with self._reserve.given():
+        with self._reserve.released():
             if size <= REWRITTEN_MAX:
                 try:
                     self._read("VACUUM")
@@ -305,8 +305,8 @@ class Store:
     def tidy(self, works: Container[str]) -> None:
         """Remove the shards of finished or removed sweeps. works: jobs with a process, which may still write"""
         for folder in self.sweeps.iterdir():
-            found = self.get(folder.name)
-            if folder.name not in works and (found is None or found.is_finished):
+            known = self.get(folder.name)
+            if folder.name not in works and (known is None or known.is_finished):
                 shutil.rmtree(folder, ignore_errors=True)
 
     def running(self) -> set[str]:
@@ -338,8 +338,8 @@ class Store:
         size = result.stat().st_size if result.exists() else 0
         done = {"progress": 100, "rate": None, "time_left": 0.0, "media_type": media_type, "size": size}
         moved = self._finish(job, JobState.SUCCESSFUL, "Finished.", done)
-        found = self.get(job)
-        if not moved and (found is None or found.state is not JobState.SUCCESSFUL):
+        known = self.get(job)
+        if not moved and (known is None or known.state is not JobState.SUCCESSFUL):
             result.unlink(missing_ok=True)
         elif moved and limits is not None:
             self._fit(job, limits)
@@ -371,10 +371,10 @@ class Store:
 
     def die(self, job: str, problem: bytes) -> None:
         """Record a job's dead process: the job is tried again, but fails with this problem after DEATHS_MAX deaths."""
-        found = self.get(job)
-        if found is None:
+        known = self.get(job)
+        if known is None:
             return
-        deaths = found.deaths + 1
+        deaths = known.deaths + 1
         if deaths >= DEATHS_MAX:
             self.fail(job, problem)
             return

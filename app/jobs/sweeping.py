@@ -36,7 +36,7 @@ class TooManyBytes(BenchDragonError):
     code = "content-too-large"
 
 
-def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Path | Problem:
+def answer_sweep(task: Task, settings: Settings, folder: Path, reports: Reports) -> Path | Problem:
     """File of the table in the format of the task, or the problem of a sweep without one.
 
     folder: of the shards; existing shards are not answered again
@@ -47,9 +47,9 @@ def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Pat
         engine = engine_of(
             settings.dask or None, settings.sweep_processes, patience=settings.sweep_seconds_max, first=FIRST_SECONDS
         )
-        teller = _Teller(folder, settings.sweep_bytes_max, reports)
-        run(spec, folder, question=spec.asks, engine=engine, progress=teller)
-        teller.tell(Progress(spec.designs, spec.designs, 0.0, None))
+        reporting = _Reporting(folder, settings.sweep_bytes_max, reports)
+        run(spec, folder, question=spec.asks, engine=engine, progress=reporting)
+        reporting.report(Progress(spec.designs, spec.designs, 0.0, None))
         return _table(Sweep(folder, spec), task.form)
     except FAILURES as error:
         return problem_of(503, error.code, "The sweep failed: {why}.", why=error.message)
@@ -62,7 +62,7 @@ def swept(task: Task, settings: Settings, folder: Path, reports: Reports) -> Pat
         return problem_of(507, "insufficient-storage", words, why=str(error.strerror))
 
 
-class _Teller:
+class _Reporting:
     """Reports the progress of a run, and ends it when its files exceed their limit."""
 
     def __init__(self, folder: Path, bytes_max: int, reports: Reports) -> None:
@@ -75,23 +75,23 @@ class _Teller:
             self.begun = True
             self.reports.send(kept=progress.designs)
         if self.reports.is_due():
-            self.tell(progress)
+            self.report(progress)
 
-    def tell(self, progress: Progress) -> None:
+    def report(self, progress: Progress) -> None:
         """raises: TooManyBytes"""
         size = sum(file.stat().st_size for file in self.folder.glob("*.parquet"))
         if size > self.bytes_max:
             words = "The sweep has {size} bytes after {designs} of {total} designs; the limit is {most} here"
-            told = {"size": size, "designs": progress.designs, "total": progress.total, "most": self.bytes_max}
-            raise TooManyBytes.in_words("over", f"{words}: ask for fewer designs.", **told)
+            values = {"size": size, "designs": progress.designs, "total": progress.total, "most": self.bytes_max}
+            raise TooManyBytes.in_words("over", f"{words}: ask for fewer designs.", **values)
         share, rate = progress.designs / progress.total, progress.rate / progress.total
         self.reports.send(share=share, rate=rate or None, done=progress.designs, total=progress.total, size=size)
 
 
 def _renew(folder: Path, spec: Spec) -> None:
     """Remove shards of another version of this program, whose answers may differ."""
-    kept = folder / SPEC_FILE
-    if folder.exists() and not (kept.exists() and kept.read_bytes() == spec.canonical()):
+    file = folder / SPEC_FILE
+    if folder.exists() and not (file.exists() and file.read_bytes() == spec.canonical()):
         shutil.rmtree(folder)
 
 

@@ -32,8 +32,8 @@ def next_job(run: sqlite3.Connection, sweeps: int, of_client: int | None) -> Any
 
     sweeps: largest number of running sweeps; of_client: of running jobs of one client, None: no limit
     """
-    given = {"sweeps": sweeps, "of_client": -1 if of_client is None else of_client}
-    return run.execute(NEXT, given).fetchone()
+    limits = {"sweeps": sweeps, "of_client": -1 if of_client is None else of_client}
+    return run.execute(NEXT, limits).fetchone()
 
 
 def note_turn(run: sqlite3.Connection, client: str) -> None:

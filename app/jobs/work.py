@@ -37,9 +37,9 @@ def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> by
     """The answer of the service to the task; for a sweep the file of its table. shards: folder of a sweep"""
     try:
         if task.call == SWEEP:
-            from app.jobs.sweeping import swept  # The import takes 0.3 s, and no other job needs it.
+            from app.jobs.sweeping import answer_sweep  # The import takes 0.3 s, and no other job needs it.
 
-            return swept(task, settings, shards, reports)
+            return answer_sweep(task, settings, shards, reports)
         return task.answer(settings, reports.share)
     except MemoryError:
         words = "The job needs more memory than {most} bytes, the limit here: ask for less."

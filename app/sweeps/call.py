@@ -36,14 +36,14 @@ def sweep(
     raises: InvalidValue, TooLarge, MissingPackage, OSError
     """
     own = question if isinstance(question, SweepQuestion) else None
-    told = {
+    values = {
         "question": own.name if own else question,
-        "over": {name: _axis(values) for name, values in over.items()},
+        "over": {name: _axis(axis) for name, axis in over.items()},
         "request": dict(request or {}),
         "samples": None if samples is None else samples.model_dump(),
         "shard_size": shard_size,
     }
-    spec, place = Spec.of(told, own), Path(folder)
+    spec, place = Spec.of(values, own), Path(folder)
     run(spec, place, question=own or spec.asks, engine=engine_of(dask), progress=progress)
     return Sweep(place, spec)
 

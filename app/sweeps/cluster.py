@@ -16,7 +16,7 @@ from contextlib import suppress
 from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed.comm.core import connect
 
-from app.sweeps.engines import Done, NoAnswer, NoScheduler, arrived, attempt
+from app.sweeps.engines import Done, NoAnswer, NoScheduler, attempt, done_of
 from app.sweeps.shards import ShardPiece
 
 # Name of a new cluster on this machine, in place of an address.
@@ -65,7 +65,7 @@ class Cluster:
         self._finished: queue.SimpleQueue[Future[tuple[bytes | None, str]]] = queue.SimpleQueue()
         self._out: dict[Future[tuple[bytes | None, str]], ShardPiece] = {}
         self._lost: list[ShardPiece] = []
-        self._looked, self._workers, self._failures = 0.0, 1, 0
+        self._checked_at, self._workers, self._failures = 0.0, 1, 0
         self._client = self._connected(first)
 
     @property
@@ -75,7 +75,7 @@ class Cluster:
 
     def submit(self, piece: ShardPiece) -> None:
         """Submit a piece to the cluster, now or after the connection is restored."""
-        # Not "pure", because then a cancelled future would be found again by its key.
+        # Not "pure", because then a new future with the same key would be the cancelled one.
         try:
             future = self._client.submit(attempt, piece, pure=False)
         except Exception as error:
@@ -88,11 +88,11 @@ class Cluster:
         """Pieces answered since the last call. raises: NoScheduler, NoAnswer"""
         done: list[Done] = []
         with suppress(queue.Empty):
-            done += self._heard(self._finished.get(timeout=seconds))
+            done += self._result_of(self._finished.get(timeout=seconds))
             while True:
-                done += self._heard(self._finished.get_nowait())
-        if time.monotonic() - self._looked > LOOK:
-            self._look()
+                done += self._result_of(self._finished.get_nowait())
+        if time.monotonic() - self._checked_at > LOOK:
+            self._check()
         return done
 
     def close(self) -> None:
@@ -105,7 +105,7 @@ class Cluster:
         if self._own:
             self._own.close()
 
-    def _heard(self, future: Future[tuple[bytes | None, str]]) -> list[Done]:
+    def _result_of(self, future: Future[tuple[bytes | None, str]]) -> list[Done]:
         piece = self._out.pop(future, None)
         if piece is None:
             return []
@@ -119,7 +119,7 @@ class Cluster:
             self._failed(piece, error)
         else:
             self._failures = 0
-            return [arrived(piece, attempted)]
+            return [done_of(piece, attempted)]
         return []
 
     def _failed(self, piece: ShardPiece, error: Exception) -> None:
@@ -130,9 +130,9 @@ class Cluster:
             raise NoAnswer.in_words("workers", words, address=self._address, why=why) from error
         self._lost.append(piece)
 
-    def _look(self) -> None:
+    def _check(self) -> None:
         """Reconnect if necessary, and submit the lost pieces again."""
-        self._looked = time.monotonic()
+        self._checked_at = time.monotonic()
         if self._client.status not in ("running", "connecting"):
             self._lost += self._out.values()
             self._out.clear()

@@ -27,17 +27,17 @@ def designs(spec: Spec, start: int, stop: int) -> dict[str, list[Any]]:
     is not sampled, which is its place in the list of values.
     """
     rest = np.arange(start, stop, dtype=np.int64)
-    found: dict[str, list[Any]] = {}
+    values: dict[str, list[Any]] = {}
     for name, count in reversed(spec.counts.items()):
         rest, place = np.divmod(rest, count)
         axis = spec.over[name]
         at = place.tolist()
-        found[name] = [axis.at(k / (count - 1)) for k in at] if isinstance(axis, Range) else [axis[k] for k in at]
+        values[name] = [axis.at(k / (count - 1)) for k in at] if isinstance(axis, Range) else [axis[k] for k in at]
     if spec.samples:
         points = sample_points(spec.samples, len(spec.sampled), rest)
         for column, (name, axis) in zip(points.T, spec.sampled.items(), strict=True):
-            found[name] = [axis.at(share) for share in column.tolist()]
-    return {name: found[name] for name in spec.over}
+            values[name] = [axis.at(share) for share in column.tolist()]
+    return {name: values[name] for name in spec.over}
 
 
 def sample_points(samples: Samples, dimensions: int, indices: Indices) -> Floats:
@@ -77,10 +77,10 @@ def _directions(dimensions: int, bits: int) -> NDArray[np.uint64]:
     from scipy.stats import qmc
 
     sequence = qmc.Sobol(dimensions, scramble=False, bits=SOBOL_BITS)
-    found, at = [], 0
+    directions, at = [], 0
     for bit in range(bits):
-        wanted = 2 ** (bit + 1) - 1
-        sequence.fast_forward(wanted - at)
-        found.append(sequence.random(1)[0])
-        at = wanted + 1
-    return (np.array(found) * 2.0**SOBOL_BITS).astype(np.uint64)
+        index = 2 ** (bit + 1) - 1
+        sequence.fast_forward(index - at)
+        directions.append(sequence.random(1)[0])
+        at = index + 1
+    return (np.array(directions) * 2.0**SOBOL_BITS).astype(np.uint64)

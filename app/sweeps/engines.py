@@ -35,13 +35,13 @@ class NoScheduler(BenchDragonError):
 def attempt(piece: ShardPiece) -> tuple[bytes | None, str]:
     """Rows of a piece, or the reason why there are none: errors with extra fields cannot be sent between processes."""
     try:
-        return piece.answered(), ""
+        return piece.answer(), ""
     except Exception as error:
         return None, f"{type(error).__name__}: {error}"
 
 
-def arrived(piece: ShardPiece, attempted: tuple[bytes | None, str]) -> Done:
-    """The result of attempt(). raises: NoAnswer"""
+def done_of(piece: ShardPiece, attempted: tuple[bytes | None, str]) -> Done:
+    """The piece with the rows of its attempt(). raises: NoAnswer"""
     rows, why = attempted
     if rows is None:
         raise NoAnswer("workers", "cannot answer: {why}", why=why)

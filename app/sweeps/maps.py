@@ -77,18 +77,18 @@ def _draw_grid(sweep: Sweep, axes: Axes, design: Any, places: list[Floats], numb
 
 
 def _draw_samples(sweep: Sweep, axes: Axes, design: Any, places: list[Floats], numbers: Floats) -> Any:
-    known = np.isfinite(numbers)
-    x, y = (place[known] for place in places)
-    axes.plot(*(place[~known] for place in places), "x", color=GREY, markersize=3)
+    finite = np.isfinite(numbers)
+    x, y = (place[finite] for place in places)
+    axes.plot(*(place[~finite] for place in places), "x", color=GREY, markersize=3)
     # Contours between samples need triangles with an area.
-    if len(sweep.spec.sampled) == 2 and known.sum() >= CONTOUR_MIN and _varies(numbers):
-        axes.tricontour(x, y, numbers[known], LEVELS, colors=GREY, linewidths=0.6)
-    return axes.scatter(x, y, c=numbers[known], s=DOT, cmap="cividis")
+    if len(sweep.spec.sampled) == 2 and finite.sum() >= CONTOUR_MIN and _varies(numbers):
+        axes.tricontour(x, y, numbers[finite], LEVELS, colors=GREY, linewidths=0.6)
+    return axes.scatter(x, y, c=numbers[finite], s=DOT, cmap="cividis")
 
 
 def _varies(numbers: Floats) -> bool:
-    known = numbers[np.isfinite(numbers)]
-    return known.size > 0 and bool(known.min() < known.max())
+    finite = numbers[np.isfinite(numbers)]
+    return finite.size > 0 and bool(finite.min() < finite.max())
 
 
 def _axis_values(axis: Range | list[Any]) -> Floats:

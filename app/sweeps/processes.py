@@ -17,7 +17,7 @@ from app.processes.child import ProcessEnded
 from app.processes.parent import Report, answer_tasks
 from app.processes.pool import STARTS, Pool
 from app.settings import usable_cores
-from app.sweeps.engines import Done, arrived, attempt
+from app.sweeps.engines import Done, attempt, done_of
 from app.sweeps.shards import ShardPiece
 from core import BenchDragonError
 
@@ -76,7 +76,7 @@ class Processes:
                 return Done(piece, None)
             words = "{count} processes in a row ended before they were ready"
             raise CannotStart.in_words("workers", words, count=STARTS) from None
-        return arrived(piece, result)
+        return done_of(piece, result)
 
 
 def answer(task: bytearray, report: Report) -> bytes:

@@ -51,20 +51,23 @@ class SweepQuestion:
     shown: str
     left_out: frozenset[str] = frozenset()
 
-    def answered(self, values: dict[str, Any]) -> BaseModel:
+    def answer_to(self, values: dict[str, Any]) -> BaseModel:
         """The answer to a request given by its values. raises: BenchDragonError in the words of the request"""
         request = checked(self.request, values)
         with refusing(request):
             return self.ask(request)
 
 
-def _ways(name: str, seconds: float, shown: str, *left_out: str, **own: Any) -> tuple[SweepQuestion, ...]:
-    """A question of the registry in both forms: with flat parameters and with a body. own: what differs for a row"""
+def _ways(name: str, seconds: float, column: str, *left_out: str, **own: Any) -> tuple[SweepQuestion, ...]:
+    """A question of the registry in both forms: with flat parameters and with a body.
+
+    column: the default one of a map; own: fields of the question in the registry that differ for a row
+    """
     question = replace(KNOWN[name], **own)
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
-    known = (question.model, ask, seconds, shown, frozenset(left_out))
-    return tuple(SweepQuestion(question.name, request, *known) for request in requests if request)
+    shared = (question.model, ask, seconds, column, frozenset(left_out))
+    return tuple(SweepQuestion(question.name, request, *shared) for request in requests if request)
 
 
 def _words(place: str) -> tuple[str, str]:
@@ -105,52 +108,52 @@ class OverlapsRow(Answer):
     agree: bool = Field(description="True if all engines found the same pairs")
 
 
-def clearance_row(asked: clearance.ClearanceQuery | clearance.ClearanceRequest, terms: Terms) -> ClearanceRow:
+def clearance_row(request: clearance.ClearanceQuery | clearance.ClearanceRequest, terms: Terms) -> ClearanceRow:
     """The smallest clearance of a dance, at the instants or at a local minimum between them."""
-    found = clearance.profile_of(asked, terms)
-    k = int(found.clearance.argmin())
-    at = core.Graze(float(found.time[k]), float(found.clearance[k]), tuple(found.benches[k].tolist()))
-    return ClearanceRow.from_result(min([at, *found.grazes], key=lambda graze: graze.clearance))
+    profile = clearance.profile_of(request, terms)
+    k = int(profile.clearance.argmin())
+    at = core.Graze(float(profile.time[k]), float(profile.clearance[k]), tuple(profile.benches[k].tolist()))
+    return ClearanceRow.from_result(min([at, *profile.grazes], key=lambda graze: graze.clearance))
 
 
-def trajectory_row(asked: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
+def trajectory_row(request: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
     """The ends of the dragon at the last instant, and the speeds. raises: InvalidValue without an instant"""
-    dance = asked.to_dance(terms.settings.benches_max)
-    times = asked.times_of(dance, terms.settings.cells_max)
+    dance = request.to_dance(terms.settings.benches_max)
+    times = request.times_of(dance, terms.settings.cells_max)
     if not times.size:
         raise InvalidValue("times", "must have at least one instant for a row", got="none")
-    found = core.trajectory(dance, times, budget=terms.budget)
-    head, tail = found.position[-1, 0], found.position[-1, -1]
+    trajectory = core.trajectory(dance, times, budget=terms.budget)
+    head, tail = trajectory.position[-1, 0], trajectory.position[-1, -1]
     return TrajectoryRow(
         time=times[-1],
         head_x=head[0],
         head_y=head[1],
         tail_x=tail[0],
         tail_y=tail[1],
-        tail_speed=found.speed[-1, -1],
-        least_speed=np.min(found.speed),
-        greatest_speed=np.max(found.speed),
+        tail_speed=trajectory.speed[-1, -1],
+        least_speed=np.min(trajectory.speed),
+        greatest_speed=np.max(trajectory.speed),
     )
 
 
-def overlaps_row(asked: overlaps.OverlapsRequest, terms: Terms) -> OverlapsRow:
+def overlaps_row(request: overlaps.OverlapsRequest, terms: Terms) -> OverlapsRow:
     """The number of overlapping pairs, and the pair with the deepest overlap."""
-    found = overlaps.overlaps(asked, terms)
-    deepest = min(found.overlaps, key=lambda pair: pair.separation, default=None)
+    result = overlaps.overlaps(request, terms)
+    deepest = min(result.overlaps, key=lambda pair: pair.separation, default=None)
     return OverlapsRow(
-        pairs=len(found.overlaps),
+        pairs=len(result.overlaps),
         separation=deepest and deepest.separation,
         benches=deepest and deepest.benches,
-        agree=found.cross_check.agree,
+        agree=result.cross_check.agree,
     )
 
 
-def least_clearance(asked: DanceQuery | DanceFields, terms: Terms) -> LeastClearance:
+def least_clearance(request: DanceQuery | DanceFields, terms: Terms) -> LeastClearance:
     """The least separation of two benches that share no handle, over the whole dance."""
-    found = core.least_clearance(asked.to_dance(terms.settings.checked_benches_max), budget=terms.budget)
-    if found is None:
-        raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=asked.benches)
-    return LeastClearance.model_validate(found)
+    least = core.least_clearance(request.to_dance(terms.settings.checked_benches_max), budget=terms.budget)
+    if least is None:
+        raise InvalidValue("dragon.benches", "must be at least 3, so that two share no handle", got=request.benches)
+    return LeastClearance.model_validate(least)
 
 
 # The forms of each question, the flat one first. The seconds are for the defaults on one core of a small machine.

@@ -103,7 +103,7 @@ class _Run:
             if self.deaths[piece.start] < DEATHS:
                 self.ready.appendleft(piece)
             else:
-                self.take(piece, piece.killed())
+                self.take(piece, piece.killed_row())
 
     def progress(self) -> Progress:
         """Progress of the run."""
@@ -135,13 +135,13 @@ class _Run:
 def begin(folder: Path, spec: Spec) -> None:
     """Create the folder of a sweep, or check that it belongs to this sweep. raises: InvalidValue, OSError"""
     folder.mkdir(parents=True, exist_ok=True)
-    kept = folder / SPEC_FILE
-    if not kept.exists():
-        if any(not file.name.startswith(shards.TEMPORARY) for file in folder.iterdir()):
+    file = folder / SPEC_FILE
+    if not file.exists():
+        if any(not other.name.startswith(shards.TEMPORARY) for other in folder.iterdir()):
             words = "{folder} has files but no sweep: name an empty or a new folder"
             raise InvalidValue.in_words("output", words, folder=str(folder))
-        shards.write_durably(kept, spec.canonical())
-    elif kept.read_bytes() != spec.canonical():
+        shards.write_durably(file, spec.canonical())
+    elif file.read_bytes() != spec.canonical():
         words = "{folder} has another sweep, or one of another version, as {file} says: name a new folder"
         raise InvalidValue.in_words("output", words, folder=str(folder), file=SPEC_FILE)
 
@@ -172,8 +172,8 @@ def run(
     missing = missing_shards(folder, spec)
     if not missing:
         return
-    answered = spec.designs - sum(stop - start for start, stop in map(spec.shard, missing))
-    running = _Run(folder, spec, question, iter(missing), answered)
+    done = spec.designs - sum(stop - start for start, stop in map(spec.shard, missing))
+    running = _Run(folder, spec, question, iter(missing), done)
     progress(running.progress())
     running.through(engine(), progress)
     if running.aside:

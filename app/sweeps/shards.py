@@ -19,7 +19,7 @@ from app.files.flush import flush_folder, new_file
 from app.sweeps.columns import TYPES, Column, answer_columns, value_type
 from app.sweeps.designs import designs
 from app.sweeps.questions import SweepQuestion, refusal
-from app.sweeps.spec import Range, Spec, placed
+from app.sweeps.spec import Range, Spec, with_values
 from core import BenchDragonError, InvalidValue
 
 PART = re.compile(r"part-(\d{6})\.parquet")
@@ -57,7 +57,7 @@ class ShardPiece:
         own = (self.spec, self.question, self.version, self.shard)
         return ShardPiece(*own, self.start, middle), ShardPiece(*own, middle, self.stop)
 
-    def answered(self) -> bytes:
+    def answer(self) -> bytes:
         """The rows of all designs, as an Arrow stream; a refused or failed design gives a row with its error.
 
         raises: OtherVersion
@@ -66,29 +66,29 @@ class ShardPiece:
             words = "must be {version} on every worker, as at the start of the sweep"
             raise OtherVersion("bench-dragon", words, got=core.__version__, version=self.version)
         question, request = self.question, self.spec.request
-        columns, asked = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
+        columns, parameters = kept_columns(self.spec, question), designs(self.spec, self.start, self.stop)
         nothing = (None,) * len(columns)
         rows: list[tuple[Any, ...]] = []
-        for values in zip(*asked.values(), strict=True):
+        for values in zip(*parameters.values(), strict=True):
             try:
-                answer = question.answered(placed(request, dict(zip(asked, values, strict=True))))
+                answer = question.answer_to(with_values(request, dict(zip(parameters, values, strict=True))))
                 rows.append((None, None, *(column.value(answer) for column in columns)))
             except Exception as error:
                 rows.append((*refusal(error), *nothing))
-        return _stream(self._table(asked, rows, columns))
+        return _stream(self._table(parameters, rows, columns))
 
-    def killed(self) -> bytes:
+    def killed_row(self) -> bytes:
         """The row of a single design whose process died."""
         columns = kept_columns(self.spec, self.question)
-        asked = designs(self.spec, self.start, self.stop)
-        return _stream(self._table(asked, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
+        parameters = designs(self.spec, self.start, self.stop)
+        return _stream(self._table(parameters, [(KILLED, KILLED_MESSAGE, *(None,) * len(columns))], columns))
 
-    def _table(self, asked: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
+    def _table(self, parameters: dict[str, list[Any]], rows: list[tuple[Any, ...]], columns: list[Column]) -> pa.Table:
         """The table of the piece. rows: code and message of the error, then a value for each column"""
         kinds = {"error.code": pa.string(), "error.message": pa.string()}
         kinds |= {column.name: TYPES[column.kind] for column in columns}
         arrays = {"design": pa.array(range(self.start, self.stop), pa.int64())}
-        arrays |= {name: _parameter(self.spec, name, values) for name, values in asked.items()}
+        arrays |= {name: _parameter(self.spec, name, values) for name, values in parameters.items()}
         for (name, kind), values in zip(kinds.items(), zip(*rows, strict=True), strict=True):
             arrays[name] = pa.array(values, kind)
         return pa.table(arrays)
@@ -152,8 +152,8 @@ def written(file: Path) -> Iterator[BinaryIO]:
 
 def parts(folder: Path) -> set[int]:
     """The shards whose files are in a folder."""
-    found = (PART.fullmatch(name) for name in os.listdir(folder))
-    return {int(one[1]) for one in found if one}
+    matches = (PART.fullmatch(name) for name in os.listdir(folder))
+    return {int(match[1]) for match in matches if match}
 
 
 def checked_part(folder: Path, spec: Spec, shard: int) -> pq.ParquetFile:

@@ -38,11 +38,11 @@ OWN_COLUMNS = ("design", "error.code", "error.message")
 Parameter = Annotated[str, Field(min_length=1, max_length=200)]
 
 
-class _Told(BaseModel):
+class _Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class Range(_Told):
+class Range(_Strict):
     """Values from `start` to `stop`: `count` evenly spaced values with both ends, or samples if count is null."""
 
     start: float = measure("as the parameter", "First value")
@@ -74,7 +74,7 @@ class Range(_Told):
         return [self.at(k / (self.count - 1)) for k in range(self.count)]
 
 
-class Samples(_Told):
+class Samples(_Strict):
     """Method for all sampled ranges together; point k depends on k alone."""
 
     count: Whole = Field(ge=1, le=DESIGNS_MAX, description="Number of samples")
@@ -90,7 +90,7 @@ Axis = Annotated[
 ]
 
 
-class Spec(_Told):
+class Spec(_Strict):
     """One question with values for some of its parameters.
 
     The designs are all combinations of the lists and evenly spaced ranges, repeated for each sample of the sampled
@@ -108,21 +108,22 @@ class Spec(_Told):
     )
 
     @classmethod
-    def of(cls, told: Any, question: SweepQuestion | None = None) -> Self:
+    def of(cls, values: Any, question: SweepQuestion | None = None) -> Self:
         """A complete spec, with the size of its shards, from values of JSON, TOML or Python.
 
         question: the question with that name, if it is not in the registry
         raises: InvalidValue, TooLarge
         """
-        spec = checked(cls, told)
-        asked = question or spec.asks
-        size = spec.shard_size or min(int(SHARD_SECONDS / asked.seconds), SHARD_MAX, -(-spec.designs // SHARDS_SMALL))
+        spec = checked(cls, values)
+        question = question or spec.asks
+        usual = min(int(SHARD_SECONDS / question.seconds), SHARD_MAX, -(-spec.designs // SHARDS_SMALL))
+        size = spec.shard_size or usual
         request = spec.request
         # A cross-check costs more than the answer, and an answer in a sweep can be compared with its neighbours.
-        if "cross_check" in asked.request.model_fields and "cross_check" not in spec.over:
+        if "cross_check" in question.request.model_fields and "cross_check" not in spec.over:
             request = {"cross_check": "none"} | request
         spec = spec.model_copy(update={"shard_size": max(size, 1), "request": request})
-        spec._check(asked)
+        spec._check(question)
         return spec
 
     @classmethod
@@ -167,9 +168,9 @@ class Spec(_Told):
 
     def canonical(self) -> bytes:
         """The spec as bytes, independent of its notation, with the version of the program that answers it."""
-        told = self.model_dump(mode="json") | {"version": core.__version__}
+        content = self.model_dump(mode="json") | {"version": core.__version__}
         # The order of the parameters is the order of the designs, so it is part of the spec.
-        return orjson.dumps(told | {"over": list(told["over"].items())}, option=orjson.OPT_SORT_KEYS)
+        return orjson.dumps(content | {"over": list(content["over"].items())}, option=orjson.OPT_SORT_KEYS)
 
     @property
     def name(self) -> str:
@@ -202,7 +203,7 @@ class Spec(_Told):
         A refused value of an axis affects only its designs, which become rows with the error.
         """
         first = {name: axis.start if isinstance(axis, Range) else axis[0] for name, axis in self.over.items()}
-        values = placed(self.request, first)
+        values = with_values(self.request, first)
         try:
             question.request.model_validate(values)
         except ValidationError as error:
@@ -213,17 +214,17 @@ class Spec(_Told):
                     checked(question.request, values)
 
 
-def placed(request: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
+def with_values(request: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
     """A copy of a request with values set at dotted names.
 
-    >>> placed({"path": {"kind": "spiral"}, "margin": 0}, {"path.pitch": 0.5})
+    >>> with_values({"path": {"kind": "spiral"}, "margin": 0}, {"path.pitch": 0.5})
     {'path': {'kind': 'spiral', 'pitch': 0.5}, 'margin': 0}
     """
-    found = dict(request)
+    changed = dict(request)
     for name, value in values.items():
-        inner, (*outer, last) = found, name.split(".")
+        inner, (*outer, last) = changed, name.split(".")
         for step in outer:
-            kept = inner.get(step)
-            inner[step] = inner = dict(kept) if isinstance(kept, dict) else {}
+            old = inner.get(step)
+            inner[step] = inner = dict(old) if isinstance(old, dict) else {}
         inner[last] = value
-    return found
+    return changed

@@ -50,9 +50,9 @@ class Sweep:
         """The sweep in a folder. raises: InvalidValue if it has none, or one of a different version"""
         file = folder / SPEC_FILE
         try:
-            told = orjson.loads(file.read_bytes())
-            version = told.pop("version")
-            spec = Spec.model_validate(told | {"over": dict(told["over"])})
+            content = orjson.loads(file.read_bytes())
+            version = content.pop("version")
+            spec = Spec.model_validate(content | {"over": dict(content["over"])})
         except (OSError, ValueError, KeyError, TypeError) as error:
             words = "{folder} has no sweep: it holds no valid {file}"
             raise InvalidValue.in_words("folder", words, folder=str(folder), file=SPEC_FILE) from error
@@ -107,7 +107,7 @@ class Sweep:
         whole = self.folder / TABLE_FILE
         if not whole.exists():
             marks = {"bench-dragon sweep": self.spec.name}
-            tables = (table.replace_schema_metadata(marks) for table in _gathered(self.tables()))
+            tables = (table.replace_schema_metadata(marks) for table in _in_groups(self.tables()))
             self._write(whole, tables, partial(pq.ParquetWriter, compression="zstd"))
         for shard in shards.parts(self.folder):
             (self.folder / shards.part_name(shard)).unlink()
@@ -135,19 +135,22 @@ class Sweep:
             whole = format_count(self.spec.shards, "shard")
             raise InvalidValue.in_words("folder", words, folder=str(self.folder), missing=self.missing, shards=whole)
 
-    def _write(self, file: Path, tables: Iterable[pa.Table], begun: Callable[..., Any]) -> None:
-        """Write the rows with a writer of pyarrow, begun with a file and the schema. raises: InvalidValue; OSError"""
+    def _write(self, file: Path, tables: Iterable[pa.Table], open_writer: Callable[..., Any]) -> None:
+        """Write the rows. raises: InvalidValue, OSError
+
+        open_writer: makes a writer of pyarrow from a file and a schema
+        """
         self._check_complete()
         with shards.written(file) as sink:
             writer = None
             for table in tables:
-                writer = writer or begun(sink, table.schema)
+                writer = writer or open_writer(sink, table.schema)
                 writer.write_table(table)
             assert writer is not None
             writer.close()
 
 
-def _gathered(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
+def _in_groups(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:
     """The same rows in tables of at least GROUP rows, except the last."""
     held: list[pa.Table] = []
     for table in tables:
@@ -164,8 +167,8 @@ def numbers_of(sweep: Sweep, table: pa.Table, name: str) -> Floats:
     column = table[name]
     if not is_number(column.type):
         raise InvalidValue("value", "must be a column of numbers: {numbers}", got=name, numbers=sweep.numbers())
-    found: Floats = column.cast(pa.float64()).to_numpy().astype(np.float64)
-    return found
+    numbers: Floats = column.cast(pa.float64()).to_numpy().astype(np.float64)
+    return numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,13 +188,13 @@ class Summary:
 
     def lines(self) -> list[tuple[str, str]]:
         """Names and values as text."""
-        found = [("designs", f"{self.rows} of {self.total}")]
-        found += [(f"error {code}", str(count)) for code, count in sorted(self.errors.items())]
+        lines = [("designs", f"{self.rows} of {self.total}")]
+        lines += [(f"error {code}", str(count)) for code, count in sorted(self.errors.items())]
         for word, end in (("least", self.least), ("greatest", self.greatest)):
             if end is not None:
                 place = ", ".join(f"{name} = {at}" for name, at in end[1].items())
-                found.append((f"{word} {self.value}", f"{end[0]} at {place}"))
-        return found
+                lines.append((f"{word} {self.value}", f"{end[0]} at {place}"))
+        return lines
 
 
 def summary(sweep: Sweep, value: str) -> Summary:

@@ -58,7 +58,7 @@ def undisturbed(folder: Path, told: dict[str, Any]) -> Sweep:
     spec = Spec.of(told)
     begin(folder, spec)
     for shard in range(spec.shards):
-        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answered()])
+        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answer()])
     return Sweep(folder, spec)
 
 

@@ -51,7 +51,7 @@ def answered(tmp_path_factory: pytest.TempPathFactory) -> Path:
     spec, folder = Spec.of(tomllib.loads(SPEC)), tmp_path_factory.mktemp("answered")
     begin(folder, spec)
     for shard in range(spec.shards):
-        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answered()])
+        write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answer()])
     return folder
 
 

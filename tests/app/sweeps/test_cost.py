@@ -29,7 +29,7 @@ def test_a_design_costs_little_more_than_its_search(tmp_path: Path) -> None:
         for pitch, width in zip(*values.values(), strict=True):
             core.first_contact(core.Dance(core.Dragon(width=width), core.Spiral(pitch)))
         searched = time.thread_time()
-        write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, spec.asks, 0).answered()])
+        write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, spec.asks, 0).answer()])
         bare.append(searched - begun)
         all_included.append(time.thread_time() - searched)
         # The least of each: other processes only add to a time.

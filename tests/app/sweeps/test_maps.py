@@ -22,7 +22,7 @@ def swept(folder: Path, **told: Any) -> Sweep:
     spec = Spec.of({"question": LAND.name, "shard_size": 50, **told}, LAND)
     begin(folder, spec)
     for shard in range(spec.shards):
-        shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, LAND, shard).answered()])
+        shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, LAND, shard).answer()])
     return Sweep(folder, spec)
 
 

@@ -50,7 +50,7 @@ def undisturbed(folder: Path, spec: Spec, question: SweepQuestion) -> bytes:
     """The table of a sweep answered in this process."""
     folder.mkdir()
     for shard in range(spec.shards):
-        shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, question, shard).answered()])
+        shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, question, shard).answer()])
     return compacted(folder, spec)
 
 

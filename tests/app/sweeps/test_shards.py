@@ -29,7 +29,7 @@ def spec_of(question: SweepQuestion, over: dict[str, Any], **more: Any) -> Spec:
 
 
 def rows(piece: ShardPiece) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = pa.ipc.open_stream(piece.answered()).read_all().to_pylist()
+    found: list[dict[str, Any]] = pa.ipc.open_stream(piece.answer()).read_all().to_pylist()
     return found
 
 
@@ -155,7 +155,7 @@ def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> N
 
 def test_parameters_of_any_kind_are_columns() -> None:
     spec = spec_of(LAND, {"x": [1, 2], "word": ["a", "b"], "deadly": [[], [5.0]]}, shard_size=8)
-    table = pa.ipc.open_stream(ShardPiece.whole(spec, LAND, 0).answered()).read_all()
+    table = pa.ipc.open_stream(ShardPiece.whole(spec, LAND, 0).answer()).read_all()
     assert [str(table.schema.field(name).type) for name in ("x", "word", "deadly")] == ["int64", "string", "string"]
     assert table["deadly"].to_pylist()[:2] == ["[]", "[5.0]"]
 
@@ -167,14 +167,14 @@ def test_a_file_has_the_same_bytes_however_its_shard_was_cut(tmp_path: Path) -> 
     cuts = {"whole": [whole], "halves": [left, right], "uneven": [*left.halves(), right]}
     for name, cut in cuts.items():
         (tmp_path / name).mkdir()
-        write_part(tmp_path / name, spec, 0, [piece.answered() for piece in cut])
+        write_part(tmp_path / name, spec, 0, [piece.answer() for piece in cut])
     assert len({(tmp_path / name / part_name(0)).read_bytes() for name in cuts}) == 1
 
 
 def test_a_part_of_errors_alone_has_the_columns_of_the_others(tmp_path: Path) -> None:
     spec = spec_of(LAND, {"x": [1.0, 13.0], "y": [2.0]}, shard_size=1)
     for shard in range(2):
-        write_part(tmp_path, spec, shard, [ShardPiece.whole(spec, LAND, shard).answered()])
+        write_part(tmp_path, spec, shard, [ShardPiece.whole(spec, LAND, shard).answer()])
     first, second = (pq.read_schema(tmp_path / part_name(shard)) for shard in range(2))
     assert first.equals(second)
     assert parts(tmp_path) == {0, 1}
@@ -183,14 +183,14 @@ def test_a_part_of_errors_alone_has_the_columns_of_the_others(tmp_path: Path) ->
 def test_a_killed_design_has_the_columns_of_the_others() -> None:
     spec = spec_of(LAND, {"x": [1.0], "y": [2.0]})
     piece = ShardPiece.whole(spec, LAND, 0)
-    answered, killed = (pa.ipc.open_stream(data).read_all() for data in (piece.answered(), piece.killed()))
+    answered, killed = (pa.ipc.open_stream(data).read_all() for data in (piece.answer(), piece.killed_row()))
     assert answered.schema.equals(killed.schema)
     assert killed["error.code"].to_pylist() == ["killed"]
 
 
 def test_parts_of_another_sweep_and_broken_files_are_refused(tmp_path: Path) -> None:
     spec, other = spec_of(LAND, {"x": [1.0]}), spec_of(LAND, {"x": [2.0]})
-    write_part(tmp_path, other, 0, [ShardPiece.whole(other, LAND, 0).answered()])
+    write_part(tmp_path, other, 0, [ShardPiece.whole(other, LAND, 0).answer()])
     with pytest.raises(InvalidValue, match="belongs to another sweep"):
         checked_part(tmp_path, spec, 0)
     (tmp_path / part_name(0)).write_bytes(b"PAR1 no more")
@@ -202,7 +202,7 @@ def test_a_file_that_cannot_be_written_leaves_nothing(tmp_path: Path) -> None:
     spec = spec_of(LAND, {"x": [1.0]})
     (tmp_path / part_name(0)).mkdir()
     with pytest.raises(IsADirectoryError):
-        write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, LAND, 0).answered()])
+        write_part(tmp_path, spec, 0, [ShardPiece.whole(spec, LAND, 0).answer()])
     assert os.listdir(tmp_path) == [part_name(0)]
 
 
@@ -210,4 +210,4 @@ def test_a_worker_of_another_version_says_so() -> None:
     spec = spec_of(LAND, {"x": [1.0]})
     piece = ShardPiece(spec, LAND, "0.0.1", 0, 0, 1)
     with pytest.raises(OtherVersion, match=r"must be 0\.0\.1 on every worker"):
-        pickle.loads(pickle.dumps(piece)).answered()
+        pickle.loads(pickle.dumps(piece)).answer()

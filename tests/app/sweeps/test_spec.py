@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Range, Spec, placed
+from app.sweeps.spec import DESIGNS_MAX, SHARDS_SMALL, Range, Spec, with_values
 from core import BenchDragonError
 
 PAGE = Path(__file__).parents[3] / "docs" / "sweeps.md"
@@ -129,7 +129,7 @@ def test_what_is_no_toml_or_json_is_said_so(name: str, text: str, tmp_path: Path
 
 def test_values_are_placed_into_a_copy() -> None:
     base = {"path": {"kind": "spiral"}, "margin": 0}
-    found = placed(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
+    found = with_values(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
     assert found == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
     assert base == {"path": {"kind": "spiral"}, "margin": 0}
 

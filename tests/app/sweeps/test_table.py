@@ -26,7 +26,7 @@ def folder(tmp_path: Path) -> Path:
     """A complete sweep."""
     begin(tmp_path, SPEC)
     for shard in range(SPEC.shards):
-        shards.write_part(tmp_path, SPEC, shard, [shards.ShardPiece.whole(SPEC, LAND, shard).answered()])
+        shards.write_part(tmp_path, SPEC, shard, [shards.ShardPiece.whole(SPEC, LAND, shard).answer()])
     return tmp_path
 
 
