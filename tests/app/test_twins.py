@@ -9,72 +9,77 @@ import pytest
 
 import core
 from app.questions.registry import QUESTIONS
+from app.wire.dances import TimeSteps, UniformBody
+from app.wire.paths import TurnFields
 from app.wire.question import Question
 from core.tolerance.curve import time_on_circle
 
-# Flat values of a question, and the same in a body.
-SMALL = {"benches": 30}
-# Time at which the head of the dance of `tolerance` is on its circle [s].
-ON_CIRCLE = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
-SAME: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
-    "collision_time": (
-        {"pitch": 0.5, "margin": 0.05, "cross_check": "pair", "head_speed": 2},
-        {"path": {"kind": "spiral", "pitch": 0.5}, "margin": 0.05, "cross_check": "pair", "head_speed": 2},
-    ),
-    "minimum_pitch": ({"benches": 30, "turning_diameter": 8}, {"dragon": SMALL, "turning_diameter": 8}),
-    "pitch_scan": ({"benches": 4, "samples": 2}, {"dragon": {"benches": 4}, "samples": 2}),
-    "clearance": (
-        {"benches": 30, "start": 10, "stop": 20, "step": 5},
-        {"dragon": SMALL, "times": {"start": 10, "stop": 20, "step": 5}},
-    ),
-    "turn": (
-        {"ratio": 3, "entry_radius": 4.2, "exit_radius": 4.4},
-        {"path": {"kind": "turn", "ratio": 3, "entry_radius": 4.2, "exit_radius": 4.4}},
-    ),
-    "shortest_turn": ({"benches": 20}, {"dragon": {"benches": 20}}),
-    "turn_time": (
-        {"benches": 30, "ratio": 1.5, "entry_radius": 4.3, "speed_limit": 1.5},
-        {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5, "entry_radius": 4.3}, "speed_limit": 1.5},
-    ),
-    "quickest_turn": (
-        {"benches": 12, "ratio": 1.9, "margin": 0.01},
-        {"dragon": {"benches": 12}, "ratio": 1.9, "margin": 0.01},
-    ),
-    "maximum_head_speed": (
-        {"benches": 30, "ratio": 1.5, "speed_limit": 1.5},
-        {"dragon": SMALL, "path": {"kind": "turn", "ratio": 1.5}, "speed_limit": 1.5},
-    ),
-    "tolerance": (
-        {"benches": 30, "pitch": 0.6, "start_turns": 9, "turning_diameter": 8},
-        {"dragon": SMALL, "path": {"kind": "spiral", "pitch": 0.6, "start_turns": 9}, "stop": ON_CIRCLE},
-    ),
-    "tolerance_curve": ({"benches": 9, "samples": 2}, {"dragon": {"benches": 9}, "samples": 2}),
-    "trajectory_figure": ({"benches": 9, "time": 20}, {"dragon": {"benches": 9}, "time": 20}),
-    "contact_figure": ({"benches": 30, "margin": 0.1}, {"dragon": SMALL, "margin": 0.1}),
-    "pitch_scan_figure": ({"benches": 4, "samples": 2}, {"dragon": {"benches": 4}, "samples": 2}),
+# A value of each parameter of a query that differs from its default and leaves the answer short.
+VALUES: dict[str, Any] = {
+    "benches": 9,
+    "width": 0.25,
+    "start_turns": 12,
+    "ratio": 1.5,
+    "head_speed": 2,
+    "turning_diameter": 8.5,
+    "margin": 0.05,
+    "cross_check": "pair",
+    "speed_limit": 1.5,
+    "samples": 2,
+    "start": 10,
+    "stop": 20,
+    "step": 5,
+    "time": 20,
 }
+BOTH = {name: question for name, question in QUESTIONS.items() if question.flat and question.body}
 LENGTHS, WIDTHS, OVERHANGS = [3.41, 2.2, 2.0, 2.2, 1.9, 2.2], [0.3] * 6, [0.275] * 6
 BENCHES = {"lengths": LENGTHS, "widths": WIDTHS, "overhangs": OVERHANGS}
 POINTS = [[0, 0], [30, 0], [36, 5], [30, 10], [24, 5], [24, -20]]
 CROSSING = {"kind": "waypoints", "points": POINTS}
 
 
-def test_every_question_that_is_asked_both_ways_is_compared() -> None:
-    assert {name for name, question in QUESTIONS.items() if question.flat and question.body} == SAME.keys()
+def in_body(question: Question, flat: dict[str, Any]) -> dict[str, Any]:
+    """The body that asks what a query asks."""
+    assert question.flat is not None
+    assert question.body is not None
+    kind = "turn" if issubclass(question.flat, TurnFields) else "spiral"
+    body: dict[str, Any] = {}
+    for name, value in flat.items():
+        if name in question.body.model_fields:
+            body[name] = value
+        elif name in UniformBody.model_fields:
+            body.setdefault("dragon", {})[name] = value
+        elif name in TimeSteps.model_fields:
+            body.setdefault("times", {})[name] = value
+        else:
+            body.setdefault("path", {"kind": kind})[name] = value
+    return body
+
+
+def test_only_a_question_without_a_dragon_is_asked_one_way_alone() -> None:
     assert [name for name, question in QUESTIONS.items() if question.flat and not question.body] == ["paper"]
 
 
-@pytest.mark.parametrize("question", [QUESTIONS[name] for name in SAME], ids=lambda question: question.name)
+@pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
 def test_both_ways_of_asking_have_one_answer(client: httpx.Client, question: Question) -> None:
-    flat, body = SAME[question.name]
+    assert question.flat is not None
+    flat = {name: VALUES[name] for name in question.flat.model_fields if name in VALUES}
     path = question.path.format(format="svg")
-    over_query, over_body = client.get(path, params=flat), client.post(path, json=body)
+    over_query, over_body = client.get(path, params=flat), client.post(path, json=in_body(question, flat))
     assert over_query.status_code == over_body.status_code == 200
     assert over_query.content == over_body.content
     assert over_query.headers["content-type"] == over_body.headers["content-type"]
 
 
-@pytest.mark.parametrize("question", [QUESTIONS[name] for name in SAME], ids=lambda question: question.name)
+def test_a_circle_ends_the_dance_where_a_time_would(client: httpx.Client) -> None:
+    flat = {"benches": 30, "pitch": 0.6, "start_turns": 9, "turning_diameter": 8}
+    path = {"kind": "spiral", "pitch": 0.6, "start_turns": 9}
+    stop = time_on_circle(core.Dance(core.Dragon(30), core.Spiral(0.6, 9.0)), 4.0)
+    over_body = client.post("/tolerance", json={"dragon": {"benches": 30}, "path": path, "stop": stop})
+    assert over_body.raise_for_status().content == client.get("/tolerance", params=flat).content
+
+
+@pytest.mark.parametrize("question", BOTH.values(), ids=BOTH)
 def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None:
     assert question.flat is not None
     assert question.body is not None

@@ -52,15 +52,14 @@ from core import (
     sharpest_bend,
     shortest_turn,
     tolerance,
-    tolerance_curve,
     trajectory,
     turn_length_bounds,
     turn_time,
-    uncertain_tolerance,
     venue_clearance,
 )
 from core.errors import format_field
 from tests.support.every_digit import every_digit
+from tests.support.public_calls import CALLS
 
 # A question ends this soon after it was stopped, however busy the machine is [s].
 ENDS_WITHIN = 1.0
@@ -75,7 +74,7 @@ LANE = Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))
 CONTACT = first_contact(Dance(Dragon(), Spiral()))
 
 Question = Callable[[Budget | None], Any]
-# Every question that takes a budget.
+# Every question that takes a budget; the calls here have more work than the short ones that they replace.
 QUESTIONS: dict[str, Question] = {
     "trajectory": lambda budget: trajectory(SPIRAL, [0.0, 9.0], budget=budget),
     "trajectory on a route": lambda budget: trajectory(TURN, [0.0, 9.0], budget=budget),
@@ -100,15 +99,18 @@ QUESTIONS: dict[str, Question] = {
     "venue_clearance": lambda budget: venue_clearance(SPIRAL, SQUARE, stop=50.0, budget=budget),
     "tolerance": lambda budget: tolerance(SPIRAL, SQUARE, stop=50.0, budget=budget),
     "envelope": lambda budget: envelope(SPIRAL, stop=2.0, budget=budget),
-    "tolerance_curve": lambda budget: tolerance_curve(Dragon(30), PITCHES, budget=budget),
     "contact_probability": lambda budget: contact_probability(SPIRAL, Wobble(), 20, 1, stop=50.0, budget=budget),
     "first_contact with a stray": lambda budget: first_contact(SPIRAL, stray=0.02, budget=budget),
-    "uncertain_tolerance": lambda budget: uncertain_tolerance(Dragon(30), 0.7, length_error=0.01, budget=budget),
     "overlaps": lambda budget: overlaps(POSES, *SIZES, budget=budget),
     "cross_check": lambda budget: cross_check(POSES, *SIZES, budget=budget),
     "contact_check": lambda budget: contact_check(CONTACT, budget=budget),
     "pitch_check": lambda budget: pitch_check(minimum_pitch(Dragon()), Dragon(), budget=budget),
     "Route": lambda budget: Route([LANE], budget=budget).table,
+}
+QUESTIONS |= {
+    call.__name__: lambda budget, call=call, values=values: call(**values, budget=budget)
+    for call, values in CALLS.items()
+    if inspect.isfunction(call) and "budget" in inspect.signature(call).parameters and call.__name__ not in QUESTIONS
 }
 ALL = pytest.mark.parametrize("name", QUESTIONS)
 

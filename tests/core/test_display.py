@@ -27,59 +27,44 @@ from core import (
     Venue,
     Waypoints,
 )
-from core.display import WithArrays, display, format_range, units_of
+from core.display import Readable, WithArrays, display, format_range, units_of
 from core.errors import BenchDragonError
+from tests.support.public_calls import CALLS
 
 # A line of a console and a half: nothing public is longer [characters].
 LINE_MOST = 220
 DANCE = Dance(Dragon(), Spiral())
 SQUARE = Venue(Area("square", (((-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)),)))
 CURVE = Waypoints(tuple((float(k), 0.01 * k * k) for k in range(1000)))
-THREE = ([[0, 0, 0], [3, 0, 0], [1, 0, 1.57]], [2.2] * 3, [0.3] * 3)
+
+
+def parts(value: Any) -> Iterator[Any]:
+    """A value and all values in it that have a display."""
+    if isinstance(value, Readable):
+        yield value
+    if is_dataclass(value) and not isinstance(value, type):
+        for field in fields(value):
+            yield from parts(getattr(value, field.name))
+    elif isinstance(value, (list, tuple)):
+        for one in value:
+            yield from parts(one)
+    elif isinstance(value, dict):
+        yield from parts(list(value.values()))
 
 
 def results() -> Iterator[Any]:
-    """One of every public result."""
-    contact = core.first_contact(DANCE)
-    yield from (contact, contact.certificate, contact.certificate.least_clearance, contact.head, contact.corner)
-    yield core.contact_check(contact)
-    yield DANCE.end
-    claim = contact.certificate.claim
-    yield from (claim, claim.dance, claim.dance.dragon, claim.dance.path)
-    yield core.trajectory(DANCE, np.arange(301.0))
-    yield core.clearance_profile(DANCE, np.arange(380.0, 412.0))
-    yield core.least_clearance(DANCE, stop=10.0)
-    yield core.highest_speed(DANCE, stop=10.0)
-    yield core.maximum_head_speed(DANCE, 2.0, stop=10.0)
+    """One of every public result: of the short calls, and of others where these have none."""
+    for call, arguments in CALLS.items():
+        yield from parts(call(**arguments))
+    yield from parts(core.first_contact(DANCE))
+    yield from parts(core.check(DANCE, venue=SQUARE))
+    yield from parts(core.tolerance(DANCE, stop=10.0))
     yield core.first_excess(Dance(Dragon(4), Spiral(1.2, 3.0)), 3.0)
-    yield core.sharpest_bend(DANCE, stop=10.0)
-    yield core.minimum_pitch(Dragon())
-    yield core.shortest_turn(Dragon(3), 1.7)
-    yield core.deepest_turn(Dragon(3), 1.7)
-    yield core.dubins_turn(Dragon(3), 1.7)
-    yield core.turn_time(Dragon(3), Turn(1.7))
-    yield core.pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 2), start_turns=8.0)
-    report = core.check(DANCE, venue=SQUARE)
-    yield from (report, *report.failures, report.venue)
-    square = core.venue_clearance(DANCE, SQUARE, stop=5.0)
-    yield from (square, *square.areas, square.areas[0].nearest)
-    strays = core.tolerance(DANCE, stop=10.0)
-    yield from (strays, strays.exhibit, strays.certificate, strays.certificate.claim)
-    swept = core.envelope(DANCE, stop=1.0)
-    yield from (swept, swept.certificate, swept.certificate.claim)
-    yield core.tolerance_curve(Dragon(30), [0.6], start_turns=9.0)
     chance = core.contact_probability(DANCE, core.Wobble(), 2, 1, start=400.0, stop=410.0)
     yield from (chance, chance.claim)
-    drawn = core.course(core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0), Dragon(2))
-    yield from (drawn, *drawn.bends)
-    proposals = core.propose(SQUARE, Dragon(6), figures=["ring"], count=1)
-    yield from (proposals, proposals.proposals[0], proposals.proposals[0].near)
     yield core.propose(SQUARE, Dragon(150), figures=["ring"]).reason
+    yield from parts(core.course(core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0), Dragon(2)))
     yield core.Misplaced("well", 3, (1.0, 2.0))
-    overlaps = core.overlaps(*THREE)
-    checked = core.cross_check(*THREE)
-    yield from (overlaps, overlaps.contact, checked)
-    yield from core.verdicts([[0, 0, 0], [0, 0.4, 0]], [[0, 0, 0], [0, 0.2, 0]], [2.2] * 2, [0.3] * 2).values()
 
 
 INPUTS = [
