@@ -23,6 +23,8 @@ from core.values import Floats
 
 Drawn = TypeVar("Drawn")
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
+# TrueType: journals refuse fonts of type 3.
+matplotlib.rcParams["pdf.fonttype"] = 42
 
 # One drawing at a time: matplotlib does not guarantee that its font caches are safe for threads. Always in one thread:
 # matplotlib opens the two files of a font once for each thread that draws, and forty threads answer requests.

@@ -243,6 +243,7 @@ def test_the_paper_s_tables_hold_the_reference_numbers(kit: tuple[str, Path]) ->
 def test_a_figure_is_drawn_in_three_formats(kit: tuple[str, Path], name: str) -> None:
     files = {kind: (kit[1] / "figures" / f"{name}.{kind}").read_bytes() for kind in ("pdf", "svg", "png")}
     assert files["pdf"].startswith(b"%PDF-")
+    assert b"/Type3" not in files["pdf"]  # journals refuse such fonts
     assert b"<svg" in files["svg"]
     with Image.open(kit[1] / "figures" / f"{name}.png") as picture:
         assert min(picture.size) > 600
