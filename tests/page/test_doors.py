@@ -94,6 +94,21 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any
     assert order == ["judgement", "benches"]
 
 
+def test_a_village_keeps_film_plan_and_map_and_sees_there_how_far_they_are(open_page: Any) -> None:
+    page = open_page(f"?door=village{ROUTE}")
+    settled(page)
+    rows = page.locator("#kept li:visible > span:first-child")
+    expect(rows).to_have_text(
+        ["The picture as it is", "Film of the dance", "Plan on paper, true to scale", "Map with chalk marks"]
+    )
+    expect(page.locator("#sweeps")).to_be_hidden()
+    page.locator("#keepFilm-GIF").click()
+    expect(page.locator("#jobs li")).to_be_visible()
+    page.locator("#jobs li button", has_text="Cancel").click()
+    expect(page.locator("#jobs li")).to_contain_text("cancelled")
+    expect(page.locator("#sweep")).to_be_hidden()
+
+
 def test_the_dragon_on_a_long_route_is_no_hairline(visit: Any, picture: Any) -> None:
     page = visit(f"?door=village{ROUTE}&view=30,0,3")
     settled(page)
