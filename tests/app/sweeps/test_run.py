@@ -112,9 +112,10 @@ def test_killed_workers_change_no_byte_and_no_process_is_left(tmp_path: Path) ->
         return engines[-1]
 
     def kill(progress: Progress) -> None:
-        pids.update(pid for one in engines for pid in one.pids)
-        if engines and len(killed) < 2 and progress.designs >= 20 * len(killed):
-            killed.append(chance.choice(engines[0].pids))
+        alive = [pid for one in engines for pid in one.pids]  # none yet just after the engine has begun
+        pids.update(alive)
+        if alive and len(killed) < 2 and progress.designs >= 20 * len(killed):
+            killed.append(chance.choice(alive))
             psutil.Process(killed[-1]).kill()
 
     run(spec, tmp_path / "a", question=SLOW, progress=kill, engine=engine)
