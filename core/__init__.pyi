@@ -51,9 +51,10 @@ from .judgement import Judgement, Report, check, quick_check
 from .kernels import Budget
 from .motion.trajectory import Trajectory, trajectory
 from .passages import Passage
+from .paths.clothoid_turn import ClothoidTurn
 from .paths.legs import Legs
 from .paths.path import HeadState, PathSummary
-from .paths.pieces import Arc, Coil, Line, Piece, Waypoints
+from .paths.pieces import Arc, Clothoid, Coil, Line, Piece, Waypoints
 from .paths.route import Route
 from .paths.spiral import Spiral
 from .paths.turn import Turn
@@ -81,6 +82,8 @@ __all__ = [
     "Budget",
     "ClaimKind",
     "ClearanceProfile",
+    "Clothoid",
+    "ClothoidTurn",
     "Coil",
     "ContactCheck",
     "ContactClaim",

@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import core
 from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
 from core import FailureKind, Outcome, Report, check
@@ -26,7 +28,7 @@ def report(name: str) -> Report:
 
 def test_every_example_has_its_test() -> None:
     # docs/sweeps.md runs the sweep.
-    names = {"paper_dance", "contest_turn", "village_square", "sweep"}
+    names = {"paper_dance", "contest_turn", "clothoid_turn", "village_square", "sweep"}
     assert {path.stem for path in EXAMPLES.glob("*.toml")} == names
     others = {path.name for path in EXAMPLES.glob("*.*") if path.suffix != ".toml"}
     assert others == {
@@ -34,6 +36,16 @@ def test_every_example_has_its_test() -> None:
         "verify.py",
         "village_square.geojson",
     }  # test_tour.py, test_verify.py; the village reads it
+
+
+def test_the_turn_with_clothoids_is_that_of_the_library_and_passes() -> None:
+    request = CheckRequest.model_validate(read_dance(EXAMPLES / "clothoid_turn.toml"))
+    turn = core.ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
+    s = np.linspace(turn.begin, turn.end, 2_001)
+    assert np.abs(request.to_dance(1000).path.position(s) - turn.position(s)).max() < REFERENCE_ERROR
+    verdict = report("clothoid_turn")
+    assert verdict.passed
+    assert verdict.highest_speed.speed < 2.0
 
 
 def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:

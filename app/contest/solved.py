@@ -133,7 +133,7 @@ def _turned(request: ContestRequest, dragon: Dragon, terms: Terms) -> Turned:
         even = core.shortest_turn(dragon, request.turn_pitch, radius, EVEN, **about, budget=terms.budget)
     around = core.trajectory(dance, seconds(-request.span, request.span), budget=terms.budget)
     fastest = core.maximum_head_speed(dance, request.speed_limit, budget=terms.budget)
-    turns = [path, shortest.turn]
+    turns: list[core.Turn | core.ClothoidTurn] = [path, shortest.turn]
     with suppress(InvalidValue):  # no turn that was tried can be danced
         quickest = core.quickest_turn(
             dragon,

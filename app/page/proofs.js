@@ -13,7 +13,7 @@ const BETWEEN = {
   held: "中间只隔一节的两节板凳由中间那节撑开：由把手间的距离证明。",
   unused: "起限制作用的两节板凳中间只隔一节，此处未计入那一节的作用，视两者独立离位，因此所得离位偏小。",
 };
-const PIECES = { line: "直线", arc: "圆弧", coil: "螺线", waypoints: "过点曲线" };
+const PIECES = { line: "直线", arc: "圆弧", coil: "螺线", clothoid: "回旋曲线", waypoints: "过点曲线" };
 
 const within = (metres) => `只要每个孔离其位置不超过 ${metres} m 且每节孔距不变，`;
 const pathWords = ({ pitch, start_turns: turns, begin, end, pieces }) =>

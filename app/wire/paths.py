@@ -5,6 +5,8 @@ A refusal of core is renamed to its place in the body, because core does not put
 
 from __future__ import annotations
 
+import math
+from dataclasses import fields
 from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Discriminator, Field, Tag
@@ -28,8 +30,12 @@ from core import InvalidValue, Route, Spiral
 # A sharp zigzag of 1,000 points, or a route of 1,000 arcs, becomes a path in 0.02 s (measured 2026-11-21).
 POINTS_MAX = 1_000
 PIECES_MAX = 1_000
+# Largest sum over the clothoids of a route of length times larger curvature [rad]: 10,000 rows for the kernels, as many
+# as a sharp zigzag of 1,000 points has.
+TURNED_MAX = 2_500
 
 Radius = Annotated[float, Field(ge=1e-3, le=1e4)]
+Curvature = Annotated[float, Field(ge=-1e3, le=1e3)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Leg = Annotated[int, Field(ge=0, lt=POINTS_MAX), AS_WHOLE]
 Start = Annotated[float, measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6)]
@@ -158,6 +164,26 @@ class CoilPiece(Wire, strict=True):
         return core.Coil(self.pitch, self.start_turns, self.end_turns, _point(self.centre), self.rotation)
 
 
+class ClothoidPiece(Wire, strict=True):
+    """A curve whose curvature changes evenly along it; at the larger one it would turn by at most 1,000 rad."""
+
+    kind: Literal["clothoid"] = Field(description="Kind of piece")
+    start: Point = measure("m", "Start, x and y")
+    heading: Angle = measure("rad", "Direction at the start")
+    start_curvature: Curvature = measure("1/m", "Curvature at the start, counter-clockwise positive")
+    end_curvature: Curvature = measure("1/m", "Curvature at the end")
+    length: float = measure("m", "Length along the curve", ge=1e-3, le=1e4)
+
+    @property
+    def turned(self) -> float:
+        """Angle by which it would turn at the larger of its curvatures [rad]."""
+        return max(abs(self.start_curvature), abs(self.end_curvature)) * self.length
+
+    def to_piece(self) -> core.Piece:
+        curvatures = self.start_curvature, self.end_curvature
+        return core.Clothoid(_point(self.start), self.heading, *curvatures, self.length)
+
+
 class WaypointsPiece(Wire, strict=True):
     """A smooth curve through points, with continuous curvature."""
 
@@ -172,7 +198,10 @@ class WaypointsPiece(Wire, strict=True):
         return core.Waypoints(tuple(map(_point, self.points)), self.start_heading, self.end_heading)
 
 
-def _placed(piece: LinePiece | ArcPiece | CoilPiece | WaypointsPiece, place: str) -> core.Piece:
+AnyPiece = Annotated[LinePiece | ArcPiece | CoilPiece | ClothoidPiece | WaypointsPiece, Field(discriminator="kind")]
+
+
+def _placed(piece: AnyPiece, place: str) -> core.Piece:
     """The piece of core. raises: InvalidValue, named by its place in a body"""
     try:
         return piece.to_piece()
@@ -211,9 +240,6 @@ def _point(value: list[float]) -> tuple[float, float]:
     return (value[0], value[1])
 
 
-AnyPiece = Annotated[LinePiece | ArcPiece | CoilPiece | WaypointsPiece, Field(discriminator="kind")]
-
-
 class RoutePath(Wire, strict=True):
     """Pieces joined into one path; place and direction must agree where two meet."""
 
@@ -227,6 +253,8 @@ class RoutePath(Wire, strict=True):
         """raises: TooLarge, InvalidValue"""
         points = sum(len(piece.points) for piece in self.pieces if isinstance(piece, WaypointsPiece))
         check_limit("path.pieces", "waypoints", points, POINTS_MAX, "take fewer")
+        turned = math.ceil(sum(piece.turned for piece in self.pieces if isinstance(piece, ClothoidPiece)))
+        check_limit("path.pieces", "radians of clothoids", turned, TURNED_MAX, "take fewer or shorter ones")
         return Route([_placed(piece, f"path.pieces.{k}") for k, piece in enumerate(self.pieces)], self.start)
 
 
@@ -245,16 +273,18 @@ AnyPath = Annotated[
     Discriminator(_kind),
     Field(json_schema_extra={"discriminator": {"propertyName": "kind", "mapping": BY_KIND}}),
 ]
-KINDS = frozenset({*BY_KIND, "line", "arc", "coil"})
+KINDS = frozenset({*BY_KIND, "line", "arc", "coil", "clothoid"})
 
 
 def path_of(route: Route) -> dict[str, Any]:
-    """A route of lines, arcs and coils in a body."""
+    """A route of lines, arcs, coils and clothoids in a body."""
     return {"kind": "route", "start": route.start, "pieces": [_body_of(piece) for piece in route.pieces]}
 
 
 def _body_of(piece: core.Piece) -> dict[str, Any]:
-    fields = ("pitch", "radius", "start_angle", "sweep", "start_turns", "end_turns", "rotation")
+    numbers = ("pitch", "radius", "start_angle", "sweep", "start_turns", "end_turns", "rotation")
+    numbers += ("heading", "start_curvature", "end_curvature", "length")
+    own = {field.name for field in fields(piece)}
     body: dict[str, Any] = {"kind": type(piece).__name__.lower()}
-    body |= {name: list(getattr(piece, name)) for name in ("start", "end", "centre") if hasattr(piece, name)}
-    return body | {name: getattr(piece, name) for name in fields if hasattr(piece, name)}
+    body |= {name: list(getattr(piece, name)) for name in ("start", "end", "centre") if name in own}
+    return body | {name: getattr(piece, name) for name in numbers if name in own}

@@ -42,7 +42,7 @@ BETWEEN = {
     BenchBetween.HELD: "中间只隔一节的两节板凳由中间那节撑开：由把手间的距离证明。",
     BenchBetween.UNUSED: "起限制作用的两节板凳中间只隔一节，此处未计入那一节的作用，视两者独立离位，因此所得离位偏小。",
 }
-PIECES = {"line": "直线", "arc": "圆弧", "coil": "螺线", "waypoints": "过点曲线"}
+PIECES = {"line": "直线", "arc": "圆弧", "coil": "螺线", "clothoid": "回旋曲线", "waypoints": "过点曲线"}
 
 
 def contact(claim: ContactClaim) -> str:

@@ -21,6 +21,7 @@ from core.contact.decimal_shapes import (
     Bench,
     Vector,
     beyond,
+    clothoid_way,
     coil_theta,
     cos_sin,
     crosses,
@@ -37,12 +38,15 @@ from core.kernels.constants import (
     CENTRE_X,
     CENTRE_Y,
     CHORD,
+    CLOTHOID,
     COIL_ARC,
     COIL_GROWTH,
     COIL_ROTATION,
     CREST,
     CUBIC,
     HALF_WIDTH,
+    K_RATE,
+    K_START,
     LAG,
     LINE,
     LINE_DX,
@@ -218,6 +222,10 @@ class ExactPair:
         kind, u = row[PIECE_KIND], s - row[S_START]
         if kind == LINE:
             return row[LINE_X] + u * row[LINE_DX], row[LINE_Y] + u * row[LINE_DY]
+        if kind == CLOTHOID:
+            along, left = clothoid_way(row[K_START] * u, row[K_RATE] * u * u)
+            dx, dy = u * row[LINE_DX], u * row[LINE_DY]
+            return row[LINE_X] + along * dx - left * dy, row[LINE_Y] + along * dy + left * dx
         if kind == ARC:
             radius, angle = row[ARC_RADIUS], row[ARC_ANGLE] + row[SIGN] * u / row[ARC_RADIUS]
         else:

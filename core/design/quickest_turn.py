@@ -31,6 +31,7 @@ from core.errors import InvalidValue, Quantity, quantities, question_about, too_
 from core.extremes.speed import checked_limit, maximum_head_speed
 from core.kernels import Budget, Halted
 from core.motion.trajectory import trajectory
+from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.following import follows
 from core.paths.turn import Turn
 
@@ -51,7 +52,7 @@ class TurnTime(Readable):
     """How long a turn takes: length [m]; head_speed: the largest at which no handle exceeds the limit [m/s]; time: of
     the head from the entry to the exit at that speed [s]; handles: those that reach the limit, at once."""
 
-    turn: Turn
+    turn: Turn | ClothoidTurn
     length: float
     head_speed: float
     time: float
@@ -64,7 +65,9 @@ class TurnTime(Readable):
 
 
 @question_about("dragon", Dragon)
-def turn_time(dragon: Dragon, path: Turn, speed_limit: float = 2.0, *, budget: Budget | None = None) -> TurnTime:
+def turn_time(
+    dragon: Dragon, path: Turn | ClothoidTurn, speed_limit: float = 2.0, *, budget: Budget | None = None
+) -> TurnTime:
     """How long the head takes through a turn if no handle may exceed a speed.
 
     path: the turn; speed_limit: [m/s]

@@ -20,6 +20,7 @@ fold         bisection; the end of a run                  spiral         arc len
 double_double  long arc lengths, to twice the digits of a double
 rectangles   signed separation of two                     boxes          pairs that may touch
 route        points and chain on a table of pieces        chain          of a spiral, and of either kind
+clothoid     points on pieces whose curvature changes evenly
 rounding     largest errors of all of these               scene          dragon, path, intervals of head travel
 bounds       highest speeds of handles and benches        stretches      curvature of the path under a bench
 hulls        benches as unions of hulls                   gap_curvature  the largest second derivative of a gap
@@ -46,6 +47,7 @@ from core.kernels.chain import (
     start_chain,
 )
 from core.kernels.clearance import bottom_between, clearance_at, clearance_left, gap_at, gap_rate_at, meet
+from core.kernels.clothoid import clothoid_joints
 from core.kernels.constants import *
 from core.kernels.double_double import coil_arc, coil_theta, growth_pair, spiral_thetas
 from core.kernels.excess import Excess

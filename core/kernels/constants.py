@@ -121,8 +121,9 @@ NO_BENCH = -1
 # counter-clockwise. The first piece also serves before its S_START, and the last one after its S_END.
 PIECE_KIND, S_START, S_END, K_START = range(4)
 K_END = 4  # on a crest K_START and K_END are a lower and an upper bound instead
-# Of a line: its point at S_START [m] and its unit direction.
+# Of a line and of a clothoid: its point at S_START [m] and its unit direction there.
 LINE_X, LINE_Y, LINE_DX, LINE_DY = range(5, 9)
+K_RATE = 9  # of a clothoid: d curvature / d s [1/m^2]
 # Of an arc and of a spiral: its centre [m].
 CENTRE_X, CENTRE_Y = range(5, 7)
 ARC_RADIUS = 7  # [m]
@@ -143,8 +144,9 @@ CURVATURE_SLACK = 17  # largest difference between its curvature and that of the
 # What S_START, S_END and COIL_ARC [m], and COIL_GROWTH [m/rad], have lost in rounding.
 S_START_LOW, S_END_LOW, COIL_ARC_LOW, COIL_GROWTH_LOW = range(18, 22)
 PIECE_COLUMNS = 22
-LINE, ARC, SPIRAL, CUBIC, CREST = range(5)
-PIECE_KINDS = ("line", "arc", "spiral", "cubic", "crest")
+# Up to CLOTHOID a place follows from the arc length itself, on a cubic from a quadrature.
+LINE, ARC, SPIRAL, CLOTHOID, CUBIC, CREST = range(6)
+PIECE_KINDS = ("line", "arc", "spiral", "clothoid", "cubic", "crest")
 
 # Column of a point of a route after PX to TY: its curvature [1/m].
 POINT_CURVATURE = 4

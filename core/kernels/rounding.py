@@ -116,12 +116,13 @@ def spiral_error(growth, last, longest, chain):
 # On a route. The assumptions above, SLIP, E and the second order serve here too. The table is exact. The path of the
 # dance is the smooth one that its pieces nearly form: they may miss each other at a joint by up to 1e-9 m and rad, and
 # the path leaves them by at most LOOSE, and only within BLEND of a joint (see Route). The place of a handle is defined
-# by the numbers of its piece: s - S_START on a line, on an arc the angle and on a spiral theta in double-double, t on a
-# cubic. Its s is only where the search for it began. E - SLIP is the distance of the computed point from the point of
-# the piece there:
+# by the numbers of its piece: s - S_START on a line and on a clothoid, on an arc the angle and on a spiral theta in
+# double-double, t on a cubic. Its s is only where the search for it began. E - SLIP is the distance of the computed
+# point from the point of the piece there:
 #   line     one product and the sum:                                             u (|x| + |y| + |s - S_START|)
 #   arc      cos and sin 3 u each with the low part, a product, the sum:          u (|x| + |y| + 6 radius)
 #   spiral   the same, and growth theta:                                          u (|x| + |y| + 7 r)
+#   clothoid 14 u of the way in both parts (clothoid.py), two products and a sum: u (|x| + |y| + 25 |s - S_START|)
 #   cubic    the sum of |c_k| end^k, k >= 1, of both coordinates =: C:            u (|x| + |y| + 12 C)
 # From link to link the distance of the computed points misses the chord by a difference that is measured, however the
 # search for it ended, and by the points' own errors:
@@ -129,7 +130,7 @@ def spiral_error(growth, last, longest, chain):
 # A place that rounding puts beyond a joint is taken on the piece before the joint, extended that far: the error of its
 # point is the square of that.
 # The head's place is not exactly that of its s: slide_error() below, an error of the travel, not of the shape.
-#   line     s - S_START:                                                         u |s - S_START|
+#   line     s - S_START, the same on a clothoid:                                 u |s - S_START|
 #   arc      no more than the point itself, with |c| for both coordinates of the centre: u (8 radius + |c|)
 #   spiral   the same, r <= sqrt(2 growth A); asinh, up to 14, in the arc lengths A of both ends and of the place; all
 #            else is of double-double (double_double.py):          u (100 growth + 1e-6 A + 8 sqrt(2 growth A) + |c|)
@@ -155,6 +156,8 @@ def spot_error(pieces, p, s, theta, x, y):
     error = fabs(x) + fabs(y)
     if kind == LINE:
         error += fabs(s - pieces[p, S_START])
+    elif kind == CLOTHOID:
+        error += 25.0 * fabs(s - pieces[p, S_START])
     elif kind == ARC:
         error += 6.0 * pieces[p, ARC_RADIUS]
     elif kind == SPIRAL:
@@ -170,7 +173,7 @@ def slide_error(pieces, p, s):
     """Largest distance along the path between a computed point of piece p and the point at s [m]."""
     kind = cython.cast(cython.int, pieces[p, PIECE_KIND])
     away = fabs(s - pieces[p, S_START])
-    if kind == LINE:
+    if kind == LINE or kind == CLOTHOID:
         return ULP * away
     if kind == ARC:
         return ULP * (8.0 * pieces[p, ARC_RADIUS] + fabs(pieces[p, CENTRE_X]) + fabs(pieces[p, CENTRE_Y]))
@@ -183,7 +186,7 @@ def slide_error(pieces, p, s):
 
 def piece_end(pieces, p, s, low):
     """route_point() at either end of a piece, on a cubic without a search for t."""
-    if pieces[p, PIECE_KIND] <= SPIRAL:
+    if pieces[p, PIECE_KIND] <= CLOTHOID:
         return route_point(pieces, p, s, low)
     return cubic_point(pieces, p, 0.0 if s == pieces[p, S_START] else pieces[p, T_END])
 
@@ -211,7 +214,9 @@ def joint_misses(pieces, out):
             theta = theta_at(pieces, q, s, low)[0] if pieces[q, PIECE_KIND] == SPIRAL else 0.0
             across += spot_error(pieces, q, s, theta, x, y)
             along += slide_error(pieces, q, s)
-            if pieces[q, PIECE_KIND] > SPIRAL:
+            if pieces[q, PIECE_KIND] == CLOTHOID:
+                step += 4.0 * ULP * (fabs(pieces[q, K_START]) + fabs(pieces[q, K_END]))
+            if pieces[q, PIECE_KIND] > CLOTHOID:
                 size = cubic_size(pieces, q)
                 ratio = size / (pieces[q, T_END] * cubic_speed(pieces, q, 0.0 if q == p else pieces[q, T_END]))
                 kink += 15.0 * ULP * ratio

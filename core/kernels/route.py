@@ -4,6 +4,7 @@ import cython
 from cython.cimports.libc.math import asin, cos, fabs, sin, sqrt
 
 if not cython.compiled:  # the .pxd imports the same names for the compiler
+    from core.kernels.clothoid import clothoid_point
     from core.kernels.constants import *
     from core.kernels.double_double import coil_theta, quotient
     from core.kernels.spiral import next_arc
@@ -79,6 +80,8 @@ def route_point(pieces, p, s, low):
         dx = pieces[p, LINE_DX]
         dy = pieces[p, LINE_DY]
         return pieces[p, LINE_X] + u * dx, pieces[p, LINE_Y] + u * dy, dx, dy, 0.0
+    if kind == CLOTHOID:
+        return clothoid_point(pieces, p, u)
     a = u / (pieces[p, S_END] - pieces[p, S_START]) * pieces[p, T_END]
     for i in range(30):
         d = (cubic_arc(pieces, p, a) - u) / cubic_speed(pieces, p, a)

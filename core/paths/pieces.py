@@ -1,18 +1,50 @@
-"""Pieces of a route: lines, arcs, coils, and smooth curves through waypoints."""
+"""Pieces of a route: lines, arcs, coils, clothoids, and smooth curves through waypoints."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from core import kernels
 from core.display import REPR_MOST, Readable
 from core.error_free import two_product, two_sum
-from core.errors import InvalidValue, Quantity, checked_angle, checked_list, checked_number, checked_point, checked_size
+from core.errors import (
+    SIZE_MIN,
+    InvalidValue,
+    Quantity,
+    checked_angle,
+    checked_list,
+    checked_number,
+    checked_point,
+    checked_size,
+    quantities,
+)
 from core.kernels import Budget
-from core.kernels.constants import COIL_ARC_LOW, COIL_GROWTH_LOW, S_END, S_END_LOW, S_START, S_START_LOW
+from core.kernels.constants import (
+    COIL_ARC_LOW,
+    COIL_GROWTH_LOW,
+    K_END,
+    K_RATE,
+    K_SLOPE,
+    K_START,
+    LINE_DX,
+    LINE_DY,
+    LINE_X,
+    LINE_Y,
+    PIECE_KIND,
+    POINT_CURVATURE,
+    PX,
+    PY,
+    S_END,
+    S_END_LOW,
+    S_START,
+    S_START_LOW,
+    TX,
+    TY,
+)
 from core.paths.cubics import cut
 from core.values import Floats, Point
 
@@ -20,6 +52,12 @@ from core.values import Floats, Point
 WAYPOINT_GAP = 1e-3
 # Least length of a piece [m]: the direction of a shorter one is lost in rounding.
 LENGTH_MIN = 1e-6
+# Largest curvature at an end of a clothoid [1/m]: a radius of SIZE_MIN.
+CURVATURE_MAX = 1.0 / SIZE_MIN
+# Most that a clothoid turns at the sharper of its two curvatures [rad]: 4,000 rows ...
+TURN_MAX = 1e3
+# ... of which each turns by this so [rad]: core/kernels/clothoid.py builds on it.
+ROW_TURN = 0.25
 
 _KINDS = {name: float(code) for code, name in enumerate(kernels.PIECE_KINDS)}
 
@@ -139,6 +177,88 @@ class Coil(Readable):
         return row
 
 
+@dataclass(frozen=True)
+class Clothoid(Readable):
+    """A curve whose curvature changes evenly along it, from a start (x, y) [m] in the direction of a heading [rad].
+
+    start_curvature, end_curvature: at its ends, counter-clockwise positive [1/m]; length: [m]
+    end, end_heading: where it ends [m], and in what direction [rad]
+
+    >>> ramp = Clothoid((0, 0), 0.0, 0.0, 0.5, 2.0)
+    >>> [round(number, 9) for number in (*ramp.end, ramp.end_heading)]
+    [1.950575376, 0.327428095, 0.5]
+    """
+
+    _units = {"start": "m", "heading": "rad", "start_curvature": "1/m", "end_curvature": "1/m"}  # noqa: RUF012
+
+    start: Point
+    heading: float
+    start_curvature: float
+    end_curvature: float
+    length: float
+
+    def __post_init__(self) -> None:
+        _settle(self, start=checked_point("clothoid.start", self.start))
+        _settle(self, heading=checked_angle("clothoid.heading", self.heading))
+        for name in ("start_curvature", "end_curvature"):
+            curvature = checked_number(f"clothoid.{name}", getattr(self, name), "1/m", -CURVATURE_MAX, CURVATURE_MAX)
+            _settle(self, **{name: curvature})
+        _settle(self, length=checked_size("clothoid.length", self.length))
+        if self._most_turned > TURN_MAX:
+            rule = "must be at most {most}, where it would turn by {turn} at the larger of its curvatures"
+            most, turn = self.length * TURN_MAX / self._most_turned, Quantity(TURN_MAX, "rad", 6)
+            raise InvalidValue("clothoid.length", rule, turn=turn, **quantities("m", 6, got=self.length, most=most))
+
+    @property
+    def end(self) -> Point:
+        """Where it ends (x, y) [m]."""
+        x, y = self._joints[-1, PX : PY + 1].tolist()
+        return x, y
+
+    @property
+    def end_heading(self) -> float:
+        """Direction in which it ends [rad]."""
+        return self.heading + 0.5 * (self.start_curvature + self.end_curvature) * self.length
+
+    @property
+    def grows(self) -> bool:
+        """True if it only bends more and more to one side."""
+        first, last = self.start_curvature, self.end_curvature
+        return first * last >= 0.0 and abs(first) <= abs(last)
+
+    @property
+    def _most_turned(self) -> float:
+        """Angle by which it would turn at the larger of its curvatures [rad]."""
+        return max(abs(self.start_curvature), abs(self.end_curvature)) * self.length
+
+    @cached_property
+    def _places(self) -> Floats:
+        """Where its rows meet, and its ends, along it (rows + 1,) [m]."""
+        rows = max(1, math.ceil(self._most_turned / ROW_TURN))
+        return self.length * (np.arange(rows + 1.0) / rows)
+
+    @cached_property
+    def _joints(self) -> Floats:
+        """Its points there (rows + 1, POINT_COLUMNS)."""
+        joints = np.empty((len(self._places), kernels.POINT_COLUMNS))
+        bends = self.start_curvature, self.end_curvature, self.length
+        kernels.clothoid_joints(*self.start, self.heading, *bends, self._places, joints)
+        return joints
+
+    def rows(self, name: str, s: float, budget: Budget) -> Floats:
+        """Rows of the kernels' table from arc length s on."""
+        joints, slope = self._joints, (self.end_curvature - self.start_curvature) / self.length
+        rows = np.zeros((len(joints) - 1, kernels.PIECE_COLUMNS))
+        budget.afford(float(len(rows)))
+        rows[:, PIECE_KIND], rows[:, K_RATE], rows[:, K_SLOPE] = kernels.CLOTHOID, slope, abs(slope)
+        rows[:, [LINE_X, LINE_Y, LINE_DX, LINE_DY, K_START]] = joints[:-1][:, [PX, PY, TX, TY, POINT_CURVATURE]]
+        rows[:, K_END] = joints[1:, POINT_CURVATURE]
+        ends, lost = two_sum(np.full(len(joints), s), self._places)
+        rows[:, S_START], rows[:, S_END] = ends[:-1], ends[1:]
+        rows[:, S_START_LOW], rows[:, S_END_LOW] = lost[:-1], lost[1:]
+        return rows
+
+
 @dataclass(frozen=True, repr=False)
 class Waypoints(Readable):
     """A smooth curve through points (x, y) [m]: the cubic spline over the length of its polygon, curvature-continuous.
@@ -191,7 +311,7 @@ class Waypoints(Readable):
         return 1, np.array([math.cos(heading), math.sin(heading)])
 
 
-Piece = Line | Arc | Coil | Waypoints
+Piece = Line | Arc | Coil | Clothoid | Waypoints
 
 
 def _refuse_short(name: str, length: float) -> None:

@@ -28,7 +28,7 @@ from core.kernels.constants import (
 )
 from core.paths.frame import WORLD
 from core.paths.path import Columns, HeadState, PathSummary
-from core.paths.pieces import Arc, Coil, Line, Piece
+from core.paths.pieces import Arc, Clothoid, Coil, Line, Piece
 from core.values import Floats
 
 # Largest drawn distance from the start of a route [m], and number of points.
@@ -74,7 +74,7 @@ class Route(Readable):
         for k, piece in enumerate(self.pieces):
             name = f"path.pieces.{k}"
             if not isinstance(piece, Piece):
-                raise InvalidValue(name, "must be a Line, Arc, Coil or Waypoints", got=Given(piece))
+                raise InvalidValue(name, "must be a Line, Arc, Coil, Clothoid or Waypoints", got=Given(piece))
             joints.append((s, count))
             try:
                 budget.look()
@@ -92,7 +92,8 @@ class Route(Readable):
         first = self.pieces[0]
         inwards = isinstance(first, Coil) and first.start_turns > first.end_turns
         self.tail_begin = None if inwards else self.begin
-        self.calm_beginning = inwards or isinstance(first, Line | Arc)
+        grows = isinstance(first, Clothoid) and first.grows
+        self.calm_beginning = inwards or grows or isinstance(first, Line | Arc)
         self.slide = self._smooth()
         self.table.flags.writeable = False
         for k, (s, row) in enumerate(joints[1:], start=1):

@@ -39,7 +39,7 @@ POINTS = frozenset({"start", "end", "centre"})
 
 
 def recorded_path(path: Spiral | Route) -> dict[str, Any]:
-    """A path as a certificate writes it. raises: InvalidValue for waypoints"""
+    """A path as a certificate writes it. raises: InvalidValue for clothoids and waypoints"""
     if path.spiral is not None:
         return {"kind": "spiral", "pitch": path.spiral.pitch, "start_turns": path.spiral.start_turns}
     path = path.as_route(path.end)
@@ -49,13 +49,15 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
         return {"kind": "free_turn" if free else "turn"} | {name: getattr(path, name) for name in names}
     recorded = []
     for k, piece in enumerate(path.pieces):
-        if isinstance(piece, pieces.Waypoints):
+        if not isinstance(piece, pieces.Line | pieces.Arc | pieces.Coil):
             piece_at, must = Parameter(f"path.pieces.{k}"), "{piece} must be a line, an arc or a coil"
             if len(path.pieces) == 1:
                 must = "path must be a spiral, a turn or a route of lines, arcs and coils"
             must += " for a proof in ball arithmetic"
             why = "on such a path a dance is checked in double precision, with bounds on its rounding"
-            raise InvalidValue.in_words(piece_at.name, must, got="waypoints", reason=why, piece=piece_at)
+            raise InvalidValue.in_words(
+                piece_at.name, must, got=type(piece).__name__.lower(), reason=why, piece=piece_at
+            )
         kind, names = next((kind, names) for kind, (made, names) in PIECES.items() if isinstance(piece, made))
         recorded.append({"kind": kind} | {name: _as_numbers(name, getattr(piece, name)) for name in names})
     return {"kind": "route", "start": path.start, "pieces": recorded}

@@ -11,6 +11,7 @@ from typing import Any
 import httpx
 import numpy as np
 import pytest
+from scipy.special import fresnel
 
 import core
 
@@ -157,6 +158,23 @@ def test_a_spiral_as_a_route_gives_the_answers_of_the_spiral(client: httpx.Clien
     assert found["time"] == pytest.approx(known["time"], rel=0, abs=REFERENCE_TOLERANCE)
     assert (found["benches"], found["cross_check"]["agree"]) == (known["benches"], True)
     assert found["head"]["theta"] is None
+
+
+RAMP = {"kind": "clothoid", "start": [0, 0], "heading": 0, "start_curvature": 0, "end_curvature": 0.5, "length": 2}
+
+
+def test_a_clothoid_is_a_piece(client: httpx.Client) -> None:
+    """A clothoid of one curvature is an arc, and a ramp ends at its Fresnel integrals."""
+    bend = RAMP | {"start": [60, 0], "start_curvature": 0.25, "end_curvature": 0.25}
+    arc = {"kind": "arc", "centre": [60, 4], "radius": 4, "start_angle": -0.5 * math.pi, "sweep": 0.5}
+    paths = [route(LANE, piece) for piece in (bend, arc)]
+    one, other = (posted(client, "/trajectory", dragon=SHORT, path=path, times=[50.0, 61.5]) for path in paths)
+    for name in ("x", "y", "speed"):
+        assert np.array(one[name]) == pytest.approx(np.array(other[name]), rel=0, abs=SAME_PATH_TOLERANCE)
+    found = posted(client, "/trajectory", dragon=SHORT, path=route(LANE, RAMP | {"start": [60, 0]}), times=[62.0])
+    unit = 2.0 * math.sqrt(math.pi)
+    sine, cosine = fresnel(2.0 / unit)
+    assert (found["x"][0][0], found["y"][0][0]) == pytest.approx((60 + unit * cosine, unit * sine), abs=1e-11)
 
 
 def test_waypoints_are_a_path_and_a_piece(client: httpx.Client) -> None:
@@ -331,6 +349,16 @@ BAD_PATHS = {
     "many_waypoints_in_pieces": (
         route(*[{"kind": "waypoints", "points": [[k, 0] for k in range(600)]}] * 2), "/path/pieces", ("at most 1000",),
     ),
+    "gap_after_a_clothoid": (
+        route(RAMP, LANE | {"start": [1.95, 0.33], "end": [9, 9]}), "/path/pieces/1", ("close", "1.95057538, 0.3274"),
+    ),
+    "sharp_clothoid": (route(RAMP | {"end_curvature": 1e4}), "/path/pieces/0/end_curvature", ("at most 1000 1/m",)),
+    "clothoid_without_heading": (
+        route({k: v for k, v in RAMP.items() if k != "heading"}), "/path/pieces/0/heading", ("heading is missing",),
+    ),
+    "long_clothoid": (route(RAMP | {"length": 2001}), "/path/pieces/0/length", ("at most 2000 m", "1000 rad")),
+    "many_clothoids": (route(*[RAMP | {"length": 1999}] * 3), "/path/pieces", ("at most 2500", "got 2999")),
+    "tight_clothoid": (route(LANE, RAMP | {"start": [60, 0], "end_curvature": 3}), "/path", ("bench 0", "s = 62 m")),
     "same_waypoint_twice": (
         {"kind": "waypoints", "points": [[0, 0], [1, 0], [1, 0]]}, "/path/points/2", ("path.points[2]", "0.001 m"),
     ),

@@ -138,11 +138,11 @@ class SlowLook:
         return float(self.slow.clearance([travel])[0][0])
 
 
-def random_case(seed, case):
+def random_case(seed, case, any_path=random_path):
     """dance, margin, stop, and the slow look at it; raises: BenchDragonError for what core refuses"""
     rng = hunting.generator(seed, case)
     dragon = random_dragon(rng)
-    path = random_path(rng, dragon)
+    path = any_path(rng, dragon)
     dance = Dance(dragon, path, 1.0, random_passages(rng))
     is_spiral = isinstance(path, Spiral)
     start = dance.begin - (rng.uniform(0.0, 8.0) if is_spiral and rng.uniform() < 0.3 else 0.0)
@@ -161,10 +161,10 @@ def random_case(seed, case):
     return dance, margin, start, stop, look
 
 
-def fault(seed, case):
+def fault(seed, case, any_path=random_path):
     """The kind of one random answer, and its fault in words ('' for none)."""
     try:
-        return judged(*random_case(seed, case))
+        return judged(*random_case(seed, case, any_path))
     except BenchDragonError as refused:
         return f"refused: {type(refused).__name__}", ""
 

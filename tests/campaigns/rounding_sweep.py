@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 from flint import arb
 
-from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, kernels
+from core import Arc, Clothoid, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, kernels
 from core.contact.search import ContactSearch
 from core.errors import SIZE_MAX, SIZE_MIN
 from core.kernels.constants import ERROR, HALF_LENGTH, HALF_WIDTH, MX, MY, PX, PY, RADIUS, SWAY, UX, UY
@@ -120,7 +120,20 @@ def _waypoints(rng: np.random.Generator) -> Route:
     return Route([Waypoints(tuple(map(tuple, points.tolist())))])
 
 
-ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints)
+def _clothoids(rng: np.random.Generator) -> Route:
+    """A line, then clothoids whose curvature goes on from the one before, or jumps."""
+    place, heading = complex(*rng.uniform(-EXTENT, EXTENT, 2)), rng.uniform(-9.0, 9.0)
+    start = place - rng.uniform(20.0, 90.0) * np.exp(1j * heading)
+    pieces: list[Line | Clothoid] = [Line((start.real, start.imag), (place.real, place.imag))]
+    end, bend = (place.real, place.imag), 0.0
+    for _ in range(int(rng.integers(1, 5))):
+        bend, last = (bend if rng.random() < 0.7 else rng.uniform(-0.5, 0.5)), rng.uniform(-0.5, 0.5)
+        pieces.append(Clothoid(end, float(heading), float(bend), float(last), float(10 ** rng.uniform(-1.0, 1.2))))
+        end, heading, bend = pieces[-1].end, pieces[-1].end_heading, last
+    return Route(pieces, start=float(rng.uniform(0.0, 100.0)))
+
+
+ROUTES = (_lines_and_arcs, _coil, _turn, _waypoints, _clothoids)
 
 
 def compare(errors: Errors, search: ContactSearch, head: float, rng: np.random.Generator) -> None:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core import Coil, Dance, Dragon, Line, Outcome, Route, Turn, first_contact, trajectory, venue_clearance
-from tests.campaigns import hunt_contacts, hunt_turns, hunt_venues, hunting
+from core import Clothoid, Coil, Dance, Dragon, Line, Outcome, Route, Turn, first_contact, trajectory, venue_clearance
+from tests.campaigns import hunt_clothoids, hunt_contacts, hunt_turns, hunt_venues, hunting
 from tests.support.depth import examples
 from tests.support.slow_route import SlowRoute
 
@@ -21,8 +21,13 @@ SAME_PLACE = 1e-10
 
 @pytest.mark.parametrize(
     ("fault", "count"),
-    [(hunt_contacts.fault, CONTACTS), (hunt_venues.fault, VENUES), (hunt_turns.fault, CONTACTS)],
-    ids=["contacts", "venues", "turns"],
+    [
+        (hunt_contacts.fault, CONTACTS),
+        (hunt_clothoids.fault, CONTACTS),
+        (hunt_venues.fault, VENUES),
+        (hunt_turns.fault, CONTACTS),
+    ],
+    ids=["contacts", "clothoids", "venues", "turns"],
 )
 def test_nothing_false_is_found_in_a_small_part(fault: Callable[[int, int], tuple[str, str]], count: int) -> None:
     found = hunting.hunt(fault, 44, 0.0, count)
@@ -36,8 +41,10 @@ def test_nothing_false_is_found_in_a_small_part(fault: Callable[[int, int], tupl
         Turn(1.0, 1.5, 1.3, start_turns=8.0),
         Route([Coil(1.7, 9.0, 2.0, (3.0, -2.0), 0.7)], start=40.0),
         Route([Line((0.0, 0.0), (60.0, 25.0))], start=30.0),
+        Route([Clothoid((3.0, -2.0), 0.7, -0.2, 0.7, 40.0)], start=20.0),
+        Route([Clothoid((3.0, -2.0), 0.7, -0.2, -0.2, 40.0)], start=20.0),
     ],
-    ids=["turn", "coil", "line"],
+    ids=["turn", "coil", "line", "clothoid", "arc as a clothoid"],
 )
 def test_the_slow_route_is_the_route(route: Route) -> None:
     dragon = Dragon(9, 1.3, 1.1, 0.3, 0.1)

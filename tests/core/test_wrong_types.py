@@ -16,6 +16,7 @@ from tests.support.public_calls import CALLS, COLUMN, DANCE, DRAGON, POSES, SPIR
 SPOKEN = {
     core.Arc: dict.fromkeys(CALLS[core.Arc], "arc."),
     core.Area: {"name": "venue", "rings": "venue"},
+    core.Clothoid: dict.fromkeys(CALLS[core.Clothoid], "clothoid."),
     core.Coil: dict.fromkeys(CALLS[core.Coil], "coil."),
     core.Dragon: dict.fromkeys(CALLS[core.Dragon], "dragon."),
     core.Dragon.of: dict.fromkeys(CALLS[core.Dragon.of], "dragon."),
@@ -57,7 +58,7 @@ ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 SPELLED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
 SPELLED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
 SPELLED |= {(core.propose, "venue")}
-SPELLED |= {(core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
+SPELLED |= {(core.ClothoidTurn, "ratio"), (core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
 
 
 def spoken(call: Callable[..., Any]) -> str:

@@ -13,7 +13,7 @@ from itertools import product
 
 import flint
 import numpy as np
-from flint import arb
+from flint import acb, arb
 from numpy.typing import NDArray
 
 from core.kernels import constants as c
@@ -132,6 +132,8 @@ class ExactRoute:
         if row[c.PIECE_KIND] == c.LINE:
             dx, dy = arb(row[c.LINE_DX]), arb(row[c.LINE_DY])
             return (row[c.LINE_X] + u * dx, row[c.LINE_Y] + u * dy), (dx, dy)
+        if row[c.PIECE_KIND] == c.CLOTHOID:
+            return self._clothoid(row, u)
         sign = row[c.SIGN]
         if row[c.PIECE_KIND] == c.ARC:
             radius, angle = row[c.ARC_RADIUS], row[c.ARC_ANGLE] + sign * u / row[c.ARC_RADIUS]
@@ -155,6 +157,23 @@ class ExactRoute:
         for _ in range(ROUTE_STEPS):
             theta = middle(theta - (spiral_place(theta) - arc) / (1 + theta * theta).sqrt())
         return theta
+
+    @staticmethod
+    def _clothoid(row: list[float], u: arb) -> tuple[Point, Point]:
+        """By Fresnel integrals: k v + c v^2 / 2 is c (v + k / c)^2 / 2 less k^2 / (2 c)."""
+        k, slope = arb(row[c.K_START]), arb(row[c.K_RATE])
+        first = acb(row[c.LINE_DX], row[c.LINE_DY])
+        along = first * (acb(0, 1) * (k * u + slope * u * u / 2)).exp()
+        if slope == 0:
+            way = ((acb(0, 1) * k * u).exp() - 1) / (acb(0, 1) * k) if k != 0 else acb(u)
+        else:
+            unit = (arb.pi() / abs(slope)).sqrt()
+            ends = [(v + k / slope) / unit for v in (arb(0), u)]
+            cosines, sines = ([getattr(end, name)() for end in ends] for name in ("fresnel_c", "fresnel_s"))
+            way = acb(cosines[1] - cosines[0], (sines[1] - sines[0]) * (1 if slope > 0 else -1)) * unit
+            way = way * (acb(0, -1) * k * k / (2 * slope)).exp()
+        point = acb(row[c.LINE_X], row[c.LINE_Y]) + first * way
+        return (middle(point.real), middle(point.imag)), (middle(along.real), middle(along.imag))
 
     @staticmethod
     def _cubic(row: list[float], u: arb) -> tuple[Point, Point]:

@@ -1,6 +1,7 @@
 """A dragon on a route, computed a second time slowly and plainly: no code of core but the numbers of its pieces.
 
-Points follow from the definitions of a line, an arc and a coil; every next handle is the root of a distance.
+Points follow from the definitions of a line, an arc and a coil, and on a clothoid from SciPy's Fresnel integrals; every
+next handle is the root of a distance.
 """
 
 from __future__ import annotations
@@ -8,14 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import fresnel
 
-from core import Arc, Coil, Line
+from core import Arc, Clothoid, Coil, Line
 from tests.support.slow_search import SlowDance, arc_length
 
 # Steps of Newton's towards a handle, then of a bisection if those do not suffice, and the distance that does [m].
 NEWTON_STEPS, HALVINGS, CLOSE = 12, 60, 1e-11
 # Longest arc over its chord, where the chord can follow the route at all [1].
 LONGEST = 0.5 * np.pi
+# Change of a clothoid's curvature over its length, times its length, below which its mean curvature serves [1]: the
+# difference of its Fresnel integrals would have lost more digits.
+ALMOST_AN_ARC = 1e-12
 # Steps of Newton's to the angle of an arc length, which double the digits from a first guess that is good to 0.2 rad.
 ANGLE_STEPS = 6
 
@@ -34,8 +39,36 @@ def piece_length(piece):
         return float(np.hypot(piece.end[0] - piece.start[0], piece.end[1] - piece.start[1]))
     if isinstance(piece, Arc):
         return abs(piece.sweep) * piece.radius
+    if isinstance(piece, Clothoid):
+        return piece.length
     ends = arc_length(2.0 * np.pi * np.array([piece.start_turns, piece.end_turns]))
     return float(abs(ends[1] - ends[0])) * piece.pitch / (2.0 * np.pi)
+
+
+def clothoid_points(piece, u):
+    """Points and unit tangents (N, 2) on a clothoid; it goes on as a circle beyond its ends.
+
+    The direction at u is turned by k u + c u^2 / 2 = c (u + k / c)^2 / 2 - k^2 / (2 c).
+    """
+    k, slope = piece.start_curvature, (piece.end_curvature - piece.start_curvature) / piece.length
+    on = np.clip(u, 0.0, piece.length)
+    if abs(slope) * piece.length**2 < ALMOST_AN_ARC:
+        way = bow(k + 0.5 * slope * on, on)
+    else:
+        unit = np.sqrt(np.pi / abs(slope))
+        sines, cosines = fresnel((on + k / slope) / unit) - np.array(fresnel(k / slope / unit))[:, None]
+        way = (cosines + 1j * np.sign(slope) * sines) * unit * np.exp(-0.5j * k * k / slope)
+    first = np.exp(1j * piece.heading)
+    along, bend = first * np.exp(1j * (k * on + 0.5 * slope * on * on)), k + slope * on
+    places = complex(*piece.start) + first * way + along * bow(bend, u - on)
+    along = along * np.exp(1j * bend * (u - on))
+    return np.stack([places.real, places.imag], axis=-1), np.stack([along.real, along.imag], axis=-1)
+
+
+def bow(curvature, length):
+    """Where an arc ends that begins in 0 to the right, as complex numbers."""
+    half = 0.5 * curvature * length
+    return length * np.sinc(half / np.pi) * np.exp(1j * half)
 
 
 def piece_points(piece, u):
@@ -48,6 +81,8 @@ def piece_points(piece, u):
         angle = piece.start_angle + sign * u / piece.radius
         out = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         return np.array(piece.centre) + piece.radius * out, sign * np.stack([-out[:, 1], out[:, 0]], axis=-1)
+    if isinstance(piece, Clothoid):
+        return clothoid_points(piece, u)
     growth, sign = piece.pitch / (2.0 * np.pi), np.sign(piece.end_turns - piece.start_turns)
     theta = coil_angle(arc_length(2.0 * np.pi * piece.start_turns) + sign * u / growth)
     out = np.stack([np.cos(theta + piece.rotation), np.sin(theta + piece.rotation)], axis=-1)
@@ -58,7 +93,7 @@ def piece_points(piece, u):
 
 @dataclass
 class SlowRoute(SlowDance):
-    """One dragon on pieces (Line, Arc, Coil), head speed 1 m/s; s = 0 is `start` metres from their beginning."""
+    """One dragon on any pieces without waypoints, at 1 m/s; s = 0 is `start` metres from their beginning."""
 
     pieces: tuple
     start: float
@@ -67,7 +102,7 @@ class SlowRoute(SlowDance):
     def of(cls, dragon, route):
         lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
         pieces = route.pieces
-        assert all(isinstance(piece, Line | Arc | Coil) for piece in pieces)
+        assert all(isinstance(piece, Line | Arc | Coil | Clothoid) for piece in pieces)
         chords = lengths - 2 * overhangs
         return cls(chords, lengths, np.array(dragon.widths), 0.0, 0.0, pieces, route.start)
 

@@ -35,6 +35,7 @@ export const RULES = {
   "be more than {least}": [undefined, "应大于 {least}"],
   "be at most {most}": [undefined, "最多为 {most}"],
   "be from {least} to {most}": [undefined, "应在 {least} 至 {most} 之间"],
+  "be at most {most}, where it would turn by {turn} at the larger of its curvatures": [undefined, "最多为 {most}（否则以其较大的曲率转过的角度将超过 {turn}）"],
   "be positive": [undefined, "应大于 0"],
   "be zero or more": [undefined, "应为 0 或更大"],
   "be smaller": [undefined, "应更小"],

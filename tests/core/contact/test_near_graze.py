@@ -10,9 +10,11 @@ import pytest
 import core.contact.near_graze
 from core import (
     Arc,
+    Clothoid,
     Coil,
     Dance,
     Dragon,
+    Line,
     Outcome,
     Passage,
     Route,
@@ -36,6 +38,8 @@ DOUBLE = 1e-12
 PRECISE = Decimal("1e-30")  # [m]
 BRACKET = 1e-9  # [s]
 TURN = Turn(1.7)
+RAMP = Clothoid((100, 0), 0.0, 0.0, 0.3, 12.0)
+BEND = Route([Line((0, 0), (100, 0)), RAMP, Clothoid(RAMP.end, RAMP.end_heading, 0.3, -0.2, 20.0)], start=100.0)
 
 
 def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
@@ -46,8 +50,11 @@ def pair_of(path: Spiral | Route, pair: tuple[int, int]) -> ExactPair:
 
 @pytest.mark.parametrize(
     ("path", "travel"),
-    [(Spiral(), 10.0), (Spiral(), 412.4), (Spiral(0.45, 20.0), 300.0), (TURN, -30.0), (TURN, 14.0), (TURN, 60.0)],
-    ids=["spiral", "near contact", "another", "before the turn", "in the turn", "after the turn"],
+    [
+        *((Spiral(), 10.0), (Spiral(), 412.4), (Spiral(0.45, 20.0), 300.0)),
+        *((TURN, -30.0), (TURN, 14.0), (TURN, 60.0), (BEND, 2.0), (BEND, 25.0)),
+    ],
+    ids=["spiral", "near contact", "another", "before the turn", "in the turn", "after the turn", "ramp", "clothoids"],
 )
 @pytest.mark.parametrize("pair", [(0, 2), (0, 19), (7, 31)])
 def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: float, pair: tuple[int, int]) -> None:

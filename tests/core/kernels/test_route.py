@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core import Arc, Coil, Line, Route, Waypoints, kernels
+from core import Arc, Clothoid, Coil, Line, Route, Waypoints, kernels
 from core.error_free import paired
 
 PATHS = {
     "line and arc": Route([Line((0.0, 0.0), (7.0, 0.0)), Arc((7.0, 3.0), 3.0, -0.5 * np.pi, 2.0)]),
     "coil": Route([Coil(1.3, 6.0, 2.0)]),
+    "clothoids": Route([Clothoid((0, 0), 1.0, 0.0, 0.6, 9.0)]),
     "waypoints": Route([Waypoints(((0, 0), (6, 1), (11, 6), (9, 13), (2, 14)))]),
 }
 # Steps of difference quotients [m], and what these and rounding leave of a tangent [1] and of a curvature [1/m].

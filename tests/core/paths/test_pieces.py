@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 
-from core import Arc, Coil, InvalidValue, Line, Piece, Route, Waypoints
+from core import Arc, Clothoid, Coil, InvalidValue, Line, Piece, Route, Waypoints
 from core.kernels.constants import K_SLOPE, S_START
 from tests.core.paths.test_route import Pen, legs
 
@@ -51,6 +51,7 @@ def test_a_coordinate_that_is_no_finite_number_is_refused(bad: object) -> None:
     assert e.value.field == "line.end.1"
 
 
+RAMP = {"start": (0, 0), "heading": 0.0, "start_curvature": 0.0, "end_curvature": 0.5, "length": 2.0}
 FIELDS_THAT_ARE_NONE: list[tuple[Callable[..., Piece], dict[str, Any], str, str]] = [
     (Waypoints, {"points": ((0, 0), (5, 5)), "start_heading": math.nan}, "start_heading", "finite number, got nan rad"),
     (Waypoints, {"points": ((0, 0), (5, 5)), "end_heading": math.inf}, "end_heading", "finite number, got inf rad"),
@@ -67,6 +68,11 @@ FIELDS_THAT_ARE_NONE: list[tuple[Callable[..., Piece], dict[str, Any], str, str]
     (Arc, {"centre": (0, 0), "radius": None, "start_angle": 0, "sweep": 1}, "radius", "a number, got None"),
     (Arc, {"centre": (0, 0), "radius": -3, "start_angle": 0, "sweep": 1}, "radius", "positive, got -3 m"),
     (Arc, {"centre": (0, 0), "radius": 3, "start_angle": 0, "sweep": True}, "sweep", "a number, got True"),
+    (Clothoid, RAMP | {"start": (0, math.nan)}, "start[1]", "got nan m"),
+    (Clothoid, RAMP | {"heading": "east"}, "heading", "a number, got 'east'"),
+    (Clothoid, RAMP | {"end_curvature": 1001}, "end_curvature", "at most 1000 1/m, got 1001 1/m"),
+    (Clothoid, RAMP | {"start_curvature": math.inf}, "start_curvature", "got inf 1/m"),
+    (Clothoid, RAMP | {"length": 0}, "length", "positive, got 0 m"),
     (Coil, {"pitch": 0.5, "start_turns": 5, "end_turns": 3, "rotation": math.inf}, "rotation", "got inf rad"),
     (Coil, {"pitch": 0.5, "start_turns": "5", "end_turns": 3}, "start_turns", "a number, got '5'"),
     (Coil, {"pitch": 0.5, "start_turns": 5, "end_turns": -3}, "end_turns", "zero or more, got -3 turns"),

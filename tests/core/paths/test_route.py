@@ -79,7 +79,9 @@ def test_no_pieces_are_refused() -> None:
 
 
 def test_what_is_no_piece_is_refused() -> None:
-    with pytest.raises(InvalidValue, match=r"^path\.pieces\[0\] must be a Line, Arc, Coil or Waypoints, got 3$") as e:
+    with pytest.raises(
+        InvalidValue, match=r"^path\.pieces\[0\] must be a Line, Arc, Coil, Clothoid or Waypoints, got 3$"
+    ) as e:
         Route([3])  # type: ignore[list-item]
     assert e.value.field == "path.pieces.0"
 

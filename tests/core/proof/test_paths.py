@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from flint import arb
 
-from core import Arc, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, trajectory
+from core import Arc, Clothoid, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, trajectory
 from core.proof.chain import Chain
 from core.proof.paths import chain_on, core_path, path_words, recorded_path
 from core.proof.route import RouteChain
@@ -58,6 +58,12 @@ def test_the_arcs_of_a_turn_with_its_own_exit_are_those_of_core(leaving: float) 
         known = trajectory(Dance(dragon, turn), [time]).position[0]
         places = np.array([-float(place) for place in pose.places[: dragon.benches + 1]])
         assert turn.position(places) == pytest.approx(known, abs=1e-9)
+
+
+def test_clothoids_are_refused_by_their_place() -> None:
+    path = Route([Line((-9.0, 0.0), (0.0, 0.0)), Clothoid((0.0, 0.0), 0.0, 0.0, 0.5, 2.0)])
+    with pytest.raises(InvalidValue, match=r"path\.pieces\[1\] must be .* in ball arithmetic, got clothoid: on such"):
+        recorded_path(path)
 
 
 @pytest.mark.parametrize("before", [0, 1])

@@ -1,0 +1,96 @@
+"""Turns with clothoids: continuous curvature, the coils they join, the turn of two arcs as their limit, refusals."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from core import ClothoidTurn, Dance, Dragon, InvalidValue, Outcome, Turn, first_contact, trajectory, turn_time
+from tests.support.slow_route import SlowRoute
+
+# A joint as it is accepted [m]; handles of the slow route [m].
+JOINT, HANDLES = 1e-9, 1e-9
+SMOOTH = ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
+
+
+def test_the_curvature_is_continuous_from_coil_to_coil() -> None:
+    s = np.linspace(-2.0, SMOOTH.length + 2.0, 40_001)
+    steepest = 2.0 * max(1.0 / radius for radius in SMOOTH.radii) / 0.5
+    assert np.abs(np.diff(SMOOTH.curvature(s))).max() < steepest * (s[1] - s[0])
+    assert np.abs(SMOOTH.curvature(s)).max() == pytest.approx(1.0 / min(SMOOTH.radii), rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [0.8, 1.0, 2.0])
+def test_short_clothoids_leave_the_turn_of_two_arcs(ratio: float) -> None:
+    arcs = Turn(1.7, ratio=ratio, entry_radius=4.3, exit_radius=4.4)
+    blended = ClothoidTurn(1.7, ratio=ratio, middle=1e-3, entry_radius=4.3, exit_radius=4.4)
+    assert blended.length == pytest.approx(arcs.length, rel=0, abs=1e-5)
+    assert blended.radii == pytest.approx(arcs.radii, rel=0, abs=1e-5)
+    s = np.linspace(-5.0, arcs.length, 101)
+    assert np.abs(blended.position(s) - arcs.position(s)).max() < 1e-5
+
+
+def test_it_ends_where_the_coil_outwards_begins() -> None:
+    turn = ClothoidTurn(1.7, ratio=1.1, middle=2.0, ends=0.2, entry_radius=3.6, exit_radius=3.5)
+    end = turn.position(turn.length)
+    assert math.hypot(*end) == pytest.approx(3.5, rel=0, abs=JOINT)
+    arcs = Turn(1.7, ratio=1.1, entry_radius=3.6, exit_radius=3.5)
+    assert end == pytest.approx(arcs.exit, rel=0, abs=JOINT)
+    assert turn.position(0.0) == pytest.approx(arcs.entry, rel=0, abs=JOINT)
+
+
+def test_with_equal_arcs_opposite_ends_the_turn_is_its_own_reflection() -> None:
+    s = np.linspace(0.0, SMOOTH.length, 201)
+    assert np.abs(SMOOTH.position(s) + SMOOTH.position(SMOOTH.length - s)).max() < JOINT
+
+
+def test_handles_on_it_are_those_of_the_slow_route() -> None:
+
+    dragon = Dragon(9)
+    slow = SlowRoute.of(dragon, SMOOTH)
+    times = np.linspace(0.0, SMOOTH.length + 15.0, 21)
+    assert np.abs(trajectory(Dance(dragon, SMOOTH), times).position - slow.handles(times)).max() < HANDLES
+
+
+def test_a_clothoid_between_the_arcs_makes_the_turn_quicker() -> None:
+    """The values of docs/contest.md."""
+    turns = Turn(1.7, ratio=1.0), ClothoidTurn(1.7, ratio=1.0, middle=5.8)
+    assert [round(turn_time(Dragon(), turn).time, 2) for turn in turns] == [8.21, 7.28]
+
+
+def test_all_benches_dance_through_it() -> None:
+    assert first_contact(Dance(Dragon(), SMOOTH), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+
+
+@pytest.mark.parametrize(
+    ("ways", "field", "words"),
+    [
+        ({"middle": 40.0}, "middle", "got 40 m: no turn between these coils is found with clothoids of"),
+        ({"middle": 0.0}, "middle", "must be positive, got 0 m"),
+        ({"middle": 1.0, "ends": -1.0}, "ends", "must be zero or more, got -1 m"),
+        ({"middle": 1.0, "ratio": 1_000.0}, "ratio", "must be at most 100, got 1000"),
+        ({"middle": 1.0, "exit_radius": 4.6}, "exit_radius", "must be at most 4.5 m, got 4.6 m"),
+    ],
+    ids=["long", "none", "negative", "ratio", "exit"],
+)
+def test_what_is_no_turn_is_refused(ways: dict[str, float], field: str, words: str) -> None:
+    with pytest.raises(InvalidValue) as refused:
+        ClothoidTurn(1.7, **ways)
+    assert refused.value.field == field
+    assert words in str(refused.value)
+
+
+def test_the_extent_is_the_largest_distance_from_the_centre() -> None:
+    for turn in (SMOOTH, ClothoidTurn(1.7, ratio=1.07, middle=2.265, entry_radius=3.417, exit_radius=3.57)):
+        sampled = np.hypot(*turn.position(np.linspace(0.0, turn.length, 100_001)).T).max()
+        assert turn.extent == pytest.approx(sampled, rel=0, abs=1e-8)
+        assert turn.extent <= turn.turning_radius + JOINT
+
+
+def test_equal_turns_are_equal_and_repeat_what_made_them() -> None:
+    again = eval(repr(SMOOTH))
+    assert again == SMOOTH
+    assert hash(again) == hash(SMOOTH)
+    assert ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.6) != SMOOTH
