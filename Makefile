@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist install-time lock clean
+.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist wheels install-time lock clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -39,6 +39,7 @@ help:
 	@echo 'make docs     the documentation as a site, which the service shows at /guide/'
 	@echo 'make figures  the figures of README.md and docs/'
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
+	@echo 'make wheels   wheels for all Pythons that are here, tried in empty environments (PYTHONS=)'
 	@echo 'make install-time  how long pip takes to install the wheel of core and its command, downloads not counted'
 	@echo 'make lock     new exact versions in requirements.lock'
 	@echo 'make clean    remove everything that make created'
@@ -168,6 +169,9 @@ dist: test-setup
 	@build/checks/bin/twine check --strict dist/*
 	@build/checks/bin/check-wheel-contents dist/*.whl
 	@build/checks/bin/python -m tests.support.wheels dist/*.whl
+
+wheels: dist
+	@bash .ci/wheels $(PYTHONS)
 
 # Processor time counts: on a busy machine the clock runs on.
 install-time: setup

@@ -20,6 +20,7 @@ MODULES = {
     "figures": _FIGURES,
     "film": ("av", *_FIGURES),
     "mcp": ("mcp", *_SERVICE),
+    "polars": ("polars",),
     "proof": ("flint",),
     "service": _SERVICE,
     "sweep": _SWEEP,

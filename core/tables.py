@@ -1,29 +1,66 @@
-"""Results as tables with units: a DataFrame of pandas, a Dataset of xarray. Both packages are imported on demand."""
+"""Results as tables: DataFrames of pandas and Polars, a Dataset of xarray. The packages are imported on demand."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from core.display import UNITS
+from core.display import UNITS, WithArrays
 from core.extras import wanted
 
 if TYPE_CHECKING:
     import pandas
+    import polars
     import xarray
 
+# One value for each row: numbers or words, (N,).
+Column: TypeAlias = np.ndarray[Any, Any]
 
-def data_frame(what: str, columns: Mapping[str, np.ndarray[Any, Any]], units: Mapping[str, str]) -> pandas.DataFrame:
-    """A table with one row for each entry of the columns.
 
-    what: the caller, for the message; columns: (N,) each; units: of columns whose name does not imply one
-    `attrs["units"]` of the result has all units.
+class Table(WithArrays):
+    """A result that is a table: one row for each entry of its columns."""
+
+    __slots__ = ()
+
+    def columns(self) -> dict[str, Column]:
+        """The columns by name, (N,) each."""
+        raise NotImplementedError
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The columns as a DataFrame of pandas, whose `attrs["units"]` has their units.
+
+        raises: ImportError without pandas, naming the extra
+        """
+        return data_frame(f"{type(self).__name__}.to_dataframe()", self.columns())
+
+    def to_polars(self) -> polars.DataFrame:
+        """The columns as a DataFrame of Polars, which keeps no units.
+
+        raises: ImportError without Polars, naming the extra
+        """
+        return polars_frame(f"{type(self).__name__}.to_polars()", self.columns())
+
+
+def data_frame(what: str, columns: Mapping[str, Column]) -> pandas.DataFrame:
+    """A table of pandas with one row for each entry of the columns; `attrs["units"]` has the units of all.
+
+    what: the caller, for the message; columns: (N,) each
     raises: ImportError naming the extra `data` if pandas is not installed
     """
     frame = wanted("pandas", "data", what).DataFrame(columns)
-    frame.attrs["units"] = {name: units.get(name, UNITS.get(name, "")) for name in columns}
+    frame.attrs["units"] = {name: UNITS.get(name.removesuffix("_x").removesuffix("_y"), "") for name in columns}
+    return frame
+
+
+def polars_frame(what: str, columns: Mapping[str, Column]) -> polars.DataFrame:
+    """A table of Polars with one row for each entry of the columns.
+
+    what: the caller, for the message; columns: (N,) each
+    raises: ImportError naming the extra `polars` if it is not installed
+    """
+    frame: polars.DataFrame = wanted("polars", "polars", what).DataFrame(dict(columns))
     return frame
 
 

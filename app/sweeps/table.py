@@ -24,11 +24,12 @@ from app.wire.texts import FORMULA
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
-from core.tables import data_frame
+from core.tables import data_frame, polars_frame
 from core.values import Floats
 
 if TYPE_CHECKING:
     import pandas
+    import polars
 
 # Rows in a group of the joined file: the smallest part that can be read.
 GROUP = 100_000
@@ -96,8 +97,15 @@ class Sweep:
 
     def to_dataframe(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
         """One row for each answered design. raises: ImportError without pandas, naming the extra; InvalidValue"""
+        return data_frame("Sweep.to_dataframe()", self._arrays(columns))
+
+    def to_polars(self, columns: Sequence[str] | None = None) -> polars.DataFrame:
+        """One row for each answered design. raises: ImportError without Polars, naming the extra; InvalidValue"""
+        return polars_frame("Sweep.to_polars()", self._arrays(columns))
+
+    def _arrays(self, columns: Sequence[str] | None) -> dict[str, np.ndarray[Any, Any]]:
         table = self.table(columns)
-        return data_frame("Sweep.to_dataframe()", {name: table[name].to_numpy() for name in table.column_names}, {})
+        return {name: table[name].to_numpy() for name in table.column_names}
 
     def compact(self) -> Path:
         """Join all parts into one file, which replaces them; its bytes do not depend on the division of work.

@@ -14,18 +14,17 @@ from core.contact.fold import least_to_fold
 from core.contact.march import TOUCHES
 from core.contact.search import NEAR_WORK_BUDGET, ContactSearch, before_fold
 from core.dance import Clock, Dance
-from core.display import Readable, WithArrays, display, format_count
+from core.display import Readable, display, format_count
 from core.dragon import Stray, checked_stray
 from core.errors import InvalidValue, question_about
 from core.kernels import NO_BRACKET, Budget, Ended
 from core.kernels.results import Dip, Marched
 from core.motion.trajectory import instants
 from core.sampling import dips
-from core.tables import data_frame, data_set
+from core.tables import Column, Table, data_set
 from core.values import Floats
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
     from matplotlib.axes import Axes
 
@@ -55,7 +54,7 @@ class Graze(Readable):
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class ClearanceProfile(WithArrays):
+class ClearanceProfile(Table):
     """time (...) [s], clearance (...) [m], benches (..., 2), and the local minima between the first and last time.
 
     ... is (T,) for a list of times and empty for one time.
@@ -75,14 +74,10 @@ class ClearanceProfile(WithArrays):
         grazes = format_count(len(self.grazes), "graze")
         return f"{instants(self.time)}; least {nearest} at {display(self.time.item(least), 's')}; {grazes}"
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """One row for each time: time [s], clearance [m], bench_a, bench_b.
-
-        raises: ImportError without pandas, naming the extra
-        """
+    def columns(self) -> dict[str, Column]:
+        """One row for each time: time [s], clearance [m], bench_a, bench_b."""
         a, b = self.benches.reshape(-1, 2).T
-        columns = {"time": self.time.ravel(), "clearance": self.clearance.ravel(), "bench_a": a, "bench_b": b}
-        return data_frame("ClearanceProfile.to_dataframe()", columns, {})
+        return {"time": self.time.ravel(), "clearance": self.clearance.ravel(), "bench_a": a, "bench_b": b}
 
     def to_xarray(self) -> xarray.Dataset:
         """clearance (time) [m] and benches (time, pair), without the axis `time` for a single time.

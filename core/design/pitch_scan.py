@@ -14,7 +14,7 @@ from core.contact.fold import clear_to_fold
 from core.contact.search import MARGIN_MAX, WORK_BUDGET, ContactSearch, before_fold
 from core.dance import Dance, EndReason
 from core.design.minimum_pitch import MinimumPitch, minimum_pitch
-from core.display import WithArrays, format_count, format_range
+from core.display import format_count, format_range
 from core.dragon import Dragon, chord_values
 from core.errors import (
     SIZE_MIN,
@@ -30,11 +30,10 @@ from core.errors import (
 )
 from core.kernels import Budget, Ended, Halted
 from core.paths.spiral import Spiral
-from core.tables import data_frame
+from core.tables import Column, Table
 from core.values import Floats, Progress, unheard
 
 if TYPE_CHECKING:
-    import pandas
     from matplotlib.axes import Axes
 
 # A fall of the first-contact radius [m] between two pitches closer than JUMP_WIDTH [m] is a jump.
@@ -50,7 +49,7 @@ SCAN_FROM, SCAN_TO = 0.8, 1.35
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class PitchScan(WithArrays):
+class PitchScan(Table):
     """Head radius at first contact against pitch.
 
     pitch, radius: (N,) [m], ascending; a run without contact has no entry
@@ -75,14 +74,10 @@ class PitchScan(WithArrays):
         samples = f"{format_count(self.pitch.size, 'sample')} at pitches of {format_range(self.pitch, 'm')}"
         return f"{samples}, {radius}, in {pieces}"
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """One row for each pitch: pitch, radius [m], and the number of its piece.
-
-        raises: ImportError without pandas, naming the extra
-        """
+    def columns(self) -> dict[str, Column]:
+        """One row for each pitch: pitch, radius [m], and the number of its piece."""
         piece = np.repeat(np.arange(len(self.pieces)), [end - start for start, end in self.pieces])
-        columns = {"pitch": self.pitch, "radius": self.radius, "piece": piece}
-        return data_frame("PitchScan.to_dataframe()", columns, {})
+        return {"pitch": self.pitch, "radius": self.radius, "piece": piece}
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the radius against the pitch: a staircase with dotted jumps.

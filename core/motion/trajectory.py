@@ -10,17 +10,16 @@ from numpy.typing import ArrayLike
 
 from core import plots
 from core.dance import Clock, Dance
-from core.display import WithArrays, display, format_range
+from core.display import display, format_range
 from core.error_free import paired, two_product, two_sum
 from core.errors import question_about
 from core.kernels import Budget
 from core.paths.frame import WORLD
 from core.shapes.rectangles import bench_outlines
-from core.tables import data_frame, data_set
+from core.tables import Column, Table, data_set
 from core.values import Floats
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
     from matplotlib.axes import Axes
 
@@ -32,7 +31,7 @@ AXES = ("x", "y")
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class Trajectory(WithArrays):
+class Trajectory(Table):
     """time (...) [s]; position (..., n + 1, 2) [m]; velocity (..., n + 1, 2) [m/s]; speed (..., n + 1) [m/s].
 
     ... is (T,) for a list of times and empty for one time. dance: the dance itself; without it plot() has no benches
@@ -48,20 +47,16 @@ class Trajectory(WithArrays):
         speeds = f", {format_range(self.speed, 'm/s')}" if self.speed.size else ""
         return f"{instants(self.time)}; {self.speed.shape[-1]} handles{speeds}"
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """One row for each time and handle: time [s], handle, x, y [m], velocity_x, velocity_y, speed [m/s].
-
-        raises: ImportError without pandas, naming the extra
-        """
+    def columns(self) -> dict[str, Column]:
+        """One row for each time and handle: time [s], handle, x, y [m], velocity_x, velocity_y, speed [m/s]."""
         handles = self.speed.shape[-1]
-        columns = {
+        return {
             "time": np.repeat(self.time, handles),
             "handle": np.tile(np.arange(handles), self.time.size),
             **{name: self.position[..., k].ravel() for k, name in enumerate(AXES)},
             **{f"velocity_{name}": self.velocity[..., k].ravel() for k, name in enumerate(AXES)},
             "speed": self.speed.ravel(),
         }
-        return data_frame("Trajectory.to_dataframe()", columns, dict.fromkeys(("velocity_x", "velocity_y"), "m/s"))
 
     def to_xarray(self) -> xarray.Dataset:
         """position [m], velocity [m/s] (time, handle, axis) and speed (time, handle) [m/s]; without the axis `time`

@@ -10,17 +10,16 @@ import numpy as np
 
 from core import plots
 from core.dance import Dance
-from core.display import WithArrays, format_range
+from core.display import format_range
 from core.dragon import Dragon
 from core.errors import Given, InvalidValue, Quantity, TooMuchWork, checked_size, question_about, too_much
 from core.kernels import Budget
 from core.paths.spiral import Spiral
-from core.tables import data_frame
+from core.tables import Column, Table
 from core.tolerance.tolerance import Tolerance, tolerance
 from core.values import Floats, Progress, unheard
 
 if TYPE_CHECKING:
-    import pandas
     from matplotlib.axes import Axes
 
 # Largest number of pitches of a curve, each of which is a question of its own [1].
@@ -28,7 +27,7 @@ CURVE_MOST = 10_000
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
-class ToleranceCurve(WithArrays):
+class ToleranceCurve(Table):
     """Stray that is safe at each of some pitches of a spiral, on the way to a turning circle.
 
     pitch: (N,) [m], as given; stray: (N,) [m], proven safe; tolerances: the whole answers
@@ -41,11 +40,10 @@ class ToleranceCurve(WithArrays):
     def _line(self) -> str:
         return f"strays of {format_range(self.stray, 'm')} at pitches of {format_range(self.pitch, 'm')}"
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """One row for each pitch: pitch, stray [m], limited_by. raises: ImportError without pandas, naming the extra"""
+    def columns(self) -> dict[str, Column]:
+        """One row for each pitch: pitch, stray [m], limited_by."""
         limits = np.array([one.limited_by.value for one in self.tolerances])
-        columns = {"pitch": self.pitch, "stray": self.stray, "limited_by": limits}
-        return data_frame("ToleranceCurve.to_dataframe()", columns, {})
+        return {"pitch": self.pitch, "stray": self.stray, "limited_by": limits}
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Plot the stray against the pitch.

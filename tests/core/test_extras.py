@@ -21,6 +21,7 @@ DANCE = Dance(Dragon(5), Spiral())
     [
         ("pandas", "data", lambda: trajectory(DANCE, 0.0).to_dataframe()),
         ("pandas", "data", lambda: clearance_profile(DANCE, 0.0).to_dataframe()),
+        ("polars", "polars", lambda: trajectory(DANCE, 0.0).to_polars()),
         ("xarray", "data", lambda: trajectory(DANCE, 0.0).to_xarray()),
         ("xarray", "data", lambda: clearance_profile(DANCE, 0.0).to_xarray()),
         ("matplotlib", "figures", lambda: trajectory(DANCE, 0.0).plot()),

@@ -1,11 +1,12 @@
-"""Results as tables of pandas and xarray: the same numbers under their names, with their units."""
+"""Results as tables of pandas, Polars and xarray: the same numbers under their names, with their units."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from core import Dance, Dragon, Spiral, clearance_profile, pitch_scan, trajectory
+from core import Dance, Dragon, Spiral, clearance_profile, pitch_scan, tolerance_curve, trajectory
+from core.tables import Table
 
 DANCE = Dance(Dragon(5), Spiral())
 TIMES = [0.0, 60.0, 120.0]
@@ -67,3 +68,20 @@ def test_a_scan_is_a_table_with_the_piece_of_each_pitch() -> None:
     assert frame.pitch.to_list() == found.pitch.tolist()
     assert frame.radius.to_list() == found.radius.tolist()
     assert [(group.index[0], group.index[-1] + 1) for _, group in frame.groupby("piece")] == list(found.pieces)
+
+
+@pytest.mark.parametrize(
+    "result",
+    [
+        trajectory(DANCE, TIMES),
+        trajectory(DANCE, 60.0),
+        clearance_profile(DANCE, TIMES),
+        pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0),
+        tolerance_curve(Dragon(5), [0.5, 0.6]),
+    ],
+    ids=lambda result: type(result).__name__,
+)
+def test_a_table_of_polars_has_the_numbers_of_that_of_pandas(result: Table) -> None:
+    frame, other = result.to_polars(), result.to_dataframe()
+    assert frame.columns == list(other)
+    assert all(frame[name].to_list() == other[name].to_list() for name in other)
