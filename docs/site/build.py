@@ -13,7 +13,6 @@ import tempfile
 from pathlib import Path
 
 from reference import ROOMS, http_pages, library_pages
-from sphinx.cmd.build import main as sphinx
 
 from app.service.main import create_app
 
@@ -24,7 +23,7 @@ ROOT = DOCS.parent
 SECTIONS = {
     "everyone": ("Everyone", ["conventions", "command"]),
     "students": ("Students", ["contest", "grade", "method", "paper"]),
-    "organisers": ("Organisers", ["paths-and-venues", "maps", "plan", "tolerance", "envelope"]),
+    "organisers": ("Organisers", ["paths-and-venues", "propose", "maps", "plan", "tolerance", "envelope"]),
     "scientists": ("Scientists", ["library", "proofs", "claims", "sweeps", "performance", "dragon-ccd"]),
     "operators": ("Operators", ["http", "operations", "assistants"]),
     "reference": ("Reference", [*(f"reference/{page}" for page in ROOMS), "http-reference"]),
@@ -95,6 +94,8 @@ def assemble(source: Path) -> None:
 
 def build(target: Path) -> int:
     """Build the site into a folder, whose files it replaces. returns: exit code of Sphinx; a warning is an error"""
+    from sphinx.cmd.build import main as sphinx
+
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, "source")
         source.mkdir()

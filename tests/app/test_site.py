@@ -33,6 +33,13 @@ def test_every_public_name_of_core_stands_on_one_page() -> None:
     assert sorted(names) == sorted(core.__all__)
 
 
+def test_every_page_of_docs_has_a_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(SITE))
+    module("build").assemble(tmp_path)
+    pages = {path.stem for path in SITE.parent.glob("*.md")} - {"README"}
+    assert pages <= {path.stem for path in tmp_path.glob("*.md")}
+
+
 def test_every_call_and_every_schema_has_its_place() -> None:
     description = create_app().openapi()
     text = module("reference").http_pages(description)["http-reference"]

@@ -88,4 +88,4 @@ def test_what_a_terminal_cannot_show_is_escaped(command: str, encoding: str, tmp
 
 
 def test_a_terminal_of_gbk_gets_its_own_characters() -> None:
-    assert "论文".encode("gbk") in shell("paper --language zh", PYTHONIOENCODING="gbk").stdout
+    assert "正确".encode("gbk") in shell("grade --language zh --pitch 0.45", PYTHONIOENCODING="gbk").stdout
