@@ -22,7 +22,7 @@ from app.questions import figures
 from app.questions.check import CheckRequest, LeastClearance, Nearest, Report
 from app.questions.figures import Format, TrajectoryFigureRequest
 from app.settings import Settings
-from app.wire.dances import TimeRange
+from app.wire.dances import TimeRange, clock_of
 from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
@@ -67,13 +67,18 @@ def check(
     with refusing(request), show.waiting("check"):
         answer = checks.check(request, Terms())
         drawn = _drawn_check(request, answer, Format(ending[1:]), time) if figure else b""
-        write = trajectory_writer(suffix, None, Language.ENGLISH, request.start_clock) if suffix else None
+        write = trajectory_writer(suffix, None, Language.ENGLISH, _clock(request)) if suffix else None
         table = write(_danced(request, answer)) if write else b""
     if figure:
         show.write(figure, drawn)
     if output:
         show.write(output, table)
     show.print_result(answer, json, _report_parts(answer, request.margin, request.benches))
+
+
+def _clock(request: CheckRequest) -> str | None:
+    """The time of day at time 0; None if the request gives none."""
+    return clock_of(request, request.to_dance(Settings().checked_benches_max))
 
 
 def _danced(request: CheckRequest, answer: Report) -> core.Trajectory:
@@ -107,6 +112,8 @@ def _report_parts(report: Report, margin: float, benches: int) -> Iterator[show.
     """The verdict, the failures in order of time, and the measured values. margin: [m]; benches: of the dragon"""
     yield Text(VERDICTS[report.verdict], style="bold")
     yield from (f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures)
+    if report.begins:
+        yield f"Starts {report.begins}, ends {report.ends}."
     yield ""
     facts = show.new_table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
     for name, value, time, who in _measured(report, margin, benches):

@@ -20,7 +20,7 @@ from app.files.disk import checked_output, write_whole
 from app.files.tables import PAPER_HANDLES, TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
-from app.wire.dances import TimeRange
+from app.wire.dances import TimeRange, clock_of
 from app.wire.messages import checked
 from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
@@ -71,10 +71,10 @@ def trajectory(
         raise InvalidValue.in_words("json", words)
     if ending != ".xlsx":
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
-    clock = request.start_clock if isinstance(request, TrajectoryRequest) else None
-    write = trajectory_writer(ending, request.decimals, language, clock) if ending else None
     settings = Settings()
     dance = dance_of(request, context, settings.benches_max)
+    clock = clock_of(request, dance) if isinstance(request, TrajectoryRequest) else None
+    write = trajectory_writer(ending, request.decimals, language, clock) if ending else None
     handles, times = _handles(context.params["handles"], dance.dragon), request.times
     if typed_options(context, "times") and (ranged := typed_options(context, "start", "stop", "step")):
         raise InvalidValue.in_words("times", "--times replaces --{option}: give one of the two", option=ranged[0])

@@ -49,8 +49,9 @@ def read_dance(file: Path) -> dict[str, Any]:
             print(f"{place}: {note}", file=sys.stderr)
     if isinstance(request.get("dragon"), str):
         request["dragon"] = {"csv": _table(file, file.parent / request["dragon"])}
-    if isinstance(clock := request.get("start_clock"), time):  # TOML has times of day
-        request["start_clock"] = clock.replace(microsecond=0).isoformat()
+    for name in ("start_clock", "begin_clock"):
+        if isinstance(clock := request.get(name), time):  # TOML has times of day
+            request[name] = clock.replace(microsecond=0).isoformat()
     return request
 
 

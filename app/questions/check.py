@@ -10,7 +10,7 @@ import core
 from app.questions.collision_time import CollisionTime, Contact
 from app.wire.answers import Head, Pair, Point
 from app.wire.clocks import time_of_day
-from app.wire.dances import PlacedDance, SpanFields
+from app.wire.dances import PlacedDance, SpanFields, clock_of
 from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
 from core import Dance, Outcome, Venue
 
@@ -125,7 +125,7 @@ class Failure(Answer):
     benches: list[int] = Field(description="Benches at fault; for a speed, the handles")
     area: str | None = Field(description="Area of the venue; null if the venue is not involved")
     names: list[str] = Field(description="Names of these benches, empty for one without; none where no bench has any")
-    clock: str | None = Field(description="Time of day of that time, if start_clock is given")
+    clock: str | None = Field(description="Time of day of that time, if start_clock or begin_clock is given")
     message: str = Field(description="The failure in one sentence")
     time_bracket: Point | None = measure(
         "s",
@@ -180,6 +180,8 @@ class Report(Answer):
     sharpest_bend: SharpestBend | None = Field(
         description="Sharpest bend between two consecutive benches; null for a single bench, or without details"
     )
+    begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
+    ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
     origin: Origin | None = Field(
         description="Place of x = y = 0; null unless the venue was given in degrees or states it"
     )
@@ -191,9 +193,12 @@ def check(request: CheckRequest, terms: Terms) -> Report:
     place = request.to_place(dance.dragon)
     result = verdict_of(request, dance, place.venue, request.start, terms, details=request.details)
     contact = CollisionTime.of(result.first_contact, request, terms)
-    failures = [Failure.of(failure, dance.dragon, request.start_clock) for failure in result.failures]
+    clock = clock_of(request, dance)
+    failures = [Failure.of(failure, dance.dragon, clock) for failure in result.failures]
     venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
-    return Report.from_result(result, failures=failures, first_contact=contact, venue=venue, origin=place.origin)
+    own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
+    begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
+    return Report.from_result(result, begins=begins, ends=ends, **own)
 
 
 def verdict_of(

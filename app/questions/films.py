@@ -8,7 +8,7 @@ from pydantic import Field
 
 from app.files.film_spec import ENDINGS, GIF_TYPE, LOOKS, MP4_TYPE, FilmSpec
 from app.files.tables import Language
-from app.wire.dances import PlacedDance
+from app.wire.dances import PlacedDance, clock_of
 from app.wire.question import AS_WHOLE, Instant, Question, Terms, Wire, check_limit, measure
 from core import Dance, EndReason, InvalidValue, Outcome, first_contact
 from core.errors import quantities
@@ -62,7 +62,7 @@ def film_of(request: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes
         "seconds", "millions of pixels", megapixels, terms.settings.film_megapixels_max, "take fewer or smaller"
     )
     start, stop, touching = span_of(request, dance, terms)
-    clock = placed.start_clock if placed else None
+    clock = clock_of(placed, dance) if placed else None
     spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching)
     venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)

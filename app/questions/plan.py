@@ -14,6 +14,7 @@ from app.files.words import Say
 from app.maps.marks import marks_of
 from app.questions.check import verdict_of
 from app.questions.maps import Marked
+from app.wire.dances import clock_of
 from app.wire.degrees import Place
 from app.wire.question import Question, Terms, measure
 from core import Dance, FailureKind, Judgement
@@ -65,7 +66,7 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     from app.plan.timing import TimeFormat, timing_of
 
     dance, budget, say = request.to_dance(terms.settings.checked_benches_max), terms.budget, Say(request.language)
-    place, clock = request.to_place(dance.dragon), TimeFormat(request.start_clock)
+    place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance))
     start, stop = dance.span(request.start, request.stop)
     marks = marks_of(dance, start, stop, request.spacing)
     timing = timing_of(dance, marks, start, stop, budget)

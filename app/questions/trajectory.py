@@ -10,7 +10,7 @@ from pydantic import Field
 
 import core
 from app.files import tables
-from app.wire.dances import TimedDance
+from app.wire.dances import TimedDance, clock_of
 from app.wire.question import AS_WHOLE, JSON, Answer, Question, Terms, measure
 
 
@@ -49,7 +49,7 @@ def trajectory(request: TrajectoryRequest, terms: Terms, form: str = JSON) -> by
     dance = request.to_dance(terms.settings.benches_max)
     result = core.trajectory(dance, request.times_of(dance, cells_max), budget=terms.budget)
     if form == tables.CSV_TYPE:
-        return tables.csv_blocks(result, request.decimals, request.start_clock)
+        return tables.csv_blocks(result, request.decimals, clock_of(request, dance))
     return FORMS[form](result, request.decimals)
 
 

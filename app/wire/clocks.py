@@ -29,18 +29,47 @@ StartClock = Annotated[
 ]
 
 
+BeginClock = Annotated[
+    str | None,
+    AfterValidator(_clock),
+    Field(
+        description="Time of day at which the dance starts, such as 19:30, in place of start_clock: at start if that "
+        "is given, else when the whole dragon is on the path"
+    ),
+]
+
+
+def clock_at_zero(begin_clock: str, begin: float) -> str:
+    """The time of day at time 0 of a dance that begins at a time of the day.
+
+    begin_clock: then; begin: that time of the dance [s], to a millionth of a second
+
+    >>> clock_at_zero("19:30", 44.898), time_of_day(44.898, clock_at_zero("19:30", 44.898))
+    ('19:29:15.102', '19:30:00')
+    """
+    hours, minutes, seconds = (float(part) for part in f"{begin_clock}:00".split(":")[:3])
+    micro = round((3600.0 * hours + 60.0 * minutes + seconds - begin) * 1e6) % (DAY * 1_000_000)
+    seconds, rest = divmod(micro, 1_000_000)
+    fraction = f".{rest:06d}".rstrip("0") if rest else ""
+    return f"{seconds // 3600:02d}:{seconds // 60 % 60:02d}:{seconds % 60:02d}{fraction}"
+
+
 def time_of_day(time: float, start_clock: str) -> str:
     """The time of day at a time of the dance [s], rounded down to the second; after midnight it begins again at 00:00.
 
-    start_clock: at time 0
+    start_clock: at time 0, as clock_at_zero() gives it, or without a fraction of a second
 
     >>> time_of_day(412.5, "19:30"), time_of_day(-1.0, "00:00:00")
     ('19:36:52', '23:59:59')
     """
-    match = CLOCK.fullmatch(start_clock)
+    clock, _, fraction = start_clock.partition(".")
+    match = CLOCK.fullmatch(clock)
     assert match
     hours, minutes, seconds = (int(part or 0) for part in match.groups())
-    now = math.floor(3600 * hours + 60 * minutes + seconds + time) % DAY
+    now = 3600 * hours + 60 * minutes + seconds + time
+    if fraction:  # the sum of two fractions is good to a millionth of a second
+        now = round(now + float(f"0.{fraction}"), 6)
+    now = math.floor(now) % DAY
     return f"{now // 3600:02d}:{now // 60 % 60:02d}:{now % 60:02d}"
 
 

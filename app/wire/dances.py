@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
 from app.wire.benches import BenchCsv
-from app.wire.clocks import PassageBody, StartClock
+from app.wire.clocks import BeginClock, PassageBody, StartClock, clock_at_zero
 from app.wire.paths import KINDS, AnyPath, SpiralPath
 from app.wire.question import (
     Coordinates,
@@ -30,7 +30,7 @@ from app.wire.question import (
     measure,
 )
 from core import Dance, Dragon, InvalidValue
-from core.errors import Parameter, quantities
+from core.errors import Given, Parameter, quantities
 from core.passages import PASSAGES_MAX
 from core.values import Floats
 
@@ -172,6 +172,7 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
     )
     path: AnyPath = Field(default_factory=SpiralPath, description="The path")
     start_clock: StartClock = None
+    begin_clock: BeginClock = None
 
     def most_benches(self, settings: Settings) -> int:
         return super().most_benches(settings) if self.path.kind == "spiral" else settings.checked_benches_max
@@ -180,6 +181,21 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
         """raises: TooLarge, InvalidValue"""
         passages = [one.to_passage() for one in self.passages]
         return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed, passages)
+
+
+def clock_of(request: DanceFields, dance: Dance) -> str | None:
+    """The time of day at time 0 of a dance; None if the request gives none.
+
+    raises: InvalidValue if it gives it twice
+    """
+    if request.begin_clock is None:
+        return request.start_clock
+    if request.start_clock is not None:
+        rule = "must be left out beside {other}, the time of day at time 0"
+        other = Parameter("start_clock")
+        raise InvalidValue("begin_clock", rule, got=Given(request.begin_clock), other=other)
+    start = getattr(request, "start", None)
+    return clock_at_zero(request.begin_clock, dance.begin if start is None else start)
 
 
 class SpanFields(Wire):

@@ -154,6 +154,7 @@ def test_a_table_may_come_from_a_spreadsheet() -> None:
         ("/dragon/names/1", {"dragon": {"benches": 2, "names": ["Zhou", "Li\nWu"]}}),
         ("/dragon/csv", {"dragon": {"csv": TABLE.replace("0,3;", "x;")}}),
         ("/start_clock", {"start_clock": "24:00"}),
+        ("/begin_clock", {"start_clock": None, "begin_clock": "7:30"}),
     ],
 )
 def test_each_is_refused_at_its_place(client: httpx.Client, field: str, body: dict[str, Any]) -> None:
@@ -231,6 +232,33 @@ def test_the_day_begins_again_at_midnight() -> None:
     assert [time_of_day(time, "23:59:30") for time in (0.0, 29.999, 30.0, 86_400.0)] == [
         "23:59:30", "23:59:59", "00:00:00", "23:59:30",
     ]  # fmt: skip
+
+
+LANE = {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
+
+
+@pytest.mark.parametrize("more", [{}, {"start": 20.25}], ids=["whole dragon on the path", "start"])
+def test_the_dance_starts_at_its_time_of_day_and_the_verdict_says_when_it_ends(
+    client: httpx.Client, more: dict[str, Any]
+) -> None:
+    body = {"dragon": {"benches": 4}, "path": LANE, "speed_limit": 0.5, **more}
+    report = client.post("/check", json=body | {"begin_clock": "19:30"}).raise_for_status().json()
+    assert report["start"] % 1.0 > 0.1
+    length = int(report["stop"] - report["start"])
+    assert (report["begins"], report["ends"]) == ("19:30:00", f"19:30:{length:02d}")
+    assert [failure["clock"] for failure in report["failures"]] == ["19:30:00"]
+    plain = client.post("/check", json=body).raise_for_status().json()
+    assert (plain["begins"], plain["ends"]) == (None, None)
+    at_zero = client.post("/check", json=body | {"start_clock": "19:30"}).raise_for_status().json()
+    assert at_zero["begins"] == time_of_day(report["start"], "19:30")
+
+
+def test_two_times_of_day_are_refused(client: httpx.Client) -> None:
+    refused = client.post(
+        "/check", json={"path": LANE, "dragon": {"benches": 2}, "start_clock": "19:30", "begin_clock": "19:31"}
+    )
+    assert refused.status_code == 422
+    assert "begin_clock must be left out beside start_clock, the time of day at time 0" in refused.json()["detail"]
 
 
 def test_a_film_shows_the_time_of_day() -> None:
