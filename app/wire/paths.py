@@ -282,8 +282,8 @@ def path_of(route: Route) -> dict[str, Any]:
 
 
 def _body_of(piece: core.Piece) -> dict[str, Any]:
-    numbers = ("pitch", "radius", "start_angle", "sweep", "start_turns", "end_turns", "rotation")
-    numbers += ("heading", "start_curvature", "end_curvature", "length")
+    numbers = ["pitch", "radius", "start_angle", "sweep", "start_turns", "end_turns", "rotation"]
+    numbers += ["heading", "start_curvature", "end_curvature", "length"]
     own = {field.name for field in fields(piece)}
     body: dict[str, Any] = {"kind": type(piece).__name__.lower()}
     body |= {name: list(getattr(piece, name)) for name in ("start", "end", "centre") if name in own}
