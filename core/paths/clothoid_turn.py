@@ -77,13 +77,13 @@ class ClothoidTurn(Route):
             raise InvalidValue("turning_radius", rule, **quantities("m", 6, got=got, extent=self.extent))
 
     @property
-    def _given(self) -> tuple[object, ...]:
-        return *super()._given, self.turning_radius
+    def _definition(self) -> tuple[object, ...]:
+        return *super()._definition, self.turning_radius
 
     def __repr__(self) -> str:
         ways = ("middle", "ends", "start_turns", "entry_radius", "exit_radius")
-        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in ways)
-        return f"ClothoidTurn({self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, {given})"
+        arguments = ", ".join(f"{name}={getattr(self, name)!r}" for name in ways)
+        return f"ClothoidTurn({self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, {arguments})"
 
     def _pieces(self, bends: Floats, share: float) -> list[Clothoid]:
         """The pieces between the coils. bends: curvature of the second arc [1/m], lengths of both [m]; share: of the

@@ -41,9 +41,9 @@ def refuse_tight_bends(dragon: Dragon, path: Route) -> None:
     chord = float(dragon.chords[bench])
     x, y = path.position(s)
     rule = "must not bend tighter than a radius of {least} for the chord of bench {bench} ({chord})"
-    told = quantities("m", 4, least=tightest, bend=1.0 / curvature, s=s) | quantities("m", 6, chord=chord)
+    values = quantities("m", 4, least=tightest, bend=1.0 / curvature, s=s) | quantities("m", 6, chord=chord)
     place = f"({x:.4g}, {y:.4g}) m"
-    raise InvalidValue("path", f"{rule}, got {{bend}} near {{at}}, s = {{s}}", bench=bench, at=place, **told)
+    raise InvalidValue("path", f"{rule}, got {{bend}} near {{at}}, s = {{s}}", bench=bench, at=place, **values)
 
 
 def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
@@ -64,6 +64,6 @@ def earliest_travel(dragon: Dragon, path: Path, tail_begin: float) -> float:
     high = low + 0.5 * math.pi * straight
     if not has_room(high):
         rule = "is too short for the whole dragon, which takes {least} of it from handle 0 to handle {last}"
-        told = quantities("m", 9, got=path.end - path.begin, least=straight)
-        raise InvalidValue("path", f"{rule} (more along bends)", last=dragon.benches, **told)
+        values = quantities("m", 9, got=path.end - path.begin, least=straight)
+        raise InvalidValue("path", f"{rule} (more along bends)", last=dragon.benches, **values)
     return min(bisect(has_room, low, high, width=ROOM_WIDTH, relative=ROOM_WIDTH)[1], path.end)

@@ -69,8 +69,8 @@ class Legs(Route):
             raise _by_point(error, firsts) from error
 
     def __repr__(self) -> str:
-        given = f"{list(self.points)!r}, {sorted(self.straight)!r}, radius={self.radius!r}, start={self.start!r}"
-        text = f"Legs({given}{self._ends})"
+        arguments = f"{list(self.points)!r}, {sorted(self.straight)!r}, radius={self.radius!r}, start={self.start!r}"
+        text = f"Legs({arguments}{self._ends})"
         return text if len(text) <= REPR_MOST else Readable.__repr__(self)
 
     def _laid_out(self, start_heading: float | None, end_heading: float | None) -> tuple[list[Piece], list[int]]:
@@ -106,38 +106,38 @@ class Legs(Route):
     @cached_property
     def knots(self) -> Floats:
         """s of every point (N,) [m]; for a rounded corner the middle of its arc."""
-        found = [self.begin]
+        places = [self.begin]
         ends = [self.begin, *self.joints, self.end]
         for k, (piece, (begin, end)) in enumerate(zip(self.pieces, pairwise(ends), strict=True)):
             if isinstance(piece, Arc):
-                found.append(0.5 * (begin + end))
+                places.append(0.5 * (begin + end))
             elif isinstance(piece, Waypoints):
-                found += self._between(k, piece.points[1:-1])
+                places += self._between(k, piece.points[1:-1])
             if not isinstance(piece, Arc) and not isinstance(next(iter(self.pieces[k + 1 :]), None), Arc):
-                found.append(end)
-        knots = np.array(found)
+                places.append(end)
+        knots = np.array(places)
         knots.flags.writeable = False
         return knots
 
     def _between(self, k: int, points: tuple[Point, ...]) -> list[float]:
         """s of the inner points of the curve in piece k [m], which are ends of cubics."""
         ends = self.table[self.table[:, kernels.PART] == k, kernels.S_END]
-        places, found, row = self.position(ends), [], 0
+        places, between, row = self.position(ends), [], 0
         for x, y in points:
             row += int(np.argmax(np.hypot(*(places[row:] - (x, y)).T) < AT_WAYPOINT))
-            found.append(float(ends[row]))
+            between.append(float(ends[row]))
             row += 1
-        return found
+        return between
 
 
 def _checked_legs(straight: Sequence[int], legs: int) -> frozenset[int]:
     """The straight legs, each a whole number below the number of legs. raises: InvalidValue"""
-    given = checked_list("path.straight", straight, "a list of legs")
-    for k, leg in enumerate(given):
+    chosen = checked_list("path.straight", straight, "a list of legs")
+    for k, leg in enumerate(chosen):
         name = f"path.straight.{k}"
         if checked_number(name, leg, "", 0, legs - 1) != int(leg):
             raise InvalidValue(name, "must be a whole number", got=Given(leg))
-    return frozenset(map(int, given))
+    return frozenset(map(int, chosen))
 
 
 def _by_point(error: InvalidValue, firsts: list[int]) -> InvalidValue:

@@ -76,10 +76,10 @@ def point_too_near(name: str, gap: float) -> InvalidValue:
 
 def checked_points(name: str, value: object) -> tuple[Point, ...]:
     """The value as two points or more. raises: InvalidValue"""
-    given = checked_list(name, value, "a list of points [x, y] in metres")
-    if len(given) < 2:
-        raise InvalidValue(name, "must be at least 2 points", got=len(given))
-    return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(given))
+    points = checked_list(name, value, "a list of points [x, y] in metres")
+    if len(points) < 2:
+        raise InvalidValue(name, "must be at least 2 points", got=len(points))
+    return tuple(checked_point(f"{name}.{k}", point) for k, point in enumerate(points))
 
 
 def _row(kind: str, start: float, length: Point, curvature: Point, *parameters: float, slope: float = 0.0) -> Floats:

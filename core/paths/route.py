@@ -131,26 +131,26 @@ class Route(Readable):
         gap = math.hypot(x2 - x, y2 - y)
         kink = abs(math.atan2(tx * ty2 - ty * tx2, tx * tx2 + ty * ty2))
         name = f"path.pieces.{k}"
-        told: dict[str, Value] = {"gap": Quantity(gap, "m", 3), "kink": Quantity(kink, "rad", 3)}
-        told |= {"at": f"({x:.9g}, {y:.9g}) m", "other": f"({x2:.9g}, {y2:.9g}) m"}
-        told |= {"before": Parameter(f"path.pieces.{k - 1}"), "after": Parameter(name)}
+        values: dict[str, Value] = {"gap": Quantity(gap, "m", 3), "kink": Quantity(kink, "rad", 3)}
+        values |= {"at": f"({x:.9g}, {y:.9g}) m", "other": f"({x2:.9g}, {y2:.9g}) m"}
+        values |= {"before": Parameter(f"path.pieces.{k - 1}"), "after": Parameter(name)}
         if gap > JOINT_GAP:
             words, why = "the joint of {before} and {after} must close", "{at} is {gap} from {other}"
-            raise InvalidValue.in_words(name, words, reason=why, **told)
+            raise InvalidValue.in_words(name, words, reason=why, **values)
         if kink > JOINT_KINK:
             words, why = "the joint of {before} and {after} must be smooth", "at {at} the direction turns by {kink}"
-            raise InvalidValue.in_words(name, words, reason=why, **told)
+            raise InvalidValue.in_words(name, words, reason=why, **values)
 
     @property
-    def _given(self) -> tuple[object, ...]:
+    def _definition(self) -> tuple[object, ...]:
         """The values by which routes are equal or not."""
         return type(self), self.pieces, self.start
 
     def __eq__(self, other: object) -> bool:
-        return self._given == getattr(other, "_given", None)
+        return self._definition == getattr(other, "_definition", None)
 
     def __hash__(self) -> int:
-        return hash(self._given)
+        return hash(self._definition)
 
     def __repr__(self) -> str:
         text = f"Route({list(self.pieces)!r}, start={self.start!r})"

@@ -80,10 +80,10 @@ class Spiral(Readable):
         return growth_low, (high - self.length) + low
 
     def __repr__(self) -> str:
-        given = f"pitch={self.pitch!r}, start_turns={self.start_turns!r}"
+        arguments = f"pitch={self.pitch!r}, start_turns={self.start_turns!r}"
         if self.frame != WORLD:
-            given += f", centre={self.centre!r}, rotation={self.rotation!r}, clockwise={self.clockwise!r}"
-        return f"Spiral({given})"
+            arguments += f", centre={self.centre!r}, rotation={self.rotation!r}, clockwise={self.clockwise!r}"
+        return f"Spiral({arguments})"
 
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("length", display(self.length, "m", TABLE_DIGITS))]

@@ -98,14 +98,14 @@ class Turn(Route):
         self.length = radii[0] * angles[0] + radii[1] * angles[1]
 
     @property
-    def _given(self) -> tuple[object, ...]:
-        return *super()._given, self.turning_radius
+    def _definition(self) -> tuple[object, ...]:
+        return *super()._definition, self.turning_radius
 
     def __repr__(self) -> str:
         deeper = f", entry_radius={self.entry_radius!r}" if self.entry_radius != self.turning_radius else ""
         deeper += f", exit_radius={self.exit_radius!r}" if self.exit_radius != self.entry_radius else ""
-        given = f"{self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, start_turns={self.start_turns!r}{deeper}"
-        return f"Turn({given})"
+        arguments = f"{self.pitch!r}, {self.turning_radius!r}, {self.ratio!r}, start_turns={self.start_turns!r}{deeper}"
+        return f"Turn({arguments})"
 
     def _rows(self) -> list[tuple[str, str]]:
         units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "exit_radius", "radii", "length"), "m")
@@ -193,22 +193,22 @@ def _refuse_arcs(
     """Refuse impossible arcs, by the ratio if equal arcs would be possible, else by the exit, the entry or the circle;
     and arcs that leave the circle, which only a free exit makes possible."""
     radii, angles = arcs.radii, arcs.angles
-    told = quantities("m", 6, high=SIZE_MAX, least=LENGTH_MIN)
-    given = {"exit_radius": exit_radius, "entry_radius": entry_radius, "turning_radius": radius}
-    name, got = next((name, Quantity(size, "m")) for name, size in given.items() if size is not None)
+    values = quantities("m", 6, high=SIZE_MAX, least=LENGTH_MIN)
+    sizes = {"exit_radius": exit_radius, "entry_radius": entry_radius, "turning_radius": radius}
+    name, got = next((name, Quantity(size, "m")) for name, size in sizes.items() if size is not None)
     shorter = min(r * angle for r, angle in zip(radii, angles, strict=True))
     if not (min(radii) >= SIZE_MIN and max(radii) <= SIZE_MAX and shorter >= LENGTH_MIN):
         rule = "must leave arcs with radii from {low} to {high}, {least} long, not radii of {r1} and {r2}"
         rule += " and a shorter arc of {shorter}"
-        told |= quantities("", 6, low=SIZE_MIN, r1=radii[0]) | quantities("m", 6, r2=radii[1], shorter=shorter)
+        values |= quantities("", 6, low=SIZE_MIN, r1=radii[0]) | quantities("m", 6, r2=radii[1], shorter=shorter)
         equal = 0.5 * sum(radii)
         if SIZE_MIN <= equal <= SIZE_MAX and equal * min(angles) >= LENGTH_MIN:
             name, got = "ratio", Quantity(ratio, "")
-        raise InvalidValue(name, rule, got=got, **told)
+        raise InvalidValue(name, rule, got=got, **values)
     if exit_radius is not None and arcs.extent > radius + OUTSIDE:
         rule = "must leave the arcs inside the circle: they are up to {extent} from its centre, more than {radius}"
-        told = quantities("m", 6, extent=arcs.extent, radius=radius)
-        raise InvalidValue(name, rule, got=got, **told)
+        values = quantities("m", 6, extent=arcs.extent, radius=radius)
+        raise InvalidValue(name, rule, got=got, **values)
 
 
 def _angle(vector: Floats) -> float:
