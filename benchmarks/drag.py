@@ -15,7 +15,7 @@ import sys
 from playwright.sync_api import Page, sync_playwright
 
 from tests.page.conftest import ARGUMENTS, WIDE
-from tests.support.browser import found
+from tests.support.browser import browser_path
 
 MOVES = 200
 POINTS = [(-170.0, 0.0), *((8.0 * k - 70.0, round(6.0 * math.sin(0.9 * k), 2)) for k in range(19))]
@@ -83,7 +83,7 @@ def load() -> str:
 def main() -> None:
     base = sys.argv[1] if len(sys.argv) > 1 else "http://127.0.0.1:8000"
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found(), args=ARGUMENTS)
+        browser = playwright.chromium.launch(executable_path=browser_path(), args=ARGUMENTS)
         for words, square in (("no square", ""), ("a square with three obstacles", SQUARE)):
             verdicts, service = measure(browser.new_page(viewport=WIDE), base, square)
             print(f"{words}: {len(verdicts)} moves, {told(verdicts)}; service {told(service)}; {load()}")

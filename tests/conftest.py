@@ -75,7 +75,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def _why_left_out(item: pytest.Item) -> str:
     """What this machine lacks for the test and how to get it; empty: it runs."""
     fixtures = getattr(item, "fixturenames", ())
-    if "browser" in fixtures and not browser.found():
+    if "browser" in fixtures and not browser.browser_path():
         return browser.MISSING
     if item.get_closest_marker("chinese_font") and not _has_chinese_font():
         return NO_FONT

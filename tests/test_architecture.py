@@ -83,15 +83,15 @@ def tree(module: str) -> ast.Module:
 
 def imports(module: str) -> set[str]:
     """Every module named by an import statement anywhere in the file, also inside functions."""
-    found: set[str] = set()
+    entries: set[str] = set()
     for node in ast.walk(tree(module)):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            entries |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert node.module, f"{module} has a relative import"
             names = {f"{node.module}.{alias.name}" for alias in node.names}
-            found |= {name if name in MODULES else node.module for name in names}
-    return found
+            entries |= {name if name in MODULES else node.module for name in names}
+    return entries
 
 
 def top_names(module: str) -> set[str]:
@@ -138,8 +138,8 @@ def test_core_knows_no_http_json_files_or_clocks() -> None:
 
 def numbered(index: ast.expr) -> bool:
     """True if the last index is a number, or a slice between numbers."""
-    given = [one for one in index.elts if ast.unparse(one) != "None"] if isinstance(index, ast.Tuple) else [None]
-    last = given[-1]
+    entries = [one for one in index.elts if ast.unparse(one) != "None"] if isinstance(index, ast.Tuple) else [None]
+    last = entries[-1]
     parts = [last.lower, last.upper] if isinstance(last, ast.Slice) else [last]
     return any(isinstance(part, ast.Constant) and isinstance(part.value, int) for part in parts)
 
@@ -176,12 +176,12 @@ def test_only_the_engines_import_fcl_and_shapely() -> None:
 
 def test_only_one_benchmark_imports_other_engines() -> None:
     paths = [*(ROOT / "benchmarks").rglob("*.py"), *(ROOT / "examples").rglob("*.py"), *MODULES.values()]
-    found = {}
+    entries = {}
     for path in paths:
         nodes = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Import)]
-        found[module_name(path)] = {alias.name.partition(".")[0] for node in nodes for alias in node.names}
-    assert {name for name, named in found.items() if named & OTHER_ENGINES} == {"benchmarks.ccd.engines"}
-    assert {name for name, named in found.items() if "fcl" in named} == {
+        entries[module_name(path)] = {alias.name.partition(".")[0] for node in nodes for alias in node.names}
+    assert {name for name, named in entries.items() if named & OTHER_ENGINES} == {"benchmarks.ccd.engines"}
+    assert {name for name, named in entries.items() if "fcl" in named} == {
         "benchmarks.ccd.engines",
         "core.shapes.engines",
     }
@@ -213,8 +213,8 @@ def test_a_question_named_like_its_room_stays_a_question() -> None:
 
 def test_proofs_are_reached_from_core_and_loaded_only_then() -> None:
     code = "import core, sys; print('flint' in sys.modules, core.proof.verify.__module__, 'flint' in sys.modules)"
-    said = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
-    assert said.split() == ["False", "core.proof.certificate", "True"]
+    output = subprocess.check_output([sys.executable, "-c", code], cwd=ROOT, text=True)
+    assert output.split() == ["False", "core.proof.certificate", "True"]
 
 
 def functions(module: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
@@ -223,8 +223,8 @@ def functions(module: str) -> list[ast.FunctionDef | ast.AsyncFunctionDef]:
 
 def test_functions_are_short_and_take_few_parameters() -> None:
     for module, function in ((name, function) for name in MODULES for function in functions(name)):
-        given, place = function.args, f"{module}, {function.name}"
-        parameters = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+        arguments, place = function.args, f"{module}, {function.name}"
+        parameters = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, arguments.vararg, arguments.kwarg]
         assert (function.end_lineno or 0) - function.lineno + 1 <= LINES_MOST, place
         taken = len([name for name in parameters if name and name.arg not in ("self", "cls")])
         assert taken <= PARAMETERS_MOST or module.startswith("app.command"), place  # a command's options

@@ -99,9 +99,9 @@ def test_every_engine_is_installed() -> None:
 
 
 def test_our_own_engine_misses_nothing_invents_nothing_and_is_exact(results: dict[str, Results]) -> None:
-    found = score(results["ours"], "ours", EVERYTHING)
-    assert (found.missed, found.invented, found.other) == (0, 0, (0, 0, 0))
-    assert max(found.late, found.early) < OURS_AT_GRAZES
+    result = score(results["ours"], "ours", EVERYTHING)
+    assert (result.missed, result.invented, result.other) == (0, 0, (0, 0, 0))
+    assert max(result.late, result.early) < OURS_AT_GRAZES
     contacts = score(results["ours"], "ours", SHARD.columns["kind"] == CONTACT)
     assert max(contacts.late, contacts.early) < OURS
 
@@ -115,21 +115,21 @@ def test_an_engine_whose_answers_differ_from_process_to_process_answers_all_the_
 
 @pytest.mark.parametrize("name", engines(lambda engine: not engine.afresh))
 def test_every_engine_answers_and_sees_far_corners_as_clear(name: str, results: dict[str, Results]) -> None:
-    asked = results[name]
-    rows = np.ones(len(asked.queries), dtype=bool)
-    assert score(asked, name, rows).other == (0, 0, 0)
-    assert score(asked, name, asked.queries.columns["kind"] == FAR).invented == 0
+    request = results[name]
+    rows = np.ones(len(request.queries), dtype=bool)
+    assert score(request, name, rows).other == (0, 0, 0)
+    assert score(request, name, request.queries.columns["kind"] == FAR).invented == 0
 
 
 @pytest.mark.parametrize("name", engines(lambda engine: engine.package == "ipctk"))
 def test_ipctk_keeps_its_promise_to_be_early_rather_than_late(name: str, results: dict[str, Results]) -> None:
-    found = score(results[name], name, np.ones(len(results[name].queries), dtype=bool))
-    assert found.missed == 0
-    assert found.late <= OURS < found.early
+    result = score(results[name], name, np.ones(len(results[name].queries), dtype=bool))
+    assert result.missed == 0
+    assert result.late <= OURS < result.early
 
 
 def test_the_truth_of_the_sample_is_shown_again_in_balls() -> None:
-    shown = 0
+    decided = 0
     for kind, sign in ((CONTACT, 0), (GRAZE, -1), (GRAZE, 1), (FAR, 1)):
         columns = SHARD.columns
         rows = np.flatnonzero((columns["kind"] == kind) & ((sign == 0) | (np.sign(columns["depth"]) == sign)))
@@ -145,8 +145,8 @@ def test_the_truth_of_the_sample_is_shown_again_in_balls() -> None:
             else:
                 assert seen.clear(arb(query.margin + depth * (1.0 - EXACT) - 1e-14), 0.0, query.span)
                 assert not seen.clear(arb(query.margin + depth * (1.0 + 2.0 * EXACT) + 1e-13), 0.0, query.span)
-            shown += 1
-    assert shown == 8
+            decided += 1
+    assert decided == 8
 
 
 @pytest.mark.parametrize("kind", ["spiral", "turn", "arcs"])
@@ -208,15 +208,15 @@ def test_a_crash_and_a_hang_are_rows_and_a_run_continues_where_it_was(tmp_path: 
     worker.stop()
     assert [ENDS[row[-1]] for row in rows[0]] == ["crash", *["answered"] * 5]
     assert [ENDS[row[-1]] for row in rows[1]] == ["hang", *["answered"] * 5]
-    told = {"touches": np.ones(6, dtype=np.int8), "travel": np.arange(6.0)}
-    save(kept := answers_path(tmp_path / "queries-0000.npz", "ipctk"), told)
+    fields = {"touches": np.ones(6, dtype=np.int8), "travel": np.arange(6.0)}
+    save(kept := answers_path(tmp_path / "queries-0000.npz", "ipctk"), fields)
     run(tmp_path, 0, len(shard), ("ours", "ipctk"))
-    assert load(kept)["travel"].tolist() == told["travel"].tolist()
+    assert load(kept)["travel"].tolist() == fields["travel"].tolist()
     assert load(answers_path(tmp_path / "queries-0000.npz", "ours"))["end"].tolist() == [0] * 6
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "text"),
     [
         (["--queries", "0"], "argument --queries: must be a whole number of at least 1, got 0"),
         (["--seed", "-1"], "argument --seed: must be a whole number of at least 0, got -1"),
@@ -231,13 +231,13 @@ def test_a_crash_and_a_hang_are_rows_and_a_run_continues_where_it_was(tmp_path: 
     ],
 )
 def test_bad_input_of_a_run_is_one_line(
-    arguments: list[str], said: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], text: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.argv", ["benchmarks.ccd", *arguments])
     with pytest.raises(SystemExit) as ended:
         main()
     assert ended.value.code == 2
-    assert capsys.readouterr().err.splitlines()[-1] == f"python -m benchmarks.ccd: error: {said}"
+    assert capsys.readouterr().err.splitlines()[-1] == f"python -m benchmarks.ccd: error: {text}"
 
 
 def test_an_interrupted_run_says_that_the_same_command_continues(
@@ -261,26 +261,26 @@ def test_an_engine_that_hangs_at_every_query_is_a_row_of_the_report(tmp_path: Pa
     save_answers(tmp_path / "ours.npz", list(answers(ENGINES[0], shard)))
     (tmp_path / PAGE).write_text(f"{BEGIN}{END}", encoding="utf-8")
     results = Results(shard, {"ours": load(tmp_path / "ours.npz"), "Box2D": load(tmp_path / "box2d.npz")})
-    told = report(results, tmp_path)
-    assert "| Box2D | 0 | 0 | 0 / 0 / 3 | 0 | 0 | 0 | 0 (0) | 0 |" in told
+    page = report(results, tmp_path)
+    assert "| Box2D | 0 | 0 | 0 / 0 / 3 | 0 | 0 | 0 | 0 (0) | 0 |" in page
     assert {"ccd-time.png", "ccd-depth.png"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_scores_count_what_differs_from_the_truth() -> None:
     columns = dict.fromkeys(COLUMNS, np.zeros(5)) | {"kind": np.full(5, GRAZE), "depth": np.full(5, 1e-3)}
     columns |= {"low": np.array([0.1, 0.1, 0.1, np.nan, np.nan]), "high": np.array([0.2, 0.2, 0.2, np.nan, np.nan])}
-    told = {
+    fields = {
         "touches": np.array([1, 1, 0, 1, 0]),
         "travel": np.array([0.15, 0.5, np.nan, 0.3, np.nan]),
         "microseconds": np.array([1.0, 2.0, 3.0, 4.0, np.nan]),
         "evaluations": np.arange(5),
         "end": np.array([0, 0, 0, 0, ENDS.index("hang")]),
     }
-    results = Results(Shard({}, columns), {"one": told})
-    found = score(results, "one", np.ones(5, dtype=bool))
-    assert (found.missed, found.invented, found.other, found.early) == (1, 1, (0, 0, 1), 0.0)
-    assert found.late == pytest.approx(0.3)
-    assert found.microseconds[0] == 2.5
+    results = Results(Shard({}, columns), {"one": fields})
+    result = score(results, "one", np.ones(5, dtype=bool))
+    assert (result.missed, result.invented, result.other, result.early) == (1, 1, (0, 0, 1), 0.0)
+    assert result.late == pytest.approx(0.3)
+    assert result.microseconds[0] == 2.5
     assert by_depth(results)[-2:] == ["| one | 1 / 1 |", "| *of contacts / clear* | 3 / 2 |"]
 
 

@@ -32,7 +32,7 @@ BYTES_MAX = 100_000
 
 def interpolated(text: str, **variables: str) -> str:
     """A value as Compose fills it: ${NAME:-default}, of which the default counts for an empty variable too."""
-    return re.sub(r"\$\{(\w+):-([^}]*)\}", lambda found: variables.get(found[1]) or found[2], text)
+    return re.sub(r"\$\{(\w+):-([^}]*)\}", lambda result: variables.get(result[1]) or result[2], text)
 
 
 def test_it_is_valid_by_the_specification() -> None:
@@ -83,9 +83,9 @@ def test_the_port_is_open_to_this_machine_alone_unless_a_token_is_set(tmp_path: 
     [port], names = SERVICES["service"]["ports"], SERVICES["service"]["environment"]
     assert interpolated(port) == "127.0.0.1:8000:8000"
     for published, token, runs in (("", "", True), ("0.0.0.0", "", False), ("[::]", "", False), ("0.0.0.0", "x", True)):
-        given = {"BENCH_DRAGON_PUBLISHED": published, "BENCH_DRAGON_TOKEN": token}
-        assert interpolated(port, **given).removesuffix(":8000:8000") == (published or "127.0.0.1")
-        environment = os.environ | {name: interpolated(text, **given) for name, text in names.items()}
+        variables = {"BENCH_DRAGON_PUBLISHED": published, "BENCH_DRAGON_TOKEN": token}
+        assert interpolated(port, **variables).removesuffix(":8000:8000") == (published or "127.0.0.1")
+        environment = os.environ | {name: interpolated(text, **variables) for name, text in names.items()}
         here = {"8000": str(free_port()), "0.0.0.0": "127.0.0.1"}
         with (tmp_path / "log").open("wb") as log:
             process = subprocess.Popen(
@@ -130,14 +130,16 @@ def started(tmp_path: Path) -> Iterator[httpx.Client]:
     """A client of the service, which runs with the scheduler and one worker."""
     ports = {"8786": str(free_port()), "8000": str(free_port())}
     places = {"0.0.0.0": "127.0.0.1", "scheduler:": "127.0.0.1:", "/tmp": str(tmp_path), **ports}
-    given = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{ports['8786']}"}
-    given["BENCH_DRAGON_SWEEP_BYTES_MAX"] = str(BYTES_MAX)
+    variables = {"BENCH_DRAGON_DATA": str(tmp_path / "data"), "BENCH_DRAGON_DASK": f"tcp://127.0.0.1:{ports['8786']}"}
+    variables["BENCH_DRAGON_SWEEP_BYTES_MAX"] = str(BYTES_MAX)
     running: list[subprocess.Popen[bytes]] = []
 
     def start(name: str) -> subprocess.Popen[bytes]:
         with (tmp_path / f"{name}.log").open("wb") as log:
             running.append(
-                subprocess.Popen(command_of(name, places), cwd=tmp_path, env=os.environ | given, stdout=log, stderr=log)
+                subprocess.Popen(
+                    command_of(name, places), cwd=tmp_path, env=os.environ | variables, stdout=log, stderr=log
+                )
             )
         return running[-1]
 
@@ -163,9 +165,9 @@ def test_the_commands_run_and_the_worker_answers_a_sweep_of_the_service_unless_i
     started: httpx.Client, tmp_path: Path
 ) -> None:
     address = started.post("/sweeps", json=SPEC | {"shard_size": 30}).headers["location"]
-    status, told = followed(started, address)
+    status, events = followed(started, address)
     assert status["status"] == "successful"
-    assert [status["done"] for status in told] == sorted(status["done"] for status in told)
+    assert [status["done"] for status in events] == sorted(status["done"] for status in events)
     result = started.get(f"{address}/result").content
     assert result == undisturbed(tmp_path / "a", SPEC | {"shard_size": 30}).compact().read_bytes()
     assert "Registered to" in (tmp_path / "worker.log").read_text()

@@ -46,8 +46,8 @@ def blocks(language: str) -> list[tuple[str, str]]:
     fences = re.compile(rf"^( *)```{language}\n(.*?)^\1```", re.DOTALL | re.MULTILINE)
     places: dict[str, str] = {}
     for page, text in PAGES.items():
-        for found in fences.finditer(text):
-            places.setdefault(textwrap.dedent(found[2]), f"{page}:{text.count(chr(10), 0, found.start()) + 2}")
+        for result in fences.finditer(text):
+            places.setdefault(textwrap.dedent(result[2]), f"{page}:{text.count(chr(10), 0, result.start()) + 2}")
     return [(place, block) for block, place in places.items()]
 
 
@@ -113,11 +113,11 @@ def test_every_limit_of_the_service_stands_with_its_default() -> None:
 
 @pytest.mark.parametrize(("place", "source"), SNIPPETS, ids=[place for place, _ in SNIPPETS])
 def test_python_gives_what_is_printed_below_it(place: str, source: str) -> None:
-    told: list[str] = []
+    values: list[str] = []
     test = doctest.DocTestParser().get_doctest(source, {}, place, place, 0)
     assert len(test.examples) == source.count(">>> ") > 0
-    doctest.DocTestRunner().run(test, out=told.append)
-    assert "".join(told) == ""
+    doctest.DocTestRunner().run(test, out=values.append)
+    assert "".join(values) == ""
 
 
 @pytest.mark.parametrize(
@@ -182,6 +182,6 @@ def assert_alike(output: str, expected: str) -> None:
             patterns.append(f"({NUMBER.pattern})")
         else:
             patterns.append(".*?" if part == "..." else r"\s*" if part.isspace() else re.escape(part))
-    found = re.fullmatch("".join(patterns), output.strip(), re.DOTALL)
-    assert found, f"expected:\n{expected}\ngot:\n{output}"
-    assert list(map(float, found.groups())) == pytest.approx(numbers, rel=0, abs=ROUNDING)
+    match = re.fullmatch("".join(patterns), output.strip(), re.DOTALL)
+    assert match, f"expected:\n{expected}\ngot:\n{output}"
+    assert list(map(float, match.groups())) == pytest.approx(numbers, rel=0, abs=ROUNDING)

@@ -20,10 +20,15 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 
 def report(name: str) -> Report:
     """The verdict on an example, read as the command reads it."""
-    asked = CheckRequest.model_validate(read_dance(EXAMPLES / f"{name}.toml"))
-    dance = asked.to_dance(1000)
-    limits = {"margin": asked.margin, "speed_limit": asked.speed_limit, "start": asked.start, "stop": asked.stop}
-    return check(dance, venue=asked.to_place(dance.dragon).venue, **limits)
+    request = CheckRequest.model_validate(read_dance(EXAMPLES / f"{name}.toml"))
+    dance = request.to_dance(1000)
+    limits = {
+        "margin": request.margin,
+        "speed_limit": request.speed_limit,
+        "start": request.start,
+        "stop": request.stop,
+    }
+    return check(dance, venue=request.to_place(dance.dragon).venue, **limits)
 
 
 def test_every_example_has_its_test() -> None:
@@ -51,32 +56,32 @@ def test_the_turn_with_clothoids_is_that_of_the_library_and_passes() -> None:
 def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:
     cases = json.loads((REFERENCE / "first_contact.json").read_text())["cases"]
     time = next(case["time"] for case in cases if case["name"] == "default")
-    found = report("paper_dance")
-    assert not found.passed
-    assert [(failure.kind, failure.benches) for failure in found.failures] == [(FailureKind.CONTACT, (0, 8))]
-    assert found.first_contact.time == pytest.approx(time, abs=REFERENCE_ERROR)
-    assert found.stop == pytest.approx(time, abs=REFERENCE_ERROR)
+    result = report("paper_dance")
+    assert not result.passed
+    assert [(failure.kind, failure.benches) for failure in result.failures] == [(FailureKind.CONTACT, (0, 8))]
+    assert result.first_contact.time == pytest.approx(time, abs=REFERENCE_ERROR)
+    assert result.stop == pytest.approx(time, abs=REFERENCE_ERROR)
 
 
 def test_the_contests_turn_passes_below_2_metres_a_second() -> None:
     clearance = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
     speed = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
-    found = report("contest_turn")
-    assert found.passed
-    assert found.least_clearance is not None
-    assert found.least_clearance.distance == pytest.approx(clearance["least"], abs=REFERENCE_ERROR)
-    assert found.highest_speed is not None
-    assert found.highest_speed.speed == pytest.approx(speed["speed_ratio"], abs=REFERENCE_ERROR)
+    result = report("contest_turn")
+    assert result.passed
+    assert result.least_clearance is not None
+    assert result.least_clearance.distance == pytest.approx(clearance["least"], abs=REFERENCE_ERROR)
+    assert result.highest_speed is not None
+    assert result.highest_speed.speed == pytest.approx(speed["speed_ratio"], abs=REFERENCE_ERROR)
 
 
 def test_the_village_dragon_keeps_half_a_metre_from_everything() -> None:
-    found = report("village_square")
-    assert found.passed, found.failures
-    assert found.first_contact.outcome is Outcome.CLEAR
-    assert found.venue is not None
-    assert found.venue.misplaced is None
-    names = [area.name for area in found.venue.areas]
+    result = report("village_square")
+    assert result.passed, result.failures
+    assert result.first_contact.outcome is Outcome.CLEAR
+    assert result.venue is not None
+    assert result.venue.misplaced is None
+    names = [area.name for area in result.venue.areas]
     assert names == ["square", "well", "stage", "linden tree", "chestnut tree"]
-    for area in found.venue.areas:
+    for area in result.venue.areas:
         assert area.nearest.at_least is not None
         assert area.nearest.at_least > 0.5, area.name

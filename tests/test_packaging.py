@@ -61,8 +61,8 @@ def test_asking_for_the_version_alone_reads_it() -> None:
 
 @pytest.mark.parametrize("package", ["app", "core"])
 def test_types_and_data_go_with_the_package(package: str) -> None:
-    told = SETTINGS["tool"]["setuptools"]["package-data"]
-    folders = {ROOT / name.replace(".", "/"): patterns for name, patterns in told.items()}
+    package_data = SETTINGS["tool"]["setuptools"]["package-data"]
+    folders = {ROOT / name.replace(".", "/"): patterns for name, patterns in package_data.items()}
     packaged = {path for folder, patterns in folders.items() for pattern in patterns for path in folder.glob(pattern)}
     files = {path for path in (ROOT / package).rglob("*") if path.is_file()}
     data = {path for path in files if path.suffix not in (".py", ".pyc", ".so", ".pyd")}
@@ -159,7 +159,7 @@ def test_without_a_compiler_the_build_goes_on() -> None:
 
 
 @pytest.mark.parametrize(
-    ("platform", "asked", "count"),
+    ("platform", "query", "count"),
     [
         ("linux", 3, 3),
         ("darwin", 3, 3),
@@ -168,8 +168,8 @@ def test_without_a_compiler_the_build_goes_on() -> None:
         ("linux", None, min(usable_cores(), WORKERS_MAX)),
     ],
 )
-def test_the_service_has_as_many_processes_as_asked_or_as_cores(platform: str, asked: int | None, count: int) -> None:
-    assert process_count(asked, platform) == count
+def test_the_service_has_as_many_processes_as_asked_or_as_cores(platform: str, query: int | None, count: int) -> None:
+    assert process_count(query, platform) == count
 
 
 def test_windows_is_told_that_it_has_one_process() -> None:

@@ -159,15 +159,15 @@ def is_number(part: ast.expr | None) -> bool:
 
 def numeric_columns(nodes: list[ast.AST]) -> list[str]:
     """Columns of the kernels' arrays that are written as numbers."""
-    found = []
+    entries = []
     for node in nodes:
         axis = axis_of_columns(node.value) if isinstance(node, ast.Subscript) else None
         if axis is None or not 0 <= axis < len(indices(node)):
             continue
         column = indices(node)[axis]
         parts = [column.lower, column.upper] if isinstance(column, ast.Slice) else [column]
-        found += [ast.unparse(node)] if any(map(is_number, parts)) else []
-    return found
+        entries += [ast.unparse(node)] if any(map(is_number, parts)) else []
+    return entries
 
 
 @pytest.mark.parametrize(

@@ -18,10 +18,10 @@ TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
 NOTEBOOK = jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
 CODE = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "code"]
 # A line of an answer that a reader sees under a cell is no longer than this [characters].
-SHOWN_MOST = 220
+DISPLAY_MOST = 220
 
 
-def shown(source: str, names: dict[str, Any]) -> Any:
+def display(source: str, names: dict[str, Any]) -> Any:
     """Runs a cell; what a notebook shows under it: the value of its last line, if that is an expression."""
     tree = ast.parse(source)
     last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
@@ -35,7 +35,7 @@ def tour() -> Iterator[tuple[dict[str, Any], list[Any]]]:
     names: dict[str, Any] = {"__name__": "__main__"}
     before = plt.get_backend()
     plt.switch_backend("Agg")
-    yield names, [shown(source, names) for source in CODE]
+    yield names, [display(source, names) for source in CODE]
     plt.close("all")
     plt.switch_backend(before)
 
@@ -51,9 +51,9 @@ def test_it_is_a_notebook_of_words_and_code() -> None:
 def test_every_cell_runs_and_shows_something_short_or_a_picture(tour: tuple[dict[str, Any], list[Any]]) -> None:
     _, answers = tour
     assert sum(isinstance(answer, Axes) for answer in answers) >= 4
-    told = [repr(answer) for answer in answers if isinstance(answer, Readable) or hasattr(answer, "to_dataframe")]
-    assert len(told) >= 6
-    assert max(map(len, told)) <= SHOWN_MOST
+    values = [repr(answer) for answer in answers if isinstance(answer, Readable) or hasattr(answer, "to_dataframe")]
+    assert len(values) >= 6
+    assert max(map(len, values)) <= DISPLAY_MOST
 
 
 def test_its_sentences_are_so(tour: tuple[dict[str, Any], list[Any]]) -> None:

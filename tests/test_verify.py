@@ -160,10 +160,10 @@ def test_its_code_imports_the_standard_library_alone() -> None:
     tree = ast.parse(source)
     described = [tree, *(node for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef))]
     documents = [node.body[0] for node in described if ast.get_docstring(node) is not None]
-    spoken = {line for node in documents for line in range(node.lineno, (node.end_lineno or 0) + 1)}
+    doc_lines = {line for node in documents for line in range(node.lineno, (node.end_lineno or 0) + 1)}
     silent = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
     tokens = [token for token in tokenize.generate_tokens(io.StringIO(source).readline) if token.type not in silent]
-    code = {line for token in tokens for line in range(token.start[0], token.end[0] + 1)} - spoken
+    code = {line for token in tokens for line in range(token.start[0], token.end[0] + 1)} - doc_lines
     assert 100 < len(code) <= CODE_LINES_MOST
     names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
     names |= {str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
@@ -429,8 +429,8 @@ def test_what_it_accepts_of_random_edits_core_proof_accepts_too(verify: ModuleTy
     assert 0 < accepted < FUZZED / 2
 
 
-def inside(verify: ModuleType, found: Any, true: arb) -> bool:
-    return bool(arb(fmpz(found.lo)) / verify.UNIT <= true and true <= arb(fmpz(found.hi)) / verify.UNIT)
+def inside(verify: ModuleType, result: Any, true: arb) -> bool:
+    return bool(arb(fmpz(result.lo)) / verify.UNIT <= true and true <= arb(fmpz(result.hi)) / verify.UNIT)
 
 
 def test_its_arithmetic_encloses_that_of_flint(verify: ModuleType) -> None:
@@ -441,17 +441,17 @@ def test_its_arithmetic_encloses_that_of_flint(verify: ModuleType) -> None:
             size = dice.choice([1e-20, 1e-6, 1.0, 4.0, 40.0, 900.0])
             low = int(dice.uniform(-size, size) * verify.UNIT)
             high = low + int(dice.choice([0.0, 1e-25, 1e-10, 0.1, 3.0, 5.9, 7.0]) * dice.random() * verify.UNIT)
-            found = verify.Interval(low, high)
+            result = verify.Interval(low, high)
             for place in (low, high, dice.randint(low, high)):
                 x = arb(fmpz(place)) / verify.UNIT
-                assert inside(verify, verify.cos(found), x.cos())
-                assert inside(verify, verify.sin(found), x.sin())
+                assert inside(verify, verify.cos(result), x.cos())
+                assert inside(verify, verify.sin(result), x.sin())
             y = int(dice.choice([1.0, 1.5, 2.0, 10.0, 1e6, 1e15]) * (1.0 + dice.random()) * verify.UNIT)
             point = verify.Interval(y, y)
             assert inside(verify, verify.log(point), (arb(fmpz(y)) / verify.UNIT).log())
             assert inside(verify, verify.sqrt(point), (arb(fmpz(y)) / verify.UNIT).sqrt())
-            assert inside(verify, found * point, x * (arb(fmpz(y)) / verify.UNIT)) or place != high
-            assert (found / point).lo <= (found / point).hi
+            assert inside(verify, result * point, x * (arb(fmpz(y)) / verify.UNIT)) or place != high
+            assert (result / point).lo <= (result / point).hi
 
 
 @pytest.mark.parametrize("theta", [14.735, 15.0, 30.0, 100.0, 6e5])
@@ -459,11 +459,11 @@ def test_its_arithmetic_encloses_that_of_flint(verify: ModuleType) -> None:
 def test_its_bends_are_those_of_core_proof(verify: ModuleType, theta: float, chord: float) -> None:
     growth = verify.exactly(0.55) / (verify.TWO * verify.PI)
     bench = verify.Bench(chord, 0.3, 0.0, growth)
-    found = verify.bend(verify.exactly(theta), bench)
-    assert found.hi - found.lo < BEND_WIDTH_MOST * verify.UNIT
+    result = verify.bend(verify.exactly(theta), bench)
+    assert result.hi - result.lo < BEND_WIDTH_MOST * verify.UNIT
     with ctx.workprec(400):
         b = arb(0.55) / (2 * arb.pi())
-        needed, low, high = (arb(chord) / b) ** 2, *(arb(fmpz(end)) / verify.UNIT for end in (found.lo, found.hi))
+        needed, low, high = (arb(chord) / b) ** 2, *(arb(fmpz(end)) / verify.UNIT for end in (result.lo, result.hi))
         for end, side in ((low, -1), (high, 1)):
             reached = end**2 + 2 * arb(theta) * (arb(theta) + end) * (1 - end.cos())
             assert side * (reached - needed) > 0

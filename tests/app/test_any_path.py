@@ -153,11 +153,11 @@ def test_a_spiral_as_a_route_gives_the_answers_of_the_spiral(client: httpx.Clien
         spiral, same = (posted(client, call, path=path, times=times) for path in ({"kind": "spiral"}, as_route))
         for name in names:
             assert np.array(same[name]) == pytest.approx(np.array(spiral[name]), rel=0, abs=SAME_PATH_TOLERANCE)
-    found = posted(client, "/check", path=as_route, margin=0.05)["first_contact"]
+    result = posted(client, "/check", path=as_route, margin=0.05)["first_contact"]
     known = client.get("/collision-time?margin=0.05").json()
-    assert found["time"] == pytest.approx(known["time"], rel=0, abs=REFERENCE_TOLERANCE)
-    assert (found["benches"], found["cross_check"]["agree"]) == (known["benches"], True)
-    assert found["head"]["theta"] is None
+    assert result["time"] == pytest.approx(known["time"], rel=0, abs=REFERENCE_TOLERANCE)
+    assert (result["benches"], result["cross_check"]["agree"]) == (known["benches"], True)
+    assert result["head"]["theta"] is None
 
 
 RAMP = {"kind": "clothoid", "start": [0, 0], "heading": 0, "start_curvature": 0, "end_curvature": 0.5, "length": 2}
@@ -229,7 +229,7 @@ def test_without_times_a_dance_has_seconds_that_its_path_has(
 
 @pytest.mark.parametrize("call", ["/trajectory", "/clearance"])
 @pytest.mark.parametrize(
-    ("path", "told", "seconds"),
+    ("path", "times", "seconds"),
     [
         (route(LANE), {"stop": 20}, range(8, 21)),
         (route(LANE), {"start": 20}, range(20, 61)),
@@ -241,20 +241,20 @@ def test_without_times_a_dance_has_seconds_that_its_path_has(
     ],
 )
 def test_a_start_or_stop_that_is_left_out_lies_in_the_run(
-    client: httpx.Client, call: str, path: Any, told: dict[str, float], seconds: Sequence[float]
+    client: httpx.Client, call: str, path: Any, times: dict[str, float], seconds: Sequence[float]
 ) -> None:
-    assert posted(client, call, dragon=SHORT, path=path, times=told)["time"] == list(seconds)
+    assert posted(client, call, dragon=SHORT, path=path, times=times)["time"] == list(seconds)
 
 
-@pytest.mark.parametrize(("told", "words"), [
+@pytest.mark.parametrize(("times", "words"), [
     ({"start": 2}, "times.start must be at least 7.810001 s, when the whole dragon is on the path, got 2 s"),
     ({"stop": 2}, "times.stop must be at least 7.810001 s, when the whole dragon is on the path, got 2 s"),
     ({"stop": 99}, "times.stop must be at most 60.000000000 s, when the path ends, got 99 s"),
 ])  # fmt: skip
 def test_a_start_or_stop_that_is_given_is_refused_outside_the_run(
-    client: httpx.Client, told: dict[str, float], words: str
+    client: httpx.Client, times: dict[str, float], words: str
 ) -> None:
-    answer = client.post("/trajectory", json={"dragon": SHORT, "path": route(LANE), "times": told})
+    answer = client.post("/trajectory", json={"dragon": SHORT, "path": route(LANE), "times": times})
     assert (answer.status_code, answer.json()["detail"]) == (422, words)
 
 
@@ -282,8 +282,8 @@ def test_a_path_too_short_for_the_dragon_is_a_problem_that_says_so(client: httpx
 
 
 def test_times_by_default_and_the_same_times_given_have_tags_of_their_own(client: httpx.Client) -> None:
-    asked = {"dragon": SHORT, "path": route(LANE)}
-    tags = [client.post("/trajectory", json=asked | more).headers["etag"] for more in ({}, {"times": [8.0]})]
+    request = {"dragon": SHORT, "path": route(LANE)}
+    tags = [client.post("/trajectory", json=request | more).headers["etag"] for more in ({}, {"times": [8.0]})]
     assert tags[0] != tags[1]
 
 
@@ -454,26 +454,26 @@ def test_an_invalid_turn_is_a_problem(client: httpx.Client, query: str, place: s
 
 @pytest.mark.parametrize("call", ["/check", "/clearance", "/figures/trajectory.svg", "/figures/contact.png"])
 def test_an_equal_question_is_answered_from_the_cache(client: httpx.Client, call: str) -> None:
-    asked = {"dragon": SHORT, "path": route(LANE)}
+    request = {"dragon": SHORT, "path": route(LANE)}
     if call == "/clearance":
-        asked["times"] = [20.0]
+        request["times"] = [20.0]
     elif call == "/figures/trajectory.svg":
-        asked["time"] = 20.0
+        request["time"] = 20.0
     elif call == "/figures/contact.png":
-        asked["start"] = 20.0
-    first = client.post(call, json=asked).raise_for_status()
-    again = client.post(call, json=asked, headers={"If-None-Match": first.headers["etag"]})
+        request["start"] = 20.0
+    first = client.post(call, json=request).raise_for_status()
+    again = client.post(call, json=request, headers={"If-None-Match": first.headers["etag"]})
     assert (again.status_code, again.content) == (304, b"")
-    other = client.post(call, json=asked | {"head_speed": 1.1}, headers={"If-None-Match": first.headers["etag"]})
+    other = client.post(call, json=request | {"head_speed": 1.1}, headers={"If-None-Match": first.headers["etag"]})
     assert other.status_code == 200
 
 
 def test_a_figure_draws_the_venue_with_its_names(client: httpx.Client) -> None:
     areas = venue(box("market square", -2, -3, 62, 3), box("well", 55, 1, 57, 2))
-    asked = {"dragon": SHORT, "path": route(LANE), "venue": areas, "time": 58}
-    drawn = client.post("/figures/trajectory.svg", json=asked).raise_for_status()
+    request = {"dragon": SHORT, "path": route(LANE), "venue": areas, "time": 58}
+    drawn = client.post("/figures/trajectory.svg", json=request).raise_for_status()
     assert drawn.headers["content-type"].startswith("image/svg+xml")
     for name in ("market square", "well", "58 s"):
         assert f"{name} -->" in drawn.text
-    plain = client.post("/figures/trajectory.svg", json=asked | {"venue": None}).raise_for_status()
-    assert "market square" not in plain.text
+    answer = client.post("/figures/trajectory.svg", json=request | {"venue": None}).raise_for_status()
+    assert "market square" not in answer.text

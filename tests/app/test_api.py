@@ -75,8 +75,8 @@ def test_times_are_a_range_with_both_ends_or_a_list(client: httpx.Client, times:
 
 
 def test_decimals_round_all_but_the_time(client: httpx.Client) -> None:
-    asked = SMALL | {"times": [0.123456789], "path": {"start_turns": 8}}
-    full, rounded = (client.post("/trajectory", json=asked | extra).json() for extra in ({}, {"decimals": 2}))
+    request = SMALL | {"times": [0.123456789], "path": {"start_turns": 8}}
+    full, rounded = (client.post("/trajectory", json=request | extra).json() for extra in ({}, {"decimals": 2}))
     assert rounded["time"] == [0.123456789]
     for name in ("x", "y", "speed"):
         assert rounded[name][0] == pytest.approx(full[name][0], abs=0.005)
@@ -158,8 +158,8 @@ def test_a_cross_check_of_anybody_else_is_refused(client: httpx.Client) -> None:
 
 
 def test_a_scan_of_pitches_answers_its_samples_and_the_jumps_besides(client: httpx.Client) -> None:
-    asked = {"benches": 40, "samples": 3}
-    scan, look = (client.get("/pitch-scan", params=asked | {"locate": locate}).json() for locate in (True, False))
+    request = {"benches": 40, "samples": 3}
+    scan, look = (client.get("/pitch-scan", params=request | {"locate": locate}).json() for locate in (True, False))
     assert len(scan["pitch"]) == len(scan["radius"]) == 3
     assert scan["pieces"] == [[0, 1], [1, 2], [2, 3]]
     assert len(scan["jumps"]) > 10
@@ -261,8 +261,8 @@ def test_the_service_is_alive_and_ready(client: httpx.Client) -> None:
 def test_metrics_count_requests_by_path_and_status(client: httpx.Client) -> None:
     def counted() -> float:
         pattern = r'^bench_dragon_requests_total\{path="/clearance",status="422"\} (\S+)$'
-        found = re.search(pattern, client.get("/metrics").text, re.MULTILINE)
-        return float(found[1]) if found else 0.0
+        match = re.search(pattern, client.get("/metrics").text, re.MULTILINE)
+        return float(match[1]) if match else 0.0
 
     before = counted()
     client.get("/clearance?pitch=55")

@@ -121,9 +121,9 @@ def test_an_empty_variable_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_misspelt_variable_is_named_with_what_was_meant(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("BENCH_DRAGON_JOB_MAX", "BENCH_DRAGON_SERVICE_HOST", "BENCH_DRAGON_TOKEN"):
         monkeypatch.setenv(name, "1")
-    said = "The environment variable {} is not a setting and has no effect"
-    meant = said.format("BENCH_DRAGON_JOB_MAX") + "; did you mean BENCH_DRAGON_JOBS_MAX?"
-    assert unknown_variables() == [meant, said.format("BENCH_DRAGON_SERVICE_HOST")]
+    text = "The environment variable {} is not a setting and has no effect"
+    meant = text.format("BENCH_DRAGON_JOB_MAX") + "; did you mean BENCH_DRAGON_JOBS_MAX?"
+    assert unknown_variables() == [meant, text.format("BENCH_DRAGON_SERVICE_HOST")]
 
 
 @pytest.mark.parametrize("name", ["dance.example:8000", "http://dance.example", "a,,b", "*", "a b"])

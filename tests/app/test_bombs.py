@@ -33,11 +33,11 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 def readers(pid: int) -> list[psutil.Process]:
     """The processes that read files for a process."""
-    found = []
+    entries = []
     for child in psutil.Process(pid).children():
         with suppress(psutil.Error):
-            found += [child] if "app.service.graders" in child.cmdline() else []
-    return found
+            entries += [child] if "app.service.graders" in child.cmdline() else []
+    return entries
 
 
 @contextmanager

@@ -72,7 +72,7 @@ def helps() -> Iterator[tuple[tuple[str, ...], Any]]:
 
 HELPS = dict(helps())
 # One run for all tests that ask the same.
-shown = cache(answer_of)
+cached_output = cache(answer_of)
 
 
 def served(client: httpx.Client, method: str, target: str, body: object = None) -> Any:
@@ -106,15 +106,15 @@ def served(client: httpx.Client, method: str, target: str, body: object = None) 
 def test_json_is_the_answer_of_the_service(
     client: httpx.Client, arguments: list[str], method: str, target: str, body: object
 ) -> None:
-    assert json.loads(shown(*arguments, "--json")) == served(client, method, target, body)
+    assert json.loads(cached_output(*arguments, "--json")) == served(client, method, target, body)
 
 
 def test_overlaps_reads_benches_from_a_file_or_a_pipe(client: httpx.Client, tmp_path: Path) -> None:
     file = tmp_path / "benches.json"
     file.write_text(json.dumps(CROSSED))
-    told = served(client, "POST", "/overlaps", CROSSED)
-    assert [one["benches"] for one in told["overlaps"]] == [[0, 1]]
-    assert json.loads(answer_of("overlaps", str(file), "--json")) == told
+    answer = served(client, "POST", "/overlaps", CROSSED)
+    assert [one["benches"] for one in answer["overlaps"]] == [[0, 1]]
+    assert json.loads(answer_of("overlaps", str(file), "--json")) == answer
     piped = subprocess.run(
         [COMMAND, "overlaps", "-", "--json"],
         input=json.dumps(CROSSED),
@@ -123,7 +123,7 @@ def test_overlaps_reads_benches_from_a_file_or_a_pipe(client: httpx.Client, tmp_
         timeout=PATIENCE,
         env=ENVIRONMENT,
     )
-    assert json.loads(piped.stdout) == told
+    assert json.loads(piped.stdout) == answer
 
 
 def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
@@ -152,7 +152,7 @@ def test_overlaps_of_the_dance_before_and_after_first_contact() -> None:
     ids=lambda value: " ".join(value),
 )
 def test_tables_for_people_hold_the_numbers_with_their_units(arguments: list[str], words: list[str]) -> None:
-    table = shown(*arguments)
+    table = cached_output(*arguments)
     assert [word for word in words if word not in table] == []
 
 
@@ -261,7 +261,7 @@ def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "given", "rule"),
+    ("name", "setting", "rule"),
     [
         ("BENCHES_MAX", "0", "must be at least 1, got '0'"),
         ("SWEEP_PROCESSES", "65", "must be at most 64, got '65'"),
@@ -271,9 +271,9 @@ def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
     ],
 )
 def test_a_setting_outside_its_limits_is_told_the_limit(
-    name: str, given: str, rule: str, monkeypatch: pytest.MonkeyPatch
+    name: str, setting: str, rule: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv(f"BENCH_DRAGON_{name}", given)
+    monkeypatch.setenv(f"BENCH_DRAGON_{name}", setting)
     with pytest.raises(core.InvalidValue) as refused:
         Settings()
     assert refused.value.message == f"BENCH_DRAGON_{name} {rule}"
@@ -345,9 +345,9 @@ def test_figures_writes_the_files_that_were_asked_for(tmp_path: Path) -> None:
     assert b"<svg" in (tmp_path / "one" / "contact.svg").read_bytes()
 
 
-def headings(said: str) -> list[list[str]]:
+def headings(text: str) -> list[list[str]]:
     """The instants above each table of a trajectory."""
-    return [line.split()[1::2] for line in said.splitlines() if line.split()[:1] == ["handle"]]
+    return [line.split()[1::2] for line in text.splitlines() if line.split()[:1] == ["handle"]]
 
 
 def test_up_to_seven_instants_are_shown_and_none_is_dropped_among_them() -> None:
@@ -387,32 +387,32 @@ def test_no_number_is_broken_on_a_narrow_terminal(command: str) -> None:
 
 
 def test_as_many_instants_are_shown_as_fit_the_width() -> None:
-    said = on_terminal(60, "trajectory", "--stop", "300", "--step", "60")
-    assert headings(said) == [["0", "120", "300"]] * 3
-    assert max(len(line) for line in said.splitlines() if not line.endswith("choose.")) <= 60
-    assert "3 of 6 instants" in said.replace("\r\n", " ")
+    output = on_terminal(60, "trajectory", "--stop", "300", "--step", "60")
+    assert headings(output) == [["0", "120", "300"]] * 3
+    assert max(len(line) for line in output.splitlines() if not line.endswith("choose.")) <= 60
+    assert "3 of 6 instants" in output.replace("\r\n", " ")
 
 
 def test_handles_and_times_choose_what_is_shown() -> None:
-    said = answer_of("trajectory", "--times", "0,60,120", "--handles", "51,0,1")
-    assert headings(said) == [["0", "60", "120"]] * 3
-    rows = [line.split()[0] for line in said.splitlines() if re.match(r"  \d+ (head|body)", line)]
+    output = answer_of("trajectory", "--times", "0,60,120", "--handles", "51,0,1")
+    assert headings(output) == [["0", "60", "120"]] * 3
+    rows = [line.split()[0] for line in output.splitlines() if re.match(r"  \d+ (head|body)", line)]
     assert rows == ["51", "0", "1"] * 3
-    assert said.endswith("3 of 224 handles, 3 of 3 instants: --output has all.\n")
+    assert output.endswith("3 of 224 handles, 3 of 3 instants: --output has all.\n")
     assert answer_of("trajectory", "--times", "0,1").endswith(": --output has all, --handles chooses.\n")
     assert answer_of("trajectory", "--handles", "0").endswith(": --output has all, --times chooses.\n")
 
 
 def test_times_that_were_asked_for_are_all_shown_in_as_many_tables_as_they_take() -> None:
     times = [str(k) for k in range(20)]
-    found = headings(answer_of("trajectory", "--benches", "3", "--handles", "0", "--times", ",".join(times)))
-    assert [instant for heading in found[: len(found) // 3] for instant in heading] == times
-    assert found == found[: len(found) // 3] * 3
+    result = headings(answer_of("trajectory", "--benches", "3", "--handles", "0", "--times", ",".join(times)))
+    assert [instant for heading in result[: len(result) // 3] for instant in heading] == times
+    assert result == result[: len(result) // 3] * 3
 
 
 def test_times_are_the_list_of_the_service(client: httpx.Client) -> None:
-    told = served(client, "POST", "/trajectory", {"times": [0.0, 12.5, 3.0]})
-    assert json.loads(answer_of("trajectory", "--times", "0,12.5,3", "--json")) == told
+    answer = served(client, "POST", "/trajectory", {"times": [0.0, 12.5, 3.0]})
+    assert json.loads(answer_of("trajectory", "--times", "0,12.5,3", "--json")) == answer
 
 
 def test_times_before_the_dance_warn_on_a_spiral_and_belong_to_a_turn(client: httpx.Client) -> None:
@@ -422,8 +422,8 @@ def test_times_before_the_dance_warn_on_a_spiral_and_belong_to_a_turn(client: ht
     assert "begins at 0 s" in warned.stderr
     assert "--path turn" in warned.stderr
     body = {"dragon": {"benches": 3}, "path": {"kind": "turn"}, "times": [-100, 0]}
-    told = served(client, "POST", "/trajectory", body)
-    assert json.loads(answer_of("trajectory", *few, "--path", "turn", *times)) == told
+    answer = served(client, "POST", "/trajectory", body)
+    assert json.loads(answer_of("trajectory", *few, "--path", "turn", *times)) == answer
 
 
 @pytest.mark.parametrize(
@@ -453,12 +453,12 @@ def test_times_and_handles_that_cannot_be_are_refused(arguments: list[str], word
 
 def test_with_a_margin_the_command_says_within_it_and_the_gap() -> None:
     for command in ("collision-time", "minimum-pitch", "shortest-turn"):
-        said = " ".join(answer_of(command, "--benches", "40", "--margin", "0.05").split())
-        assert "within 0.05 m" in said
-        assert not re.search(r"touch|meet|outcome contact", said)
-    said = answer_of("collision-time", "--margin", "0.2")
-    assert "within 0.2 m from the start on" in said
-    assert re.search(r"gap +0\.169278671 m", said)
+        text = " ".join(answer_of(command, "--benches", "40", "--margin", "0.05").split())
+        assert "within 0.05 m" in text
+        assert not re.search(r"touch|meet|outcome contact", text)
+    text = answer_of("collision-time", "--margin", "0.2")
+    assert "within 0.2 m from the start on" in text
+    assert re.search(r"gap +0\.169278671 m", text)
     assert "never within 0.05 m" in answer_of("collision-time", "--pitch", "1.2", "--margin", "0.05")
     assert "First contact" in answer_of("collision-time", "--benches", "20")
 
@@ -543,7 +543,7 @@ def serving(
     for line in process.stderr:
         lines.append(line)
         running |= f"running on http://127.0.0.1:{port}" in line
-        expected = int(found[1]) if (found := re.search(r"in (\d+) processes", line)) else expected
+        expected = int(match[1]) if (match := re.search(r"in (\d+) processes", line)) else expected
         if running and sum("Application startup complete" in line for line in lines) == expected:
             break
     try:
@@ -632,8 +632,8 @@ def test_serve_on_a_port_that_is_taken_gets_exit_code_2(server: str, workers: st
 @pytest.mark.parametrize("words", HELPS, ids=" ".join)
 def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> None:
     text = " ".join(answer_of(*words, "--help", COLUMNS="1000").split())
-    told = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]
-    assert [one for one in told if " ".join(one.split()) not in text] == []
+    values = [option.help.replace("\\[", "[") for option in HELPS[words].params if option.help]
+    assert [one for one in values if " ".join(one.split()) not in text] == []
     assert "completion" not in text  # `bench-dragon --help` offers it
 
 
@@ -650,10 +650,10 @@ def test_the_version_is_one_line() -> None:
 
 
 def test_the_shell_completes_commands_and_options() -> None:
-    asked = {"_BENCH_DRAGON_COMPLETE": "complete_bash", "COMP_CWORD": "1"}
-    assert answer_of(**asked, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
-    asked["COMP_CWORD"] = "2"
-    assert answer_of(**asked, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
+    request = {"_BENCH_DRAGON_COMPLETE": "complete_bash", "COMP_CWORD": "1"}
+    assert answer_of(**request, COMP_WORDS="bench-dragon coll").split() == ["collision-time"]
+    request["COMP_CWORD"] = "2"
+    assert answer_of(**request, COMP_WORDS="bench-dragon collision-time --pit").split() == ["--pitch"]
 
 
 def test_completion_is_offered_once() -> None:
@@ -692,10 +692,10 @@ FOLDING = ("trajectory", "--benches", "40", "--pitch", "1.2", "--start-turns", "
 
 
 def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
-    said = answer_of(*FOLDING, "--times", "0,100,238.2149")
-    assert said.count("238.2149 s *") == 3
-    assert "100 s *" not in said
-    words = " ".join(said.split())
+    output = answer_of(*FOLDING, "--times", "0,100,238.2149")
+    assert output.count("238.2149 s *") == 3
+    assert "100 s *" not in output
+    words = " ".join(output.split())
     assert words.endswith(
         "* Just before bench 0 folds, at 238.214985392 s: towards that instant the speeds of handles behind it grow "
         "without bound."
@@ -704,10 +704,10 @@ def test_instants_just_before_a_fold_are_marked_and_the_fold_is_named() -> None:
 
 
 def test_bounds_are_printed_with_all_digits_or_rounded_to_the_safe_side() -> None:
-    answer = json.loads(shown("collision-time", "--json"))
-    said = shown("collision-time")
-    assert f"{answer['time_bracket'][0]!r}, {answer['time_bracket'][1]!r} s" in said
-    assert re.search(rf"clear until +{re.escape(repr(answer['certificate']['clear_until']))} s", said)
+    answer = json.loads(cached_output("collision-time", "--json"))
+    output = cached_output("collision-time")
+    assert f"{answer['time_bracket'][0]!r}, {answer['time_bracket'][1]!r} s" in output
+    assert re.search(rf"clear until +{re.escape(repr(answer['certificate']['clear_until']))} s", output)
 
 
 def test_the_table_on_a_terminal_has_the_decimals_that_are_asked_for() -> None:

@@ -83,11 +83,11 @@ def test_json_is_the_answer_of_the_service(client: httpx.Client, arguments: list
 
 
 def test_check_reads_toml_and_json_and_answers_like_the_service(client: httpx.Client, dance: Path) -> None:
-    told = served(client, "POST", "/check", BODY)
-    assert not told["passed"]
-    assert json.loads(answer_of("check", str(dance), "--json")) == told
+    answer = served(client, "POST", "/check", BODY)
+    assert not answer["passed"]
+    assert json.loads(answer_of("check", str(dance), "--json")) == answer
     dance.with_suffix(".json").write_text(json.dumps(BODY))
-    assert json.loads(answer_of("check", str(dance.with_suffix(".json")), "--json")) == told
+    assert json.loads(answer_of("check", str(dance.with_suffix(".json")), "--json")) == answer
 
 
 def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
@@ -95,11 +95,11 @@ def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
 ) -> None:
     body = {"dragon": {"benches": 30}, "path": {"pitch": 0.4}, "start": 100.0}
     file = tmp_path / "dance.json"
-    for in_file, option, told in (("none", [], "none"), ("none", ["pair"], "pair"), ("pair", ["dragon"], "dragon")):
+    for in_file, option, stated in (("none", [], "none"), ("none", ["pair"], "pair"), ("pair", ["dragon"], "dragon")):
         file.write_text(json.dumps(body | {"cross_check": in_file}))
-        said = json.loads(answer_of("check", str(file), "--json", *(f"--cross-check={word}" for word in option)))
-        assert said == served(client, "POST", "/check", body | {"cross_check": told})
-    check = said["first_contact"]["cross_check"]
+        answer = json.loads(answer_of("check", str(file), "--json", *(f"--cross-check={word}" for word in option)))
+        assert answer == served(client, "POST", "/check", body | {"cross_check": stated})
+    check = answer["first_contact"]["cross_check"]
     assert (check["agree"], check["judged"]) == (True, list(range(30)))
     assert "engines agree" in answer_of("check", str(file), "--cross-check", "dragon")
     assert "all 30 benches" in answer_of("check", str(file), "--cross-check", "dragon")
@@ -109,7 +109,7 @@ def test_check_has_the_engines_judge_whom_the_option_says_or_else_the_file(
 
 
 def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
-    said = answer_of("check", str(dance))
+    output = answer_of("check", str(dance))
     for word in (
         "Failures in order",
         "'square'",
@@ -118,30 +118,30 @@ def test_a_failed_check_is_an_answer_that_says_what_fails(dance: Path) -> None:
         "proven: at least",
         "highest speed",
     ):
-        assert word in said
+        assert word in output
 
 
 def test_a_dance_that_passes_says_so(dance: Path) -> None:
     dance.write_text(DANCE.replace("0.9", "0.1").replace("0.5", "2.0"))
-    said = answer_of("check", str(dance))
-    assert "Nothing fails." in said
-    assert "handles 0, 1, 2, 3, 4" in said
+    output = answer_of("check", str(dance))
+    assert "Nothing fails." in output
+    assert "handles 0, 1, 2, 3, 4" in output
 
 
 def test_a_dance_that_folds_is_no_dance_of_which_nothing_fails(client: httpx.Client, tmp_path: Path) -> None:
     body = {"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}
-    told = served(client, "POST", "/check", body)
-    assert (told["verdict"], told["passed"]) == ("fails", False)
-    (fold,) = told["failures"]
+    answer = served(client, "POST", "/check", body)
+    assert (answer["verdict"], answer["passed"]) == ("fails", False)
+    (fold,) = answer["failures"]
     assert (fold["kind"], fold["benches"], fold["area"]) == ("folds", [0], None)
-    assert fold["time"] == told["stop"] == told["first_contact"]["end"]["time"]
-    assert fold["head"]["theta"] == pytest.approx(told["first_contact"]["end"]["theta"], rel=ROUNDING)
-    assert told["first_contact"]["end"]["bench"] == 0
+    assert fold["time"] == answer["stop"] == answer["first_contact"]["end"]["time"]
+    assert fold["head"]["theta"] == pytest.approx(answer["first_contact"]["end"]["theta"], rel=ROUNDING)
+    assert answer["first_contact"]["end"]["bench"] == 0
     file = tmp_path / "dance.json"
     file.write_text(json.dumps(body))
-    said = answer_of("check", str(file))
-    assert said.startswith("Fails. Failures in order of time:\n  Bench 0 folds at 238.214985 s, the head at (1.0120")
-    assert "Nothing fails" not in said
+    output = answer_of("check", str(file))
+    assert output.startswith("Fails. Failures in order of time:\n  Bench 0 folds at 238.214985 s, the head at (1.0120")
+    assert "Nothing fails" not in output
     file.write_text(json.dumps(body | {"stop": 238.0}))
     assert answer_of("check", str(file)).startswith("Passes. Nothing fails.")
 
@@ -153,19 +153,19 @@ def test_what_is_not_decided_is_no_failure(tmp_path: Path) -> None:
     body = {"dragon": {"benches": 5}, "path": lane, "venue": venue, "margin": 0.2, "start": 0}
     file = tmp_path / "dance.json"
     file.write_text(json.dumps(body))
-    told = json.loads(answer_of("check", str(file), "--json"))
-    assert (told["verdict"], told["passed"]) == ("undecided", False)
-    said = answer_of("check", str(file))
-    assert said.startswith("Undecided. No failure is known, but these questions are open:\n")
-    assert "fails" not in said
+    answer = json.loads(answer_of("check", str(file), "--json"))
+    assert (answer["verdict"], answer["passed"]) == ("undecided", False)
+    output = answer_of("check", str(file))
+    assert output.startswith("Undecided. No failure is known, but these questions are open:\n")
+    assert "fails" not in output
 
 
-def test_a_margin_of_a_check_is_told_in_every_line(dance: Path) -> None:
-    said = answer_of("check", str(dance))
-    assert "comes within 0.9 m of 'square'" in said
-    assert "never within 0.9 m" in said
-    assert "first within 0.9 m" in said
-    assert "contact" not in said
+def test_a_margin_of_a_check_is_reported_in_every_line(dance: Path) -> None:
+    output = answer_of("check", str(dance))
+    assert "comes within 0.9 m of 'square'" in output
+    assert "never within 0.9 m" in output
+    assert "first within 0.9 m" in output
+    assert "contact" not in output
 
 
 def test_a_single_handle_is_no_handles(dance: Path) -> None:
@@ -190,28 +190,28 @@ def test_the_dance_that_is_judged_is_written_as_a_table(dance: Path) -> None:
     for table in tables.values():
         done = run("check", str(dance), "--output", str(table))
         assert (done.returncode, done.stderr) == (0, f"{table}\n")
-    plain = dance.with_name("plain.json")
-    plain.write_text(json.dumps({name: BODY[name] for name in ("dragon", "path")}))
-    told = json.loads(answer_of("trajectory", str(plain), "--start", "15", "--stop", "60", "--json"))
-    assert json.loads(tables["json"].read_text()) == told
+    simple = dance.with_name("plain.json")
+    simple.write_text(json.dumps({name: BODY[name] for name in ("dragon", "path")}))
+    answer = json.loads(answer_of("trajectory", str(simple), "--start", "15", "--stop", "60", "--json"))
+    assert json.loads(tables["json"].read_text()) == answer
     rows = list(csv.DictReader(tables["csv"].read_text().splitlines()))
-    assert [float(row["x"]) for row in rows] == [x for line in told["x"] for x in line]
+    assert [float(row["x"]) for row in rows] == [x for line in answer["x"] for x in line]
     sheet = openpyxl.load_workbook(tables["xlsx"]).worksheets[0]
-    assert (sheet.max_row - 1, sheet.max_column - 1) == (2 * 5, len(told["time"]))
+    assert (sheet.max_row - 1, sheet.max_column - 1) == (2 * 5, len(answer["time"]))
 
 
 # The last digit of a distance in a report [m].
-LAST_SHOWN = 1e-6
+LAST_DIGIT = 1e-6
 
 
 def test_a_least_clearance_is_not_rounded_above_what_is_proven_and_a_fold_has_no_highest_speed(tmp_path: Path) -> None:
     file = tmp_path / "dance.json"
     file.write_text('{"dragon": {"benches": 40}, "path": {"pitch": 1.2, "start_turns": 8}}')
-    said = answer_of("check", str(file))
+    output = answer_of("check", str(file))
     proven = json.loads(answer_of("check", str(file), "--json"))["least_clearance"]["at_least"]
-    (shown,) = re.findall(r"proven: at least ([\d.]+) m", said)
-    assert proven - LAST_SHOWN < float(shown) <= proven
-    assert re.search(r"highest speed +grows without bound +238\.214985 s +towards the fold", said)
+    (displayed,) = re.findall(r"proven: at least ([\d.]+) m", output)
+    assert proven - LAST_DIGIT < float(displayed) <= proven
+    assert re.search(r"highest speed +grows without bound +238\.214985 s +towards the fold", output)
 
 
 def test_benches_that_overlap_at_the_start_are_said_to(tmp_path: Path) -> None:

@@ -108,14 +108,14 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     named = [file if place == "FILE" else place for place in places]
-    told = BODY | {"venue": YARD}
+    fields = BODY | {"venue": YARD}
     done = run(
-        "figures", *named, "--time", "12", "--format", "svg", text=json.dumps(told | {"margin": 0.2, "start": 20})
+        "figures", *named, "--time", "12", "--format", "svg", text=json.dumps(fields | {"margin": 0.2, "start": 20})
     )
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in (tmp_path / where).glob("*.svg")) == ["contact.svg", "trajectory.svg"]
     for name, more in (("trajectory", {"time": 12}), ("contact", {"margin": 0.2, "start": 20})):
-        answer = client.post(f"/figures/{name}.svg", json=told | more).raise_for_status()
+        answer = client.post(f"/figures/{name}.svg", json=fields | more).raise_for_status()
         assert (tmp_path / where / f"{name}.svg").read_bytes() == answer.content
 
 
@@ -190,8 +190,8 @@ def test_instants_are_those_of_start_and_stop_in_the_file(
 def test_the_stop_of_a_file_with_a_start_is_counted_from_the_start_that_is_given(tmp_path: Path) -> None:
     file = tmp_path / "dance.toml"
     file.write_text("start = 7")
-    found = run("trajectory", str(file), "--start", "20", "--step", "100", "--json")
-    assert json.loads(found.stdout)["time"] == [20, 120, 220, 320]
+    result = run("trajectory", str(file), "--start", "20", "--step", "100", "--json")
+    assert json.loads(result.stdout)["time"] == [20, 120, 220, 320]
 
 
 @pytest.mark.parametrize("command", ["trajectory", "clearance"])
@@ -348,13 +348,13 @@ def test_a_stray_in_the_file_that_does_not_count_is_named(
     tmp_path: Path, client: httpx.Client, command: str, names: str, words: str
 ) -> None:
     strays = {"stray": 0.02, "hole": 0.055, "pin": 0.05}
-    asked: dict[str, Any] = {"dragon": {"benches": 5}, "start": 0, "stop": 10}
-    asked |= {} if command == "tolerance" else {"samples": 10}
-    counted = {} if command == "tolerance" else {name: strays[name] for name in ("hole", "pin")}
+    request: dict[str, Any] = {"dragon": {"benches": 5}, "start": 0, "stop": 10}
+    request |= {} if command == "tolerance" else {"samples": 10}
+    values = {} if command == "tolerance" else {name: strays[name] for name in ("hole", "pin")}
     file = tmp_path / "dance.json"
-    file.write_text(json.dumps(asked | strays))
+    file.write_text(json.dumps(request | strays))
     done = run(command, str(file), "--json")
     assert (done.returncode, done.stderr) == (0, f"{file}: ignored: {names}, because {words}.\n")
-    assert json.loads(done.stdout) == client.post(f"/{command}", json=asked | counted).raise_for_status().json()
-    file.write_text(json.dumps(asked))
+    assert json.loads(done.stdout) == client.post(f"/{command}", json=request | values).raise_for_status().json()
+    file.write_text(json.dumps(request))
     assert run(command, str(file)).stderr == ""

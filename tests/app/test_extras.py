@@ -52,21 +52,21 @@ for line in sys.stdin:
         app()
     print(os.waitstatus_to_exitcode(os.wait()[1]), flush=True)
 """
-Plain = Callable[..., subprocess.CompletedProcess[str]]
+Install = Callable[..., subprocess.CompletedProcess[str]]
 
 
 @pytest.fixture(scope="module")
-def plain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plain]:
+def bare_install(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Install]:
     """The command as without any extra."""
-    given: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    pipes: dict[str, Any] = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    with subprocess.Popen([sys.executable, "-c", HIDDEN], env=environment, **given) as process:
+    with subprocess.Popen([sys.executable, "-c", HIDDEN], env=environment, **pipes) as process:
 
         def answer(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
-            said = tmp_path_factory.mktemp("said")
-            print(json.dumps([arguments, str(folder), str(said)]), file=process.stdin, flush=True)
+            text = tmp_path_factory.mktemp("said")
+            print(json.dumps([arguments, str(folder), str(text)]), file=process.stdin, flush=True)
             code = int(process.stdout.readline()) if process.stdout else 1
-            return subprocess.CompletedProcess(arguments, code, *((said / name).read_text() for name in "12"))
+            return subprocess.CompletedProcess(arguments, code, *((text / name).read_text() for name in "12"))
 
         yield answer
 
@@ -88,8 +88,8 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plain]:
         "envelope --benches 5 --stop 5",
     ],
 )
-def test_every_question_is_answered_without_an_extra(plain: Plain, line: str) -> None:
-    done = plain(*line.split(), "--json")
+def test_every_question_is_answered_without_an_extra(bare_install: Install, line: str) -> None:
+    done = bare_install(*line.split(), "--json")
     assert (done.returncode, done.stderr) == (0, "")
     assert json.loads(done.stdout)
 
@@ -137,16 +137,16 @@ def test_every_question_is_answered_without_an_extra(plain: Plain, line: str) ->
     ],
 )
 def test_what_needs_an_extra_names_it_in_one_line_and_leaves_nothing(
-    plain: Plain, line: str, message: str, tmp_path: Path
+    bare_install: Install, line: str, message: str, tmp_path: Path
 ) -> None:
-    done = plain(*line.split(), folder=tmp_path)
+    done = bare_install(*line.split(), folder=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_workbook_is_graded_with_the_extra_only(plain: Plain, tmp_path: Path) -> None:
+def test_a_workbook_is_graded_with_the_extra_only(bare_install: Install, tmp_path: Path) -> None:
     (tmp_path / "result2.xlsx").write_bytes(b"PK")
-    done = plain("grade", "result2.xlsx", folder=tmp_path)
+    done = bare_install("grade", "result2.xlsx", folder=tmp_path)
     words = "A workbook needs the package xlsxwriter, which is not installed: pip install 'bench-dragon[xlsx]'"
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {words}\n")
 
@@ -160,11 +160,11 @@ def test_the_command_starts_without_what_only_an_extra_brings() -> None:
 
 def distributions(extra: str) -> set[str]:
     """Names of what an extra installs by itself, also through other extras of ours."""
-    found: set[str] = set()
+    entries: set[str] = set()
     for requirement in map(Requirement, PROJECT["optional-dependencies"][extra]):
         inner = [distributions(other) for other in requirement.extras]
-        found |= set().union(*inner) if requirement.name == PROJECT["name"] else {canonicalize_name(requirement.name)}
-    return found
+        entries |= set().union(*inner) if requirement.name == PROJECT["name"] else {canonicalize_name(requirement.name)}
+    return entries
 
 
 @cache

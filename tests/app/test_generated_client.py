@@ -82,10 +82,10 @@ def test_the_generator_warns_of_nothing_but_pictures_and_files(words: str) -> No
 )
 def test_every_question_is_answered(own: Any, client: httpx.Client, name: str, method: str, question: Any) -> None:
     module, example = call("questions", name), EXAMPLES[f"{method} {question.path}"]
-    asked = example.query if example.body is None else {"body": body_of(module, example.body)}
-    answer = module.sync(client=own, **asked)
-    plain = client.request(method, question.path, params=example.query, json=example.body)
-    assert answer.to_dict() == plain.raise_for_status().json()
+    request = example.query if example.body is None else {"body": body_of(module, example.body)}
+    answer = module.sync(client=own, **request)
+    response = client.request(method, question.path, params=example.query, json=example.body)
+    assert answer.to_dict() == response.raise_for_status().json()
 
 
 DRAWN = [c for c in CALLS if c[2].formats]
@@ -97,15 +97,15 @@ DRAWN = [c for c in CALLS if c[2].formats]
 def test_every_figure_is_drawn(own: Any, name: str, method: str, formats: Any) -> None:
     module = call("figures", name)
     known = importlib.import_module(f"{PACKAGE}.models.{'map_format' if name == 'maps' else 'format_'}")
-    told = known.MapFormat if name == "maps" else known.Format
+    formats = known.MapFormat if name == "maps" else known.Format
     scan = {"samples": 3} if name.startswith("pitch_scan") else {}
     small: dict[str, Any] = scan | ({"benches": 9} if method == "GET" else {"dragon": {"benches": 9}})
-    asked = small if method == "GET" else {"body": body_of(module, small)}
+    request = small if method == "GET" else {"body": body_of(module, small)}
     begins = {"svg": b"<?xml", "png": b"\x89PNG", "geojson": b"{", "kml": b"<?xml", "dxf": b"  0\n"}
     if name == "maps":
-        asked = {"body": body_of(module, small | {"origin": {"longitude": 8.5, "latitude": 47.4}})}
+        request = {"body": body_of(module, small | {"origin": {"longitude": 8.5, "latitude": 47.4}})}
     for ending in formats:
-        answer = module.sync_detailed(told(ending), client=own, **asked)
+        answer = module.sync_detailed(formats(ending), client=own, **request)
         assert answer.status_code == 200
         assert answer.content.startswith(begins[ending])
 
@@ -142,9 +142,9 @@ def test_the_result_of_a_job_comes_back_as_the_direct_answer(own: Any, client: h
     later, request = call("jobs", "ask_later"), example.query if example.body is None else example.body
     job = later.sync(client=own, body=body_of(later, {"question": name, "request": request}))
     client.get(f"/jobs/{job.job_id}/events").raise_for_status()  # Its events end when it is finished.
-    plain = client.request(method, "/minimum-pitch", params=example.query, json=example.body)
-    found = call("jobs", "job_result").sync(job.job_id, client=own)
-    assert json.loads(found.payload.read()) == plain.raise_for_status().json()
+    answer = client.request(method, "/minimum-pitch", params=example.query, json=example.body)
+    result = call("jobs", "job_result").sync(job.job_id, client=own)
+    assert json.loads(result.payload.read()) == answer.raise_for_status().json()
 
 
 FILM = {"dragon": {"benches": 3}, "start": 1, "stop": 2, "seconds": 1, "height": 240}
@@ -181,8 +181,13 @@ def test_the_table_of_a_sweep_comes_back_as_its_bytes(
     own: Any, client: httpx.Client, accept: str, begin: bytes
 ) -> None:
     module = call("jobs", "sweep")
-    asked = {"question": "collision_time", "over": {"pitch": [0.5, 0.6]}, "request": {"benches": 30}, "accept": accept}
-    job = module.sync(client=own, body=body_of(module, asked))
+    request = {
+        "question": "collision_time",
+        "over": {"pitch": [0.5, 0.6]},
+        "request": {"benches": 30},
+        "accept": accept,
+    }
+    job = module.sync(client=own, body=body_of(module, request))
     client.get(f"/jobs/{job.job_id}/events").raise_for_status()
     assert call("jobs", "job_result").sync(job.job_id, client=own).payload.read().startswith(begin)
 

@@ -52,9 +52,9 @@ def send(service: Service, sent: bytes) -> bytes:
         return b"".join(iter(lambda: peer.recv(65536), b""))
 
 
-def until(found: Callable[[], bool]) -> None:
+def until(result: Callable[[], bool]) -> None:
     end = time.monotonic() + SOON
-    while not found():
+    while not result():
         assert time.monotonic() < end
         time.sleep(0.05)
 
@@ -136,10 +136,10 @@ def test_malformed_http_is_a_problem(held: Service, sent: bytes, status: int) ->
     ],
 )
 def test_a_target_in_absolute_form_is_that_in_origin_form(held: Service, target: str, path: str, status: int) -> None:
-    told = [
+    values = [
         send(held, f"GET {one} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n".encode()) for one in (target, path)
     ]
-    heads, bodies = zip(*(one.split(b"\r\n\r\n", 1) for one in told), strict=True)
+    heads, bodies = zip(*(one.split(b"\r\n\r\n", 1) for one in values), strict=True)
     assert heads[0].startswith(f"HTTP/1.1 {status} ".encode())
     assert bodies[0] == bodies[1]
 
@@ -242,8 +242,8 @@ def working(service: Service, *clients: str) -> Iterator[None]:
 
 
 def computing(service: Service) -> float:
-    found = re.search(r'computations{lane="heavy"} (\S+)', httpx.get(f"{service.url}/metrics").text)
-    return float(found[1]) if found else 0.0
+    match = re.search(r'computations{lane="heavy"} (\S+)', httpx.get(f"{service.url}/metrics").text)
+    return float(match[1]) if match else 0.0
 
 
 def client_at(address: str) -> httpx.Client:
@@ -301,16 +301,16 @@ def test_by_default_one_client_cannot_take_all_places(tmp_path: Path) -> None:
 def test_a_large_answer_is_sent_as_gzip_to_who_takes_it(held: Service, accept: str) -> None:
     body = {"times": {"stop": 400, "step": 2.0}}
     with httpx.Client(base_url=held.url, timeout=SOON) as client:
-        plain, zipped = (
+        simple, zipped = (
             client.post("/trajectory", json=body, headers={"Accept": accept, "Accept-Encoding": coding})
             for coding in ("identity", "gzip")
         )
         known = {"Accept": accept, "If-None-Match": zipped.headers["etag"]}
         again = client.post("/trajectory", json=body, headers=known)
-    assert "content-encoding" not in plain.headers
+    assert "content-encoding" not in simple.headers
     assert zipped.headers["content-encoding"] == "gzip"
-    assert plain.content == zipped.content
-    assert plain.headers["etag"] != zipped.headers["etag"]
+    assert simple.content == zipped.content
+    assert simple.headers["etag"] != zipped.headers["etag"]
     assert again.status_code == 304
 
 
@@ -360,8 +360,8 @@ def alive(pid: int) -> bool:
 
 
 def children(pid: int) -> list[int]:
-    found = [int(one) for one in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
-    return found + [inner for one in found for inner in children(one)]
+    entries = [int(one) for one in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    return entries + [inner for one in entries for inner in children(one)]
 
 
 STOPS = [
@@ -375,10 +375,10 @@ STOPS = [
 
 @pytest.mark.parametrize(("workers", "stop"), some(STOPS, 2))
 def test_the_service_leaves_with_heavy_work_running(tmp_path: Path, workers: int, stop: signal.Signals) -> None:
-    given: dict[str, Any] = {"workers": workers, "grace_seconds": GRACE_SECONDS}
+    fields: dict[str, Any] = {"workers": workers, "grace_seconds": GRACE_SECONDS}
     # A shell that starts the service in its background has Ctrl-C ignored.
     ignored = partial(signal.signal, signal.SIGINT, signal.SIG_IGN) if stop == signal.SIGTERM else None
-    with serving(tmp_path / "log", limit=ignored, **given) as service:
+    with serving(tmp_path / "log", limit=ignored, **fields) as service:
         leaves(service, stop)
 
 
@@ -398,8 +398,8 @@ def leaves(service: Service, stop: signal.Signals) -> None:
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_service_that_ends_answers_who_has_connected_and_refuses_others(tmp_path: Path, workers: int) -> None:
     """A proxy sends a request to another service if this one refuses the connection, not if it resets it."""
-    given: dict[str, Any] = {"workers": workers, "grace_seconds": 10}
-    with serving(tmp_path / "log", **given) as service, ExitStack() as peers:
+    fields: dict[str, Any] = {"workers": workers, "grace_seconds": 10}
+    with serving(tmp_path / "log", **fields) as service, ExitStack() as peers:
         until(lambda: service.log.read_text().count("startup complete") == workers)
         busy, *new = (peers.enter_context(socket.create_connection(service.address, timeout=SOON)) for _ in range(4))
         busy.sendall(f"GET {HEAVY} HTTP/1.1\r\nHost: x\r\n\r\n".encode())

@@ -92,9 +92,9 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
 def fields(document: Any) -> list[tuple[str, Any]]:
     """Every field of every schema and every parameter, by name."""
     schemas = document["components"]["schemas"].values()
-    found = [pair for one in schemas for pair in one.get("properties", {}).items()]
+    entries = [pair for one in schemas for pair in one.get("properties", {}).items()]
     calls = [call for path in document["paths"].values() for call in path.values()]
-    return found + [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
+    return entries + [(one["name"], one | one["schema"]) for call in calls for one in call.get("parameters", [])]
 
 
 def holds_floats(field: Any) -> bool:
@@ -125,8 +125,8 @@ def keywords(schema: Any) -> set[str]:
 def test_schemas_say_their_limits_in_words_that_programs_know(document: Any) -> None:
     calls = [call for path in document["paths"].values() for call in path.values()]
     schemas = [one["schema"] for call in calls for one in call.get("parameters", [])]
-    found = {word for one in (*document["components"]["schemas"].values(), *schemas) for word in keywords(one)}
-    assert {word for word in found - KEYWORDS if not word.startswith("x-")} == set()
+    entries = {word for one in (*document["components"]["schemas"].values(), *schemas) for word in keywords(one)}
+    assert {word for word in entries - KEYWORDS if not word.startswith("x-")} == set()
 
 
 def test_every_field_is_described_and_every_measure_has_its_unit(document: Any) -> None:
@@ -192,16 +192,16 @@ def test_paths_are_told_apart_by_their_kind(document: Any) -> None:
     for body in ("CheckRequest", "CollisionRequest", "TrajectoryRequest", "MaximumHeadSpeedRequest"):
         path, null = schemas[body]["properties"]["path"]["anyOf"]
         assert null == {"type": "null"}
-        told = path["discriminator"]["mapping"]
-        assert sorted(told.values()) == sorted(one["$ref"] for one in path["oneOf"])
-        for kind, ref in told.items():
+        documented = path["discriminator"]["mapping"]
+        assert sorted(documented.values()) == sorted(one["$ref"] for one in path["oneOf"])
+        for kind, ref in documented.items():
             shape = schemas[ref.rpartition("/")[2]]
             assert "kind" in shape["required"]
             assert shape["properties"]["kind"]["const"] == kind
 
 
 def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(document: Any, client: httpx.Client) -> None:
-    asked = 0
+    request = 0
     for path, body in (
         ("/trajectory", {"times": [0.0]}),
         ("/course", {}),
@@ -215,8 +215,8 @@ def test_null_counts_as_left_out_where_the_schema_cannot_state_the_default(docum
         nulls = {name: None for name, field in properties.items() if name not in body and holds_null(field)}
         answer = client.post(path, json=body, timeout=ANSWER_TIMEOUT).raise_for_status().json()
         assert client.post(path, json=body | nulls, timeout=ANSWER_TIMEOUT).raise_for_status().json() == answer
-        asked += len(nulls.keys() & {"dragon", "path"})
-    assert asked == 8
+        request += len(nulls.keys() & {"dragon", "path"})
+    assert request == 8
     body = {"path": {"kind": "waypoints", "points": [[0, 0], [20, 0]], "straight": None}, "dragon": {"benches": 3}}
     assert client.post("/course", json=body).status_code == 200
 
@@ -229,10 +229,10 @@ def holds_null(field: Any) -> bool:
 def test_the_most_benches_stated_are_the_most_taken() -> None:
     document = create_app(Settings(benches_max=321)).openapi()
     parameters = document["paths"]["/collision-time"]["get"]["parameters"]
-    stated = next(parameter["schema"]["maximum"] for parameter in parameters if parameter["name"] == "benches")
+    documented = next(parameter["schema"]["maximum"] for parameter in parameters if parameter["name"] == "benches")
     wires = document["components"]["schemas"].values()
     in_bodies = [wire["properties"]["benches"] for wire in wires if "benches" in wire.get("properties", {})]
-    assert stated == 321
+    assert documented == 321
     assert {field["maximum"] for field in in_bodies if "maximum" in field} == {321}
 
 
@@ -254,16 +254,16 @@ def test_the_examples_stand_as_make_examples_writes_them() -> None:
     assert text(json.loads(FILE.read_bytes())) + "\n" == FILE.read_text(encoding="utf-8")
 
 
-def same(got: Any, told: Any) -> bool:
+def same(got: Any, documented: Any) -> bool:
     """Equal but for rounding, and for what a search spent or how narrowly it proved."""
-    if isinstance(told, dict):
-        names = told.keys() - SPENT
-        return got.keys() == told.keys() and all(same(got[name], told[name]) for name in names)
-    if isinstance(told, list):
-        return len(got) == len(told) and all(map(same, got, told))
-    if isinstance(told, float):
-        return bool(got == pytest.approx(told, rel=EXAMPLE_TOLERANCE, abs=EXAMPLE_TOLERANCE))
-    return bool(got == told)
+    if isinstance(documented, dict):
+        names = documented.keys() - SPENT
+        return got.keys() == documented.keys() and all(same(got[name], documented[name]) for name in names)
+    if isinstance(documented, list):
+        return len(got) == len(documented) and all(map(same, got, documented))
+    if isinstance(documented, float):
+        return bool(got == pytest.approx(documented, rel=EXAMPLE_TOLERANCE, abs=EXAMPLE_TOLERANCE))
+    return bool(got == documented)
 
 
 def test_every_call_has_an_example_and_its_problems(document: Any) -> None:

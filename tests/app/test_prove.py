@@ -24,8 +24,8 @@ FOLDING = (
 )
 
 
-def run(*arguments: str, **given: str) -> subprocess.CompletedProcess[str]:
-    return command.run("prove", *arguments, **given)
+def run(*arguments: str, **how: str) -> subprocess.CompletedProcess[str]:
+    return command.run("prove", *arguments, **how)
 
 
 @pytest.fixture(scope="module")

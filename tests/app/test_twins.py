@@ -93,10 +93,10 @@ def test_an_empty_body_asks_what_an_empty_query_asks(question: Question) -> None
 def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_core(client: httpx.Client) -> None:
     dragon = core.Dragon.of(LENGTHS, WIDTHS, OVERHANGS)
     dance = core.Dance(dragon, core.Route([core.Waypoints(tuple((x, y) for x, y in POINTS))]), 2.0)
-    found = core.first_contact(dance, margin=0.1, start=dance.begin)
+    contact = core.first_contact(dance, margin=0.1, start=dance.begin)
     body = {"dragon": BENCHES, "path": CROSSING, "head_speed": 2, "margin": 0.1}
     answer = client.post("/collision-time", json=body).raise_for_status().json()
-    assert (answer["outcome"], answer["time"]) == (found.outcome.value, found.time)
+    assert (answer["outcome"], answer["time"]) == (contact.outcome.value, contact.time)
     check = client.post("/check", json=body).raise_for_status().json()
     assert check["first_contact"] == answer
     until = client.post("/collision-time", json=body | {"stop": 10}).raise_for_status().json()

@@ -68,8 +68,8 @@ def test_a_table_has_places_speeds_names_and_the_time_of_day(client: httpx.Clien
 def test_no_name_in_a_table_is_a_formula_for_a_spreadsheet_and_our_own_table_reads_back(client: httpx.Client) -> None:
     names = ["=HYPERLINK(1)", "@SUM(A1)", "+1+1", "-2", "'quoted'"]
     dragon = {"lengths": [2.2] * 5, "widths": [0.3] * 5, "overhangs": [0.275] * 5, "names": names}
-    asked = {"dragon": dragon, "times": [0.0]}
-    text = client.post("/trajectory", json=asked, headers={"accept": "text/csv"}).raise_for_status().text
+    request = {"dragon": dragon, "times": [0.0]}
+    text = client.post("/trajectory", json=request, headers={"accept": "text/csv"}).raise_for_status().text
     cells = [row["name"] for row in csv.DictReader(io.StringIO(text))]
     assert cells[:5] == ["'=HYPERLINK(1)", "'@SUM(A1)", "'+1+1", "'-2", "'quoted'"]
     table = "\n".join(["name,length,width,overhang", *(f"{cell},2.2,0.3,0.275" for cell in cells[:5])])
@@ -79,11 +79,11 @@ def test_no_name_in_a_table_is_a_formula_for_a_spreadsheet_and_our_own_table_rea
 def test_failures_say_who_and_at_what_time_of_day(client: httpx.Client) -> None:
     square = {"type": "Polygon", "coordinates": [[[20, -18], [40, -18], [40, -6], [20, -6], [20, -18]]]}
     got = posted(client, "/check", venue=square, speed_limit=0.9, stop=150).raise_for_status().json()
-    told = {failure["kind"]: failure for failure in got["failures"]}
-    assert (told["speed"]["time"], told["speed"]["clock"], told["speed"]["names"]) == (100, "19:31:40", ["Zhou"])
-    assert told["outside"]["names"] == [NAMES[told["outside"]["benches"][0]]]
+    values = {failure["kind"]: failure for failure in got["failures"]}
+    assert (values["speed"]["time"], values["speed"]["clock"], values["speed"]["names"]) == (100, "19:31:40", ["Zhou"])
+    assert values["outside"]["names"] == [NAMES[values["outside"]["benches"][0]]]
     assert got["highest_speed"]["passage"] is None
-    assert f"Bench {told['outside']['benches'][0]} (" in told["outside"]["message"]
+    assert f"Bench {values['outside']['benches'][0]} (" in values["outside"]["message"]
 
 
 def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path: Path) -> None:
@@ -98,8 +98,8 @@ def test_a_file_may_name_a_table_of_benches_and_a_time_of_day(tmp_path: Path) ->
     (tmp_path / "benches.csv").write_text(TABLE.replace("Wu;2,2", "Wu;220"), encoding="utf-8")
     refused = run("check", str(tmp_path / "dance.toml"))
     assert refused.returncode == 2
-    told = "line 6: length must be from 0.001 to 50 m, got 220 m: lengths are in metres, and 220 cm is 2.2 m"
-    assert told in refused.stderr.replace("\n", " ")
+    text = "line 6: length must be from 0.001 to 50 m, got 220 m: lengths are in metres, and 220 cm is 2.2 m"
+    assert text in refused.stderr.replace("\n", " ")
 
 
 def test_the_proof_of_a_dance_with_passages_is_that_of_its_places(tmp_path: Path) -> None:

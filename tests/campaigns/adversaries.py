@@ -99,10 +99,10 @@ class PairAtTime:
                 slope[:, *at] = sought.add(self.gaps(self.laid(off))) - gaps
             size = np.maximum(np.sqrt((slope**2).sum(axis=(1, 2), keepdims=True)), 1e-300)
             tried = self.laid(shapes - FIRST * SHRINK**k * self.stray * slope / size)
-            found = sought.add(self.gaps(tried))
-            better = found < gaps
+            result = sought.add(self.gaps(tried))
+            better = result < gaps
             shapes = np.where(better[:, None, None], _shapes(tried), shapes)
-            gaps = np.where(better, found, gaps)
+            gaps = np.where(better, result, gaps)
         return shapes[np.argsort(gaps)[:VARIED]]
 
     def vary(self, rng: np.random.Generator, shapes: Floats, sought: Sought) -> None:
@@ -142,9 +142,9 @@ def main() -> None:
     dance, stop = to_circle(0.55)
     known = tolerance(dance, stop=stop)
     sought = seek(dance, known)
-    found = "none touches" if sought.nearest > 0.0 else "some touch"
+    result = "none touches" if sought.nearest > 0.0 else "some touch"
     most = 0.999 * known.stray
-    print(f"{sought.poses} poses with strays up to {most:.6f} m: {found}; the nearest gap is {sought.nearest:.2e} m")
+    print(f"{sought.poses} poses with strays up to {most:.6f} m: {result}; the nearest gap is {sought.nearest:.2e} m")
 
 
 if __name__ == "__main__":

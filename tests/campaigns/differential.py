@@ -79,11 +79,11 @@ def _collision() -> Certificate:
     return prove_collision_time(dance, when)
 
 
-def _strayed(shown: bool) -> Certificate:
+def _strayed(with_exhibit: bool) -> Certificate:
     dance = Dance(Dragon(6), Spiral(0.7, 5.0))
-    found = tolerance(dance, start=44.0, stop=44.9)
-    stray = found.stray if shown else 0.02
-    return prove_tolerance(dance, stray, exhibit=found.exhibit if shown else None, start=44.0, stop=44.9)
+    result = tolerance(dance, start=44.0, stop=44.9)
+    stray = result.stray if with_exhibit else 0.02
+    return prove_tolerance(dance, stray, exhibit=result.exhibit if with_exhibit else None, start=44.0, stop=44.9)
 
 
 MAKERS: dict[str, Callable[[], Certificate]] = {
@@ -194,10 +194,10 @@ def changed(certificate: Certificate, dice: random.Random) -> Certificate:
 
 def _change(content: dict[str, Any], dice: random.Random) -> None:
     # Half of the changes are outside of the stretches, which are most of a certificate.
-    found = list(
+    result = list(
         places({name: content[name] for name in content if name != "sweeps"} if dice.random() < 0.5 else content)
     )
-    place = dice.choice(found)
+    place = dice.choice(result)
     inside: Any = content
     for step in place[:-1]:
         inside = inside[step]

@@ -43,14 +43,14 @@ class Tally:
     def __str__(self) -> str:
         return f"answers by status: {dict(sorted(self.statuses.items()))}; slowest {self.slowest}"
 
-    def add(self, status: int, headers: Mapping[str, Any], text: str, seconds: float, asked: str) -> None:
+    def add(self, status: int, headers: Mapping[str, Any], text: str, seconds: float, request: str) -> None:
         """Count an answer. raises: AssertionError for a fault of the service, or an error that is no problem"""
         self.statuses[status] += 1
-        self.slowest = max(self.slowest, (seconds, asked[:200]))
-        assert status < 500 or (status == 503 and "retry-after" in headers), (asked, text[:500])
-        assert status < 400 or PROBLEM_TYPE in headers["content-type"], (asked, text[:500])
-        assert "Traceback" not in text, asked
-        assert seconds < SLOWEST, (asked, seconds)
+        self.slowest = max(self.slowest, (seconds, request[:200]))
+        assert status < 500 or (status == 503 and "retry-after" in headers), (request, text[:500])
+        assert status < 400 or PROBLEM_TYPE in headers["content-type"], (request, text[:500])
+        assert "Traceback" not in text, request
+        assert seconds < SLOWEST, (request, seconds)
 
 
 def mutated(value: Any, chance: random.Random) -> Any:
@@ -58,30 +58,30 @@ def mutated(value: Any, chance: random.Random) -> Any:
     inner = list(value) if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else []
     if not inner or chance.random() < 0.15:
         return copy.deepcopy(chance.choice(ODD))
-    found, at = copy.deepcopy(value), chance.choice(inner)
+    values, at = copy.deepcopy(value), chance.choice(inner)
     match chance.randrange(6):
         case 0:
-            del found[at]
-        case 1 if isinstance(found, dict):
-            found[f"{at}_"] = found.pop(at)
+            del values[at]
+        case 1 if isinstance(values, dict):
+            values[f"{at}_"] = values.pop(at)
         case 1:
-            found += found
+            values += values
         case _:
-            found[at] = mutated(found[at], chance)
-    return found
+            values[at] = mutated(values[at], chance)
+    return values
 
 
 def mutant(call: str, chance: random.Random) -> tuple[str, dict[str, Any]]:
     """Path and options of a request that is one to three steps away from an example."""
     example, path = EXAMPLES[call], call.split()[1]
-    asked: Any = (example.query if example.body is None else example.body) or {"pitch": 0.5}
+    request: Any = (example.query if example.body is None else example.body) or {"pitch": 0.5}
     for _ in range(chance.randrange(1, 4)):
-        asked = mutated(asked, chance)
+        request = mutated(request, chance)
     if example.body is None:
-        pairs = asked.items() if isinstance(asked, dict) else [("pitch", asked)]
+        pairs = request.items() if isinstance(request, dict) else [("pitch", request)]
         words = [(name, json.dumps(value) if isinstance(value, (dict, list)) else str(value)) for name, value in pairs]
         return path, {"params": [(name, word.encode("utf-8", "replace").decode()) for name, word in words]}
-    content = json.dumps(asked, allow_nan=True).encode()
+    content = json.dumps(request, allow_nan=True).encode()
     if chance.random() < 0.1:
         cut = chance.randrange(len(content) + 1)
         content = content[:cut] + chance.randbytes(chance.randrange(4)) + content[cut + chance.randrange(3) :]
@@ -106,7 +106,7 @@ def ask_described(url: str, count: int) -> Tally:
     """Ask all calls as /openapi.json describes them, rightly and wrongly, with every check of schemathesis."""
     from tests.app.test_openapi import CALLS, CHECKED, GenerationMode, can_be_asked
 
-    asked = [(call, mode) for call in CALLS for mode in GenerationMode if can_be_asked(call, mode)]
+    request = [(call, mode) for call in CALLS for mode in GenerationMode if can_be_asked(call, mode)]
     tally = Tally()
 
     def conforms(case: Any) -> None:
@@ -114,12 +114,12 @@ def ask_described(url: str, count: int) -> Tally:
         answer = case.call(base_url=url, timeout=2.0 * SLOWEST)
         seconds = time.monotonic() - begun
         case.validate_response(answer, checks=CHECKED)
-        asked = f"{case.method} {case.path} {case.query} {case.body}"
-        tally.add(answer.status_code, answer.headers, answer.content.decode(errors="replace"), seconds, asked)
+        request = f"{case.method} {case.path} {case.query} {case.body}"
+        tally.add(answer.status_code, answer.headers, answer.content.decode(errors="replace"), seconds, request)
 
-    for call, mode in asked:
+    for call, mode in request:
         cases = CALLS[call].as_strategy(generation_mode=mode)
-        few = -(-count // len(asked))
+        few = -(-count // len(request))
         settings(max_examples=few, deadline=None, suppress_health_check=list(HealthCheck))(given(cases)(conforms))()
         print(f"{call} {mode.value}: {tally.statuses.total()} so far, slowest {tally.slowest[0]:.1f} s", flush=True)
     return tally

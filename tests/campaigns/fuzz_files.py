@@ -126,10 +126,10 @@ def _twice(data: bytes, chance: random.Random) -> bytes:
 
 
 def _number(data: bytes, chance: random.Random) -> bytes:
-    found = list(NUMBER.finditer(data))
-    if not found:
+    result = list(NUMBER.finditer(data))
+    if not result:
         return data
-    one = chance.choice(found)
+    one = chance.choice(result)
     return data[: one.start()] + chance.choice(ODD_NUMBERS) + data[one.end() :]
 
 

@@ -172,43 +172,43 @@ def fault(seed, case, any_path=random_path):
 def judged(dance, margin, start, stop, look, accuracy=GAP):
     """The kind of the answers about a dance, and their fault in words. accuracy: of slow clearances [m]"""
     span = {"start": start, "stop": stop}
-    found = first_contact(dance, margin=margin, **span)
+    contact = first_contact(dance, margin=margin, **span)
     path = "spiral" if dance.path.spiral is not None else f"{len(dance.path.pieces)} pieces"
-    kind = f"{path}, {found.outcome.value}{', wide' if is_wide(dance, found) else ''}"
-    known = certain = found.overlapping is not None
+    kind = f"{path}, {contact.outcome.value}{', wide' if is_wide(dance, contact) else ''}"
+    known = certain = contact.overlapping is not None
     if known:
         kind += ", overlap known"
-    wrong = contact_fault(dance, found, margin, look, accuracy)
+    wrong = contact_fault(dance, contact, margin, look, accuracy)
     least = least_clearance(dance, **span)
-    wrong = wrong or least_fault(dance, least, look, found if margin == 0.0 else None, accuracy)
+    wrong = wrong or least_fault(dance, least, look, contact if margin == 0.0 else None, accuracy)
     verdict = check(dance, margin=margin, **span).verdict
-    certain = certain or found.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
+    certain = certain or contact.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
     if certain and verdict is not Judgement.FAILS:
-        wrong = wrong or f"{found!r}, but check says {verdict.value}"
+        wrong = wrong or f"{contact!r}, but check says {verdict.value}"
     if verdict is Judgement.PASSES and look.least()[0] < margin - accuracy:
         wrong = wrong or f"check passes, but the gap is {look.least()}"
     return kind, wrong and f"{wrong} in {dance!r}, margin {margin!r}, {span}"
 
 
-def is_wide(dance, found):
+def is_wide(dance, result):
     """True for the bracket of a contact that is wider than promised."""
-    if found.outcome is not Outcome.CONTACT:
+    if result.outcome is not Outcome.CONTACT:
         return False
-    clear, touching = found.time_bracket
+    clear, touching = result.time_bracket
     return touching - clear > NARROW / min(1.0, dance.clock.slowest) * 1.01
 
 
-def contact_fault(dance, found, margin, look, accuracy=GAP):
+def contact_fault(dance, result, margin, look, accuracy=GAP):
     """What is wrong with a first contact."""
-    if found.outcome is Outcome.CONTACT_AT_START:
+    if result.outcome is Outcome.CONTACT_AT_START:
         gap = look.at(look.begin)
-        return f"{found!r}, but the gap is {gap}" if gap > margin + accuracy else ""
-    clear = look.until if found.outcome is Outcome.CLEAR else travelled(dance, found.time_bracket[0])
+        return f"{result!r}, but the gap is {gap}" if gap > margin + accuracy else ""
+    clear = look.until if result.outcome is Outcome.CLEAR else travelled(dance, result.time_bracket[0])
     least, there = look.least(clear)
     if least < margin - accuracy:
         return f"proven clear up to {clear} m, but the gap is {least} at {there} m"
-    if found.outcome is Outcome.CONTACT or found.overlapping is not None:
-        touching = travelled(dance, found.time_bracket[1])
+    if result.outcome is Outcome.CONTACT or result.overlapping is not None:
+        touching = travelled(dance, result.time_bracket[1])
         gap = look.at(touching)
         if gap > margin + accuracy:
             return f"certain contact at {touching} m, but the gap is {gap}"
@@ -246,8 +246,8 @@ def found_words(contact):
 
 def hunt(seed, seconds):
     """(cases, faults) of a campaign of some seconds."""
-    found = hunting.hunt(fault, seed, seconds)
-    return found.cases, found.faults
+    result = hunting.hunt(fault, seed, seconds)
+    return result.cases, result.faults
 
 
 if __name__ == "__main__":

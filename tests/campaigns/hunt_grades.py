@@ -56,9 +56,9 @@ def noise(values: Floats, random: Random) -> Floats:
 
 def noise_of_one_kind(values: Floats, random: Random) -> Floats:
     """Noise in the positions alone, or in the speeds alone."""
-    found, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
-    found[..., which] += random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), found[..., which].shape)
-    return found
+    result, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
+    result[..., which] += random.normal(0.0, 10.0 ** -random.uniform(2.0, 8.0), result[..., which].shape)
+    return result
 
 
 def along_benches(values: Floats, random: Random) -> Floats:
@@ -77,9 +77,9 @@ def of_solver(values: Floats, random: Random) -> Floats:
 
 def biased(values: Floats, random: Random) -> Floats:
     """All speeds, or all places, too small or too large by the same part."""
-    found, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
-    found[..., which] *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
-    return found
+    result, which = values.copy(), [slice(0, 2), slice(2, 3)][random.integers(2)]
+    result[..., which] *= 1.0 + random.normal(0.0, 10.0 ** -random.uniform(4.0, 8.0))
+    return result
 
 
 def last_digit(values: Floats, random: Random) -> Floats:
@@ -89,25 +89,25 @@ def last_digit(values: Floats, random: Random) -> Floats:
 
 def few_cells(values: Floats, random: Random) -> Floats:
     """Some cells with another sign, a misplaced point or another number."""
-    found = values.copy()
+    result = values.copy()
     for _ in range(random.integers(1, 30)):
         at = tuple(random.integers(size) for size in values.shape)
-        found[at] = [-found[at], 10.0 * found[at], found[at] + random.normal()][random.integers(3)]
-    return found
+        result[at] = [-result[at], 10.0 * result[at], result[at] + random.normal()][random.integers(3)]
+    return result
 
 
 def exchanged(values: Floats, random: Random) -> Floats:
     """Two handles exchanged, at all instants."""
-    found = values.copy()
+    result = values.copy()
     a, b = random.integers(HANDLES, size=2)
-    found[:, [a, b]] = found[:, [b, a]]
-    return found
+    result[:, [a, b]] = result[:, [b, a]]
+    return result
 
 
 def missing(values: Floats, random: Random) -> Floats:
-    found = values.copy()
-    found[random.random(values.shape) < random.uniform(0.0, 0.5)] = np.nan
-    return found
+    result = values.copy()
+    result[random.random(values.shape) < random.uniform(0.0, 0.5)] = np.nan
+    return result
 
 
 CHANGES: list[Callable[[Floats, Random], Floats]] = [
@@ -157,11 +157,11 @@ def typed_fault(random: Random) -> str:
     text = f"{float(rounded(np.array(value), decimals, random)) if random.random() < 0.5 else value:.{decimals}f}"
     if float(text) <= 0.0:
         return ""
-    found = typed(name, text, Language.ENGLISH)
-    is_wrong = way == 0 and found.verdict == "wrong"
-    is_guessed = way == 0 and found.possible
-    if found.diagnosis or is_wrong or is_guessed:
-        return f"{name} {text}: {found.verdict.value}, {', '.join(one.error for one in found.diagnosis)}"
+    result = typed(name, text, Language.ENGLISH)
+    is_wrong = way == 0 and result.verdict == "wrong"
+    is_guessed = way == 0 and result.possible
+    if result.diagnosis or is_wrong or is_guessed:
+        return f"{name} {text}: {result.verdict.value}, {', '.join(one.error for one in result.diagnosis)}"
     return ""
 
 

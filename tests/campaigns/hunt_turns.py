@@ -117,8 +117,8 @@ def fault(seed, case):
 
 def hunt(seed, seconds):
     """(cases, faults) of a campaign of some seconds."""
-    found = hunting.hunt(fault, seed, seconds)
-    return found.cases, found.faults
+    result = hunting.hunt(fault, seed, seconds)
+    return result.cases, result.faults
 
 
 if __name__ == "__main__":

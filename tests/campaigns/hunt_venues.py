@@ -141,10 +141,10 @@ def fault(seed, case):
     tree = venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]
     wrong = area_fault(tree, margin, look)
     report = check(dance, venue=venue, margin=margin, start=start, stop=stop)
-    shown = report.venue.areas[1]
+    tree = report.venue.areas[1]
     seen = look.least(report.stop)[0]
-    if shown.nearest.at_least is not None and shown.nearest.distance > 0.0 and seen < shown.nearest.at_least - GAP:
-        wrong = wrong or f"check until {report.stop}: {shown!r}, but the distance is {seen}"
+    if tree.nearest.at_least is not None and tree.nearest.distance > 0.0 and seen < tree.nearest.at_least - GAP:
+        wrong = wrong or f"check until {report.stop}: {tree!r}, but the distance is {seen}"
     if report.verdict is Judgement.PASSES and seen < margin - GAP:
         wrong = wrong or f"check passes, but the distance is {seen}"
     if tree.overlapping is not None and tree.time_bracket[1] <= report.stop and report.verdict is not Judgement.FAILS:
@@ -182,8 +182,8 @@ def area_fault(tree, margin, look):
 
 def hunt(seed, seconds):
     """(cases, faults) of a campaign of some seconds."""
-    found = hunting.hunt(fault, seed, seconds)
-    return found.cases, found.faults
+    result = hunting.hunt(fault, seed, seconds)
+    return result.cases, result.faults
 
 
 if __name__ == "__main__":

@@ -47,8 +47,8 @@ def main(fault, what):
     """Run a campaign from the command line: SEED (0) and SECONDS; exit 1 for any fault."""
     seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else SECONDS
-    found = hunt(fault, seed, seconds)
-    for kind, times in sorted(found.kinds.items()):
+    result = hunt(fault, seed, seconds)
+    for kind, times in sorted(result.kinds.items()):
         print(f"{times:6d}  {kind}")
-    print(f"{found.cases} {what}, {found.faults} false")
-    sys.exit(found.faults > 0)
+    print(f"{result.cases} {what}, {result.faults} false")
+    sys.exit(result.faults > 0)

@@ -43,11 +43,11 @@ def wanted(chance: random.Random) -> Any:
     )
 
 
-def post(service: JobService, asked: Any) -> str:
+def post(service: JobService, request: Any) -> str:
     """Address of a new job, also where a process dies while it is asked for."""
     while True:
         try:
-            return service.post(asked)
+            return service.post(request)
         except httpx.TransportError:
             time.sleep(0.1)
 
@@ -58,10 +58,10 @@ def kill_one(service: JobService, chance: random.Random) -> str:
     # A spare process may be a job's by the time it is killed, and a job whose process dies three times has failed.
     if role in ("child", "spare") and any(job.deaths for job in Store(service.folder).all() if not job.is_finished):
         role = "runner"
-    found = service.of(role)
-    if not found:
+    result = service.of(role)
+    if not result:
         return ""
-    chance.choice(found).kill()
+    chance.choice(result).kill()
     if role == "parent":
         service.process.wait()
         # Nobody outlives the parent, so the port is free again.
@@ -76,24 +76,24 @@ def survive(service: JobService, kills: int, seed: int, pause: float = PAUSE, bu
     returns: number of processes killed, by role
     """
     chance, done, store = random.Random(seed), dict.fromkeys(ROLES, 0), Store(service.folder)
-    asked: dict[str, Any] = {}
+    request: dict[str, Any] = {}
     while sum(done.values()) < kills:
         while sum(not job.is_finished for job in store.all()) < busy:
             call = wanted(chance)
-            asked[post(service, call)] = call
+            request[post(service, call)] = call
         time.sleep(chance.uniform(0.0, pause))
         if role := kill_one(service, chance):
             done[role] += 1
     wait_for(lambda: all(job.is_finished for job in store.all()), PATIENCE)
-    for address, call in asked.items():
+    for address, call in request.items():
         status = service.status(address)
         assert status["status"] == "successful", status
-        told = direct(service.client, call)
-        assert told.status_code == httpx.codes.OK, told.text
-        assert service.client.get(f"{address}/result").content == told.content, call
+        answer = direct(service.client, call)
+        assert answer.status_code == httpx.codes.OK, answer.text
+        assert service.client.get(f"{address}/result").content == answer.content, call
     kept = {file.name for file in store.results.iterdir()}
     assert kept == {job.id for job in store.all() if job.state is JobState.SUCCESSFUL}
-    print(f"{len(asked)} jobs, kills: {done}")
+    print(f"{len(request)} jobs, kills: {done}")
     return done
 
 

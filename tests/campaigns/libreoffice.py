@@ -43,11 +43,10 @@ def main() -> None:
         return
     right = 0
     for sheets in three():
-        found = graded("upload", by_libreoffice(sheets), Language.ENGLISH, Budget())
-        right += sum(sheet.right for sheet in found.sheets)
-        print(
-            f"{found.workbook}: {found.verdict}, {', '.join(f'{sheet.right:,}' for sheet in found.sheets)} cells right"
-        )
+        result = graded("upload", by_libreoffice(sheets), Language.ENGLISH, Budget())
+        right += sum(sheet.right for sheet in result.sheets)
+        counts = ", ".join(f"{sheet.right:,}" for sheet in result.sheets)
+        print(f"{result.workbook}: {result.verdict}, {counts} cells right")
     print(f"{right:,} of {ALL_CELLS:,} cells right, written by {version}")
     if right != ALL_CELLS:
         raise SystemExit(1)

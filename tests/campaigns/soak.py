@@ -37,13 +37,13 @@ def ordinary_clients(url: str, seconds: float, statuses: SimpleQueue[int]) -> No
     end = time.monotonic() + seconds
 
     def client(number: int) -> None:
-        asked = 0
+        request = 0
         while time.monotonic() < end:
-            asked += 1
-            pitch = 0.45 + 1e-7 * (asked * CONNECTIONS + number)
+            request += 1
+            pitch = 0.45 + 1e-7 * (request * CONNECTIONS + number)
             heavy = f"/minimum-pitch?turning_diameter={9.0 + pitch:.9f}"
             try:
-                path = heavy if asked % 8 == 0 else f"/collision-time?pitch={pitch:.9f}"
+                path = heavy if request % 8 == 0 else f"/collision-time?pitch={pitch:.9f}"
                 status, _ = ask(url, "GET", path, client=f"127.0.1.{1 + number}")
             except OSError:
                 status = 0
@@ -75,7 +75,7 @@ def one_by_one(url: str) -> None:
         with watching(url) as watch:
             attacker.join()
         healthz, collision_time = (1e3 * watch.slowest[path] for path in ("/healthz", "/collision-time"))
-        verdict = "all answered" if not watch.failures else f"{len(watch.failures)} of {watch.asked} not answered well"
+        verdict = "all answered" if not watch.failures else f"{len(watch.failures)} of {watch.sent} not answered well"
         print(f"{name:28} {healthz:22.0f} {collision_time:21.0f}   {verdict}", flush=True)
 
 

@@ -100,14 +100,14 @@ class KilledCluster:
             process.end()
 
 
-def disturbed(told: dict[str, object], folder: Path, kills: int, seed: int) -> Counter[str]:
+def disturbed(spec_fields: dict[str, object], folder: Path, kills: int, seed: int) -> Counter[str]:
     """Run a sweep with the command on a cluster, and kill a number of processes on the way; their number by kind.
 
     raises: TimeoutError, with the last words of the client
     """
     chance, killed = random.Random(seed), Counter[str]()
-    (folder / "spec.json").write_bytes(orjson.dumps(told))
-    spec, output = Spec.of(told), folder / "out"
+    (folder / "spec.json").write_bytes(orjson.dumps(spec_fields))
+    spec, output = Spec.of(spec_fields), folder / "out"
     cluster = KilledCluster(folder)
     sweep = ("run", str(folder / "spec.json"), "--output", str(output), "--dask", cluster.address)
     client = Kept(folder / "client.log", COMMAND, "sweep", *sweep)
@@ -155,13 +155,13 @@ def collisions(designs: int, shards: int = SHARDS) -> dict[str, object]:
 
 def main(designs: int = 200_000, kills: int = 50, seed: int = 0) -> None:
     """Compare a disturbed with an undisturbed run."""
-    told = collisions(designs)
-    spec = Spec.of(told)
+    spec_fields = collisions(designs)
+    spec = Spec.of(spec_fields)
     with tempfile.TemporaryDirectory() as name:
         folder, begun = Path(name), time.monotonic()
         run(spec, folder / "undisturbed", question=spec.asks, engine=Processes)
         quiet = time.monotonic() - begun
-        killed = disturbed(told, folder, kills, seed)
+        killed = disturbed(spec_fields, folder, kills, seed)
         took = time.monotonic() - begun - quiet
         hashes = [table_hash(folder / each, spec) for each in ("undisturbed", "out")]
     print(f"{designs} designs in {spec.shards} shards; kill -9 of {dict(killed)}")

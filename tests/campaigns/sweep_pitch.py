@@ -58,25 +58,25 @@ def fault(seed):
 
     rng = np.random.default_rng(seed)
     try:
-        found = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
+        result = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
     except InvalidValue as refused:
         field = refused.field.split(".")[-2 if refused.field[-1].isdigit() else -1]
         feasible = [pitch for pitch in rng.uniform(WIDE, PITCH_MAX, 3) if least(pitch) > rounding(pitch)]
         return f"refused: {field}", f"refused, but feasible at {feasible}" if feasible else ""
-    kind = f"{found.limited_by.value}, {found.justified_by}"
-    beside = max(BESIDE * found.pitch, BESIDE_LEAST)
-    above = found.pitch * (1.0 + 10.0 ** rng.uniform(np.log10(NEAREST), np.log10(FURTHEST), 5))
-    above = above[above <= min(PITCH_MAX, found.proven_up_to or PITCH_MAX)]
-    touching = [pitch for pitch in [found.pitch + beside, *above] if least(pitch) <= -rounding(pitch)]
+    kind = f"{result.limited_by.value}, {result.justified_by}"
+    beside = max(BESIDE * result.pitch, BESIDE_LEAST)
+    above = result.pitch * (1.0 + 10.0 ** rng.uniform(np.log10(NEAREST), np.log10(FURTHEST), 5))
+    above = above[above <= min(PITCH_MAX, result.proven_up_to or PITCH_MAX)]
+    touching = [pitch for pitch in [result.pitch + beside, *above] if least(pitch) <= -rounding(pitch)]
     if touching:
-        return kind, f"{found.pitch}: said to be feasible, but not at {touching}"
-    infeasible = found.pitch_bracket[0]
-    if infeasible == found.pitch:
-        within = found.limited_by is LimitedBy.START and (infeasible - beside) * turns < radius
+        return kind, f"{result.pitch}: said to be feasible, but not at {touching}"
+    infeasible = result.pitch_bracket[0]
+    if infeasible == result.pitch:
+        within = result.limited_by is LimitedBy.START and (infeasible - beside) * turns < radius
         return kind, "" if within else f"{infeasible}: not limited by the start"
     if least(infeasible - beside) > rounding(infeasible):
         return kind, f"{infeasible}: said to be infeasible, but {infeasible - beside} is feasible"
-    wide = found.pitch_bracket[1] - infeasible > max(BESIDE_LEAST, BESIDE * infeasible)
+    wide = result.pitch_bracket[1] - infeasible > max(BESIDE_LEAST, BESIDE * infeasible)
     return kind + (", wide bracket" if wide else ""), ""
 
 

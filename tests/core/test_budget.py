@@ -187,14 +187,14 @@ def test_a_budget_without_work_of_its_own_takes_the_default_of_the_question_and_
 
 
 def test_every_public_question_about_a_dance_or_a_dragon_takes_a_budget() -> None:
-    asked = {name.split()[0] for name in QUESTIONS}
+    request = {name.split()[0] for name in QUESTIONS}
     taking = {
         name
         for name in core.__all__
         if "budget" in getattr(getattr(core, name), "__annotations__", {})
         or (name == "Route" and "budget" in Route.__init__.__annotations__)
     }
-    assert taking == asked
+    assert taking == request
     functions = {name for name in core.__all__ if inspect.isfunction(getattr(core, name))}
     assert functions - taking == {"bench_outlines", "bench_poses", "course", "separation", "verdicts"}
 
@@ -246,9 +246,9 @@ def test_a_long_question_ends_soon_after_another_thread_stopped_it(name: str) ->
 
 def test_a_budget_may_be_larger_or_smaller_than_a_question_has_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     budget = Budget(1e12)
-    found = minimum_pitch(Dragon(20), budget=budget)
+    result = minimum_pitch(Dragon(20), budget=budget)
     spent = 1e12 - budget.left
     monkeypatch.setattr(core.design.ways, "PITCH_WORK", 0.5 * spent)
     with pytest.raises(TooMuchWork, match=rf"within {0.5 * spent:g} steps"):
         minimum_pitch(Dragon(20))
-    assert every_digit(minimum_pitch(Dragon(20), budget=Budget(2.0 * spent))) == every_digit(found)
+    assert every_digit(minimum_pitch(Dragon(20), budget=Budget(2.0 * spent))) == every_digit(result)

@@ -16,14 +16,14 @@ CORNER = ((0.0, 0.0), (20.0, 0.0), (20.0, 20.0))
 
 def test_points_follow_the_path_from_its_beginning_to_its_end() -> None:
     path = Legs(CORNER, [0, 1], radius=1.0)
-    found = course(path, LONG)
-    assert found.length == pytest.approx(38.0 + math.pi / 2.0)
-    assert np.array_equal(found.points, path.position(found.s))
-    assert found.points[[0, -1]] == pytest.approx(np.array([CORNER[0], CORNER[2]]))
-    assert np.diff(found.s).max() <= 0.25
+    result = course(path, LONG)
+    assert result.length == pytest.approx(38.0 + math.pi / 2.0)
+    assert np.array_equal(result.points, path.position(result.s))
+    assert result.points[[0, -1]] == pytest.approx(np.array([CORNER[0], CORNER[2]]))
+    assert np.diff(result.s).max() <= 0.25
 
 
-def test_a_tight_bend_is_told_with_its_place_and_what_a_bench_needs() -> None:
+def test_a_tight_bend_is_reported_with_its_place_and_what_a_bench_needs() -> None:
     [bend] = course(Legs(CORNER, [0, 1], radius=1.0), LONG).bends
     assert (bend.start, bend.end, bend.radius) == pytest.approx((19.0, 19.0 + math.pi / 2.0, 1.0))
     assert bend.bench == 0

@@ -111,8 +111,8 @@ def spent() -> core.Budget:
 @pytest.fixture(scope="module")
 def values() -> list[Any]:
     """Everything that is shown: results, one of each kind, and inputs."""
-    found = {type(value): value for value in results()}
-    return [*found.values(), *INPUTS, *others()]
+    entries = {type(value): value for value in results()}
+    return [*entries.values(), *INPUTS, *others()]
 
 
 def public() -> list[type]:
@@ -132,13 +132,13 @@ def inside(hint: Any) -> Iterator[Any]:
 def hints(kind: type) -> dict[str, Any]:
     """Types of the public fields of a dataclass; names known to type checkers alone stand for anything."""
     names = {**vars(__import__(kind.__module__, fromlist=["_"])), "pandas": core, "xarray": core, "Axes": object}
-    told = typing.get_type_hints(kind, globalns=names)
-    return {field.name: told[field.name] for field in fields(kind)}
+    hints_of = typing.get_type_hints(kind, globalns=names)
+    return {field.name: hints_of[field.name] for field in fields(kind)}
 
 
 def test_every_public_result_is_shown_here(values: list[Any]) -> None:
-    shown = set(map(type, values))
-    assert {kind.__name__ for kind in public()} - {kind.__name__ for kind in shown} == set()
+    shown_kinds = set(map(type, values))
+    assert {kind.__name__ for kind in public()} - {kind.__name__ for kind in shown_kinds} == set()
 
 
 def test_the_types_of_public_fields_are_public() -> None:

@@ -162,7 +162,7 @@ def test_people_and_play_add_up() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("stray", "message"),
     [
         (-0.01, "stray must be zero or more, got -0.01 m"),
         (0.9, r"stray must be at most half the chord of bench 1 \(0.825[0-9]* m\), got 0.9 m"),
@@ -171,9 +171,9 @@ def test_people_and_play_add_up() -> None:
     ],
     ids=["negative", "beyond half a chord", "no number", "text"],
 )
-def test_strays_that_cannot_be_are_refused(given: object, message: str) -> None:
+def test_strays_that_cannot_be_are_refused(stray: object, message: str) -> None:
     with pytest.raises(InvalidValue, match=message):
-        checked_stray(given, Dragon())
+        checked_stray(stray, Dragon())
 
 
 def test_a_pin_wider_than_its_hole_is_refused() -> None:

@@ -50,8 +50,8 @@ def test_every_error_has_a_code_of_its_own_and_stands_in_the_tree() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_an_error_is_a_template_what_was_given_and_a_reason(kind: type[BenchDragonError]) -> None:
-    told = quantities("s", got=12.5, limit=9.0)
-    error = kind("times.3", "must be at most {limit}: the run ends there", **told, unused="a word that is not there")
+    message = quantities("s", got=12.5, limit=9.0)
+    error = kind("times.3", "must be at most {limit}: the run ends there", **message, unused="a word that is not there")
     assert error.message == str(error) == "times[3] must be at most 9 s, got 12.5 s: the run ends there"
     assert (error.field, error.template, error.reason) == (
         "times.3",
@@ -108,7 +108,7 @@ def test_a_number_in_range_is_a_float(value: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "told"),
+    ("value", "message"),
     [
         (3.5, "time must be at most 3 s, got 3.5 s"),
         (0.5, "time must be at least 1 s, got 0.5 s"),
@@ -122,11 +122,11 @@ def test_a_number_in_range_is_a_float(value: Any) -> None:
         (10**400, "time must be from 1 to 3 s, got 1e308 or more"),
     ],
 )
-def test_what_is_no_number_in_range_is_refused(value: Any, told: str) -> None:
+def test_what_is_no_number_in_range_is_refused(value: Any, message: str) -> None:
     with pytest.raises(InvalidValue) as refused:
         checked_number("time", value, "s", 1.0, 3.0)
     assert refused.value.field == "time"
-    assert refused.value.message == told
+    assert refused.value.message == message
 
 
 def test_a_range_may_be_open_at_zero() -> None:
@@ -146,7 +146,7 @@ def test_a_size_at_its_limits_is_accepted(value: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "told"),
+    ("value", "message"),
     [
         (0.0, "width must be positive, got 0 m"),
         (-0.3, "width must be positive, got -0.3 m"),
@@ -154,10 +154,10 @@ def test_a_size_at_its_limits_is_accepted(value: float) -> None:
         (2.0 * SIZE_MAX, "width must be at most 10000 m, got 20000 m"),
     ],
 )
-def test_a_size_beyond_its_limits_is_refused(value: float, told: str) -> None:
+def test_a_size_beyond_its_limits_is_refused(value: float, message: str) -> None:
     with pytest.raises(InvalidValue) as refused:
         checked_size("width", value)
-    assert refused.value.message == told
+    assert refused.value.message == message
 
 
 def test_a_value_of_another_type_is_refused_by_what_it_must_be() -> None:

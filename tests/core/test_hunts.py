@@ -30,9 +30,9 @@ SAME_PLACE = 1e-10
     ids=["contacts", "clothoids", "venues", "turns"],
 )
 def test_nothing_false_is_found_in_a_small_part(fault: Callable[[int, int], tuple[str, str]], count: int) -> None:
-    found = hunting.hunt(fault, 44, 0.0, count)
-    assert (found.cases, found.faults) == (count, 0)
-    assert len(found.kinds) >= 3  # contacts, clear dances and others
+    result = hunting.hunt(fault, 44, 0.0, count)
+    assert (result.cases, result.faults) == (count, 0)
+    assert len(result.kinds) >= 3  # contacts, clear dances and others
 
 
 @pytest.mark.parametrize(
@@ -59,9 +59,9 @@ def test_the_slow_route_is_the_route(route: Route) -> None:
 def first_where(campaign: Any, wanted: Callable[[Any], bool]) -> tuple[Any, Any]:
     """The first random case and its answer that are wanted."""
     for case in range(200):
-        found = campaign(case)
-        if found is not None and wanted(found[1]):
-            return found
+        result = campaign(case)
+        if result is not None and wanted(result[1]):
+            return result
     raise AssertionError("no such case")
 
 
@@ -70,14 +70,14 @@ def test_a_contact_that_is_left_out_or_invented_is_a_fault() -> None:
         dance, margin, start, stop, look = hunt_contacts.random_case(44, case)
         return (dance, margin, look), first_contact(dance, margin=margin, start=start, stop=stop)
 
-    (dance, margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CONTACT)
-    assert hunt_contacts.contact_fault(dance, found, margin, look) == ""
-    clear = replace(found, outcome=Outcome.CLEAR, time=None, time_bracket=None, benches=None)
+    (dance, margin, look), result = first_where(campaign, lambda result: result.outcome is Outcome.CONTACT)
+    assert hunt_contacts.contact_fault(dance, result, margin, look) == ""
+    clear = replace(result, outcome=Outcome.CLEAR, time=None, time_bracket=None, benches=None)
     assert hunt_contacts.contact_fault(dance, clear, margin, look)
-    start, touching = found.time_bracket
-    early = replace(found, time_bracket=(start - 0.1, start - 1e-4))
+    start, touching = result.time_bracket
+    early = replace(result, time_bracket=(start - 0.1, start - 1e-4))
     assert hunt_contacts.contact_fault(dance, early, margin - 1e-9, look)
-    late = replace(found, time_bracket=(touching + 0.05, touching + 0.05))
+    late = replace(result, time_bracket=(touching + 0.05, touching + 0.05))
     assert hunt_contacts.contact_fault(dance, late, margin, look)
 
 
@@ -86,19 +86,19 @@ def test_a_bound_that_is_too_high_and_a_tree_that_is_overlooked_are_faults() -> 
         dance, venue, margin, start, stop, look = hunt_venues.random_case(44, case)
         return (margin, look), venue_clearance(dance, venue, margin=margin, start=start, stop=stop).areas[1]
 
-    (margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CLEAR)
-    assert hunt_venues.area_fault(found, margin, look) == ""
-    nearest = replace(found.nearest, at_least=found.nearest.distance + 1e-4)
-    assert hunt_venues.area_fault(replace(found, nearest=nearest), margin, look)
-    (margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CONTACT)
-    assert hunt_venues.area_fault(replace(found, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
+    (margin, look), result = first_where(campaign, lambda result: result.outcome is Outcome.CLEAR)
+    assert hunt_venues.area_fault(result, margin, look) == ""
+    nearest = replace(result.nearest, at_least=result.nearest.distance + 1e-4)
+    assert hunt_venues.area_fault(replace(result, nearest=nearest), margin, look)
+    (margin, look), result = first_where(campaign, lambda result: result.outcome is Outcome.CONTACT)
+    assert hunt_venues.area_fault(replace(result, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
 
 
 @pytest.mark.parametrize(("seed", "case"), [(1, 6), (1, 11), (1, 201), (3, 130), (3, 186)])
 def test_slow_contacts_of_dances_with_passages_have_narrow_brackets(seed: int, case: int) -> None:
     """Cases of the campaign whose brackets were up to 6e-7 s wide; corners pass corners in some of them."""
     dance, margin, start, stop, _ = hunt_contacts.random_case(seed, case)
-    found = first_contact(dance, margin=margin, start=start, stop=stop)
+    contact = first_contact(dance, margin=margin, start=start, stop=stop)
     assert dance.passages
-    assert found.outcome is Outcome.CONTACT
-    assert not hunt_contacts.is_wide(dance, found)
+    assert contact.outcome is Outcome.CONTACT
+    assert not hunt_contacts.is_wide(dance, contact)

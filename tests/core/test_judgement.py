@@ -156,8 +156,8 @@ def test_towards_the_fold_the_venue_is_followed_to_the_fold() -> None:
 def test_a_post_beside_the_benches_is_met_or_passed_before_the_fold(y: float, passed: bool) -> None:
     dance = Dance(Dragon(3), Spiral(0.8, 3.0))
     times = dance.end.time - np.linspace(0.0, 2.0, 2_000)[1:] ** 2  # the last four seconds
-    shown = bench_outlines(dance.dragon, trajectory(dance, times).position)
-    slow = shapely.distance(shapely.polygons(shown), shapely.box(0.0, y - 0.01, 0.01, y)).min()
+    outlines = bench_outlines(dance.dragon, trajectory(dance, times).position)
+    slow = shapely.distance(shapely.polygons(outlines), shapely.box(0.0, y - 0.01, 0.01, y)).min()
     assert bool(slow > 0.0) is passed
     scene = venue(box("square", -50, -50, 50, 50), box("post", 0.0, y - 0.01, 0.01, y))
     report = check(dance, venue=scene, start=dance.end.time - 4.0)
@@ -205,7 +205,7 @@ def test_a_fold_behind_the_touch_at_which_the_dance_stops_is_not_told() -> None:
     assert report.stop < Dance(Dragon(), Spiral()).end.time
 
 
-def test_a_fold_behind_a_margin_that_is_missed_is_told_too() -> None:
+def test_a_fold_behind_a_margin_that_is_missed_is_reported_too() -> None:
     report = check(SHORT, margin=0.88)
     assert [failure.kind for failure in report.failures] == [FailureKind.CONTACT, FailureKind.FOLDS]
     assert report.failures[0].time < report.failures[1].time
@@ -338,7 +338,7 @@ def test_coils_in_three_pieces_have_the_verdict_of_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("dance", "asked"),
+    ("dance", "query"),
     [
         (Dance(Dragon(12), Spiral(0.5, 6.0)), {}),
         (Dance(Dragon(12), Spiral(0.5, 6.0)), {"margin": 0.05}),
@@ -348,8 +348,8 @@ def test_coils_in_three_pieces_have_the_verdict_of_one() -> None:
     ],
     ids=["contact", "margin", "folds and leaves", "too fast", "meets the well"],
 )
-def test_a_quick_check_has_the_failures_of_the_whole_one(dance: Dance, asked: dict[str, Any]) -> None:
-    whole, quick = check(dance, **asked), quick_check(dance, **asked)
+def test_a_quick_check_has_the_failures_of_the_whole_one(dance: Dance, query: dict[str, Any]) -> None:
+    whole, quick = check(dance, **query), quick_check(dance, **query)
     assert whole.failures
     assert quick.failures == whole.failures
     assert (quick.start, quick.stop, quick.verdict) == (whole.start, whole.stop, whole.verdict)

@@ -98,16 +98,16 @@ def test_on_a_turn_the_search_finds_what_it_finds_when_all_benches_are_followed(
         dragon = Dragon.of(dragon.lengths, widths, dragon.overhangs)
     path = Turn(rng.uniform(0.9, 2.0), 5.0, rng.uniform(0.8, 1.5), start_turns=8.0)
     margin, start = rng.choice([0.0, 0.1]), rng.choice([-60.0, 0.0, rng.uniform(0.0, 120.0)])
-    found = ContactSearch(dragon, path, margin).approach(start, path.end, 1.0)
+    result = ContactSearch(dragon, path, margin).approach(start, path.end, 1.0)
     every = ContactSearch(dragon, path, margin)
     assert every.rings.clear_place < FREE
     every.rings.clear_place, every.rings.end_place = FREE, -FREE
     every.resize(benches)
     slow = every.approach(start, path.end, 1.0)
-    assert found[0] == slow[0]
-    if found[0] is Ended.TOUCHED:
-        assert found[1].touching == pytest.approx(slow[1].touching, rel=0, abs=ACCURACY)
-        assert found[1].benches == slow[1].benches
+    assert result[0] == slow[0]
+    if result[0] is Ended.TOUCHED:
+        assert result[1].touching == pytest.approx(slow[1].touching, rel=0, abs=ACCURACY)
+        assert result[1].benches == slow[1].benches
 
 
 def test_ten_thousand_benches_through_the_turn_are_decided_as_two_hundred_are() -> None:

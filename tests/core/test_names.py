@@ -11,7 +11,7 @@ pytestmark = pytest.mark.uncompiled
 
 
 @pytest.mark.parametrize(
-    ("name", "told"),
+    ("name", "message"),
     [
         (7, "must be a string, got 7"),
         ("n" * (NAME_MAX + 1), f"must have at most {NAME_MAX} characters, got {NAME_MAX + 1}"),
@@ -20,13 +20,13 @@ pytestmark = pytest.mark.uncompiled
         ("\ud800", "must be one line of plain text, got '\\ud800'"),
     ],
 )
-def test_a_name_is_one_line_of_plain_text(name: object, told: str) -> None:
+def test_a_name_is_one_line_of_plain_text(name: object, message: str) -> None:
     with pytest.raises(InvalidValue) as refused:
         checked_name("dragon.names.3", name)
-    assert refused.value.message == f"dragon.names[3] {told}"
+    assert refused.value.message == f"dragon.names[3] {message}"
     with pytest.raises(InvalidValue) as refused:
         checked_name("venue", name, "the name of a polygon")
-    assert (refused.value.field, refused.value.message) == ("venue", f"the name of a polygon {told}")
+    assert (refused.value.field, refused.value.message) == ("venue", f"the name of a polygon {message}")
 
 
 def test_a_plain_name_is_accepted() -> None:

@@ -84,20 +84,20 @@ def test_a_place_is_first_reached_at_its_time(passed: list[tuple[float, float, b
 
 def test_handles_stand_where_they_stand_without_passages_and_move_by_the_speed_of_the_head() -> None:
     times = np.array([0.0, 10.0, 40.0, 70.0, 100.0, 110.0, 250.0])
-    found, steady = trajectory(DANCE, times), trajectory(STEADY, DANCE.clock.steady(times))
-    assert (found.position == steady.position).all()
-    np.testing.assert_allclose(found.speed, steady.speed * DANCE.clock.speed(times)[:, None], rtol=1e-15)
-    assert not found.velocity[2:4].any()
+    motion, steady = trajectory(DANCE, times), trajectory(STEADY, DANCE.clock.steady(times))
+    assert (motion.position == steady.position).all()
+    np.testing.assert_allclose(motion.speed, steady.speed * DANCE.clock.speed(times)[:, None], rtol=1e-15)
+    assert not motion.velocity[2:4].any()
 
 
 def test_a_contact_is_at_the_same_place_at_the_time_of_that_place() -> None:
-    found, steady = first_contact(DANCE), first_contact(STEADY)
-    assert found.time == pytest.approx(steady.time + LATER, abs=1e-9)
-    assert (found.benches, found.head) == (steady.benches, steady.head)
-    assert found.time_bracket is not None
-    assert found.time_bracket[1] - found.time_bracket[0] <= 1e-9
-    assert "0 m/s until 100 s" in found.certificate.method
-    judged = contact_check(found)
+    contact, steady = first_contact(DANCE), first_contact(STEADY)
+    assert contact.time == pytest.approx(steady.time + LATER, abs=1e-9)
+    assert (contact.benches, contact.head) == (steady.benches, steady.head)
+    assert contact.time_bracket is not None
+    assert contact.time_bracket[1] - contact.time_bracket[0] <= 1e-9
+    assert "0 m/s until 100 s" in contact.certificate.method
+    judged = contact_check(contact)
     assert judged is not None
     assert judged.agree
     assert DANCE.end.time == pytest.approx(STEADY.end.time + LATER, abs=1e-9)
@@ -126,9 +126,9 @@ def test_nothing_happens_in_a_pause_but_every_question_has_an_answer() -> None:
 
 
 def test_speeds_are_judged_passage_by_passage() -> None:
-    found = highest_speed(DANCE, stop=300.0)
-    assert (found.passage, found.time) == (2, 100.0)
-    assert found.speed == pytest.approx(2.0 * highest_speed(STEADY, start=20.0, stop=60.0).speed, rel=1e-12)
+    result = highest_speed(DANCE, stop=300.0)
+    assert (result.passage, result.time) == (2, 100.0)
+    assert result.speed == pytest.approx(2.0 * highest_speed(STEADY, start=20.0, stop=60.0).speed, rel=1e-12)
     excess = first_excess(DANCE, 1.5, stop=300.0)
     assert excess is not None
     assert excess.time_bracket == (100.0, 100.0)
@@ -139,13 +139,13 @@ def test_speeds_are_judged_passage_by_passage() -> None:
 
 def test_a_dance_is_played_faster_as_a_whole_until_a_passage_reaches_the_limit() -> None:
     limit = 3.0
-    found = maximum_head_speed(DANCE, limit, stop=300.0)
-    assert found.passage == 2
-    played = DANCE.played(found.head_speed)
+    result = maximum_head_speed(DANCE, limit, stop=300.0)
+    assert result.passage == 2
+    played = DANCE.played(result.head_speed)
     assert played.clock.travels == pytest.approx(DANCE.clock.travels)
-    faster = highest_speed(played, stop=300.0 / found.head_speed)
+    faster = highest_speed(played, stop=300.0 / result.head_speed)
     assert faster.speed == pytest.approx(limit, rel=1e-9)
-    assert faster.time == pytest.approx(found.time, abs=1e-9)
+    assert faster.time == pytest.approx(result.time, abs=1e-9)
 
 
 def test_a_stray_and_a_venue_are_met_at_the_time_of_their_place() -> None:
@@ -154,9 +154,9 @@ def test_a_stray_and_a_venue_are_met_at_the_time_of_their_place() -> None:
     theirs = venue_clearance(STEADY, small, start=70.0, stop=340.0).areas[0]
     assert theirs.time is not None
     assert ours.time == pytest.approx(theirs.time + LATER, abs=1e-9)
-    found, steady = tolerance(DANCE, start=400.0, stop=440.0), tolerance(STEADY, start=340.0, stop=380.0)
-    assert (found.stray, found.benches) == (steady.stray, steady.benches)
-    assert found.time == pytest.approx(steady.time + LATER, abs=1e-9)
+    result, steady = tolerance(DANCE, start=400.0, stop=440.0), tolerance(STEADY, start=340.0, stop=380.0)
+    assert (result.stray, result.benches) == (steady.stray, steady.benches)
+    assert result.time == pytest.approx(steady.time + LATER, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -214,12 +214,14 @@ def test_however_many_passages_there_are_each_node_has_one_rounding(ends: str) -
 def test_a_bracket_stays_true_after_a_thousand_passages() -> None:
     ends = [150.6993216995924 * (k + 1) for k in range(1000)]
     steady = Dance(Dragon(30), Spiral(0.55, 300))
-    found = first_contact(Dance(steady.dragon, steady.path, 1.0, [Passage(0.5202767152444515, end) for end in ends]))
+    contact = first_contact(Dance(steady.dragon, steady.path, 1.0, [Passage(0.5202767152444515, end) for end in ends]))
     known = first_contact(steady).time_bracket
     assert known is not None
-    assert found.time_bracket is not None
+    assert contact.time_bracket is not None
     # The place of the head at a time after all passages, in exact fractions.
     speed = Fraction(0.5202767152444515)
-    clear, touching = (Fraction(time) - Fraction(ends[-1]) / speed + Fraction(ends[-1]) for time in found.time_bracket)
+    clear, touching = (
+        Fraction(time) - Fraction(ends[-1]) / speed + Fraction(ends[-1]) for time in contact.time_bracket
+    )
     assert clear <= Fraction(known[1])
     assert touching >= Fraction(known[0])

@@ -65,26 +65,26 @@ def test_given_axes_are_drawn_on_and_returned(axes: Axes) -> None:
 
 @pytest.mark.parametrize("instant", [0, 1, -1])
 def test_a_trajectory_shows_the_handles_of_one_instant(axes: Axes, instant: int) -> None:
-    found = trajectory(DANCE, [0.0, 60.0, 120.0])
-    found.plot(axes, instant=instant)
+    motion = trajectory(DANCE, [0.0, 60.0, 120.0])
+    motion.plot(axes, instant=instant)
     dots = axes.collections[-1]
-    assert np.array_equal(dots.get_offsets(), found.position[instant])
-    assert np.array_equal(np.asarray(dots.get_array()), found.speed[instant])
-    assert f"at {found.time[instant]:g} s" in axes.get_title()
+    assert np.array_equal(dots.get_offsets(), motion.position[instant])
+    assert np.array_equal(np.asarray(dots.get_array()), motion.speed[instant])
+    assert f"at {motion.time[instant]:g} s" in axes.get_title()
 
 
 def test_benches_are_drawn_around_their_handles(axes: Axes) -> None:
-    found = trajectory(DANCE, 60.0)
-    found.plot(axes)
-    outlines = bench_outlines(DANCE.dragon, found.position)
+    motion = trajectory(DANCE, 60.0)
+    motion.plot(axes)
+    outlines = bench_outlines(DANCE.dragon, motion.position)
     drawn = axes.collections[0].get_paths()
     assert len(drawn) == DANCE.dragon.benches
     assert np.array_equal(drawn[7].vertices[:4], outlines[7])
 
 
 def test_a_trajectory_without_its_dance_shows_the_handles_alone(axes: Axes) -> None:
-    found = trajectory(DANCE, [60.0])
-    Trajectory(found.time, found.position, found.velocity, found.speed).plot(axes)
+    motion = trajectory(DANCE, [60.0])
+    Trajectory(motion.time, motion.position, motion.velocity, motion.speed).plot(axes)
     assert len(axes.collections) == 1
 
 
@@ -96,21 +96,21 @@ def test_an_instant_that_is_not_there_is_refused(axes: Axes) -> None:
 
 
 def test_a_clearance_profile_shows_its_grazes(axes: Axes) -> None:
-    found = clearance_profile(Dance(Dragon(), Spiral()), np.arange(400.0, 412.0))
-    found.plot(axes)
+    result = clearance_profile(Dance(Dragon(), Spiral()), np.arange(400.0, 412.0))
+    result.plot(axes)
     curve, grazes = axes.lines[:2]
-    assert np.array_equal(curve.get_xydata(), np.stack([found.time, found.clearance], axis=-1))
-    assert np.array_equal(grazes.get_xydata(), [(graze.time, graze.clearance) for graze in found.grazes])
+    assert np.array_equal(curve.get_xydata(), np.stack([result.time, result.clearance], axis=-1))
+    assert np.array_equal(grazes.get_xydata(), [(graze.time, graze.clearance) for graze in result.grazes])
     assert labels(axes) == ("time [s]", "clearance of the nearest pair [m]")
     assert legend(axes) == ["clearance", "graze", "touch"]
 
 
 def test_a_scan_is_a_staircase_with_its_jumps(axes: Axes) -> None:
-    found = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
-    found.plot(axes)
+    result = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
+    result.plot(axes)
     stairs, falls = (one for one in axes.collections if isinstance(one, LineCollection))
-    assert [len(part) for part in stairs.get_segments()] == [end - start for start, end in found.pieces]
-    assert len(falls.get_segments()) == len(found.pieces) - 1
+    assert [len(part) for part in stairs.get_segments()] == [end - start for start, end in result.pieces]
+    assert len(falls.get_segments()) == len(result.pieces) - 1
     assert labels(axes) == ("pitch [m]", "radius of the head at first contact [m]")
 
 

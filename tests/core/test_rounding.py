@@ -115,10 +115,10 @@ def test_a_margin_within_rounding_of_the_clearance_at_the_start_is_undecided(ben
     dragon, spiral = Dragon(benches, width=0.28 + 1e-3 * benches), Spiral(0.7, 6.0)
     profile = clearance_profile(Dance(dragon, spiral), [0.0])
     margin = float(profile.clearance[0])
-    found = first_contact(Dance(dragon, spiral), margin=margin)
-    assert found.outcome is Outcome.UNDECIDED
-    assert found.time_bracket is not None
-    assert found.time_bracket[0] == 0.0
+    contact = first_contact(Dance(dragon, spiral), margin=margin)
+    assert contact.outcome is Outcome.UNDECIDED
+    assert contact.time_bracket is not None
+    assert contact.time_bracket[0] == 0.0
     apart = exact_gap(dragon, spiral, 0.0, 1.0, tuple(profile.benches[0].tolist()))
     search = ContactSearch(dragon, spiral, margin)
     assert abs(apart - margin) <= gap_rounding(search, 0.0, margin)
@@ -135,11 +135,11 @@ def graze() -> float:
 @pytest.mark.parametrize("below", [2e-12, 1e-10, 1e-8, 1e-6, 1e-3])
 def test_both_ends_of_a_bracket_are_what_they_are_said_to_be(graze: float, below: float, head_speed: float) -> None:
     spiral = Spiral(graze - below)
-    found = first_contact(Dance(Dragon(60), spiral, head_speed))
-    assert found.outcome is Outcome.CONTACT
-    clear, within = found.time_bracket
-    assert exact_gap(Dragon(60), spiral, clear, head_speed, found.benches) > 0.0
-    assert exact_gap(Dragon(60), spiral, within, head_speed, found.benches) <= 0.0
+    contact = first_contact(Dance(Dragon(60), spiral, head_speed))
+    assert contact.outcome is Outcome.CONTACT
+    clear, within = contact.time_bracket
+    assert exact_gap(Dragon(60), spiral, clear, head_speed, contact.benches) > 0.0
+    assert exact_gap(Dragon(60), spiral, within, head_speed, contact.benches) <= 0.0
 
 
 @pytest.mark.parametrize("turns", [8.0, 30.0, 300.0, 3_000.0])
@@ -147,12 +147,12 @@ def test_both_ends_of_a_bracket_are_what_they_are_said_to_be(graze: float, below
 def test_however_long_the_way_both_ends_of_a_bracket_are_true(turns: float, margin: float) -> None:
     """The travel of a head that has come a thousand kilometres is rounded to a tenth of a nanometre."""
     dragon, spiral = Dragon(30, head_length=2.5), Spiral(0.55, turns)
-    found = first_contact(Dance(dragon, spiral), margin=margin)
-    assert found.outcome is Outcome.CONTACT
-    clear, within = found.time_bracket
-    assert exact_gap(dragon, spiral, clear, 1.0, found.benches) > margin
-    assert exact_gap(dragon, spiral, within, 1.0, found.benches) <= margin
-    assert within - clear <= 1e-9 + 8.0 * ContactSearch(dragon, spiral, margin).travel_rounding(found.time)
+    contact = first_contact(Dance(dragon, spiral), margin=margin)
+    assert contact.outcome is Outcome.CONTACT
+    clear, within = contact.time_bracket
+    assert exact_gap(dragon, spiral, clear, 1.0, contact.benches) > margin
+    assert exact_gap(dragon, spiral, within, 1.0, contact.benches) <= margin
+    assert within - clear <= 1e-9 + 8.0 * ContactSearch(dragon, spiral, margin).travel_rounding(contact.time)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -190,12 +190,12 @@ def test_pieces_that_miss_each_other_count_as_rounding(joined: Callable[[float],
 @pytest.mark.parametrize("path", [Spiral(), Turn(1.7)], ids=["spiral", "turn"])
 def test_what_a_chain_does_not_write_is_never_read(path: Spiral | Route) -> None:
     """The same march from rows that hold no numbers, and from rows of zeros."""
-    found = []
+    entries = []
     for value in (math.nan, 0.0):
         search = ContactSearch(Dragon(40), path, 0.05)
         search.chains[:, 2:] = value
-        found.append(search.march(90.0 if isinstance(path, Route) else 400.0, 1e-10, start=-20.0))
-    assert found[0] == found[1]
+        entries.append(search.march(90.0 if isinstance(path, Route) else 400.0, 1e-10, start=-20.0))
+    assert entries[0] == entries[1]
 
 
 def exact_climbs(growth: float, theta: float | arb, chords: np.ndarray) -> tuple[list[arb], list[arb]]:
@@ -251,33 +251,33 @@ def test_a_speed_that_is_said_to_exceed_a_limit_does(seed: int) -> None:
     dragon, spiral = Dragon(5, 3.0, np.random.default_rng(seed).uniform(2.0, 2.6)), Spiral(1.2, 3.0)
     end = Dance(dragon, spiral).end
     for left in (1e-1, 1e-3, 1e-5):
-        time, said = end.time - left, set()
+        time, values = end.time - left, set()
         speed = float(trajectory(Dance(dragon, spiral), time).speed.max())
         for above in (-1e-3, -1e-9, *(units * kernels.ULP for units in range(-6, 7, 2)), 1e-9):
             limit = speed * (1.0 + above) / (1.0 + SPEED_ROUNDING)
-            found = first_excess(Dance(dragon, spiral), limit, start=math.nextafter(time, 0.0), stop=time)
-            said.add(found is not None and found.handle is not None)
-            if found is not None and found.time is not None:
-                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, found.time), dragon.chords)
-                assert abs(float(rates[found.handle])) > limit
-        assert said == {True, False}
+            result = first_excess(Dance(dragon, spiral), limit, start=math.nextafter(time, 0.0), stop=time)
+            values.add(result is not None and result.handle is not None)
+            if result is not None and result.time is not None:
+                rates, _ = exact_climbs(spiral.growth, exact_theta(spiral, result.time), dragon.chords)
+                assert abs(float(rates[result.handle])) > limit
+        assert values == {True, False}
 
 
 def test_a_pitch_at_which_rounding_hides_whether_benches_graze_is_not_called_infeasible() -> None:
     """Pitches around that at which benches 0 and 19 graze by the doubles, nearer than gaps are proven good to."""
-    dragon, found = Dragon(60), minimum_pitch(Dragon(60))
+    dragon, result = Dragon(60), minimum_pitch(Dragon(60))
     ways = Ways(dragon, 4.5, 16.0, 0.0, 0.0, None)
-    ways.bands.graze = found.benches, found.head_radius
-    low, high = found.pitch_bracket
+    ways.bands.graze = result.benches, result.head_radius
+    low, high = result.pitch_bracket
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (middle, high) if ways.bands.dip(middle, *reversed(ways.bands.graze))[0] <= 0.0 else (low, middle)
-    said = []
-    for pitch in np.concatenate([high + NEAR * np.linspace(-4.0, 4.0, 41), found.pitch_bracket]).tolist():
-        said.append(ways.grazes(pitch))
+    values = []
+    for pitch in np.concatenate([high + NEAR * np.linspace(-4.0, 4.0, 41), result.pitch_bracket]).tolist():
+        values.append(ways.grazes(pitch))
         gap, radius = ways.bands.dip(pitch, *reversed(ways.bands.graze))
         travel = ways.search.travel_at(radius / ways.search.growth)
-        exact = exact_gap(dragon, Spiral(pitch), travel, 1.0, found.benches)
+        exact = exact_gap(dragon, Spiral(pitch), travel, 1.0, result.benches)
         assert abs(exact - gap) <= NEAR
-        assert not said[-1] or exact <= 0.0
-    assert said[-2:] == [True, False]
-    assert not any(said[:-2])
+        assert not values[-1] or exact <= 0.0
+    assert values[-2:] == [True, False]
+    assert not any(values[:-2])

@@ -31,20 +31,20 @@ def test_without_a_width_the_ends_are_neighbouring_numbers() -> None:
 
 
 def test_a_search_that_is_given_up_keeps_the_bracket_so_far() -> None:
-    asked: list[float] = []
+    request: list[float] = []
 
     def holds(x: float) -> bool | None:
-        asked.append(x)
-        return None if len(asked) == 3 else x >= 1.0
+        request.append(x)
+        return None if len(request) == 3 else x >= 1.0
 
     assert bisect(holds, 0.0, 8.0) == (0.0, 2.0)
-    assert asked == [4.0, 2.0, 1.0]
+    assert request == [4.0, 2.0, 1.0]
 
 
 def test_another_middle_is_where_the_claim_is_asked() -> None:
-    asked: list[float] = []
-    bisect(lambda x: bool(asked.append(x)), 1.0, 16.0, width=5.0, middle=lambda a, b: math.sqrt(a * b))
-    assert asked == [4.0, 8.0, math.sqrt(8.0 * 16.0)]
+    request: list[float] = []
+    bisect(lambda x: bool(request.append(x)), 1.0, 16.0, width=5.0, middle=lambda a, b: math.sqrt(a * b))
+    assert request == [4.0, 8.0, math.sqrt(8.0 * 16.0)]
 
 
 @pytest.mark.parametrize("accuracy", ["1e-20", "0.25"])
@@ -56,9 +56,9 @@ def test_a_function_is_followed_to_where_it_is_0(zero: str, accuracy: str) -> No
         return (where - x) * (1 + x * x)
 
     low, high = Decimal(0), Decimal(1)
-    found = fall_to_zero(value, low, high, value(low), value(high), width)
-    assert value(found) <= 0
-    assert value(found - width) > 0
+    result = fall_to_zero(value, low, high, value(low), value(high), width)
+    assert value(result) <= 0
+    assert value(result - width) > 0
 
 
 @given(st.lists(FINITE, max_size=12), st.integers(0, 4))

@@ -11,7 +11,7 @@ import core
 from core.values import Floats, Point
 from tests.core.test_display import DANCE, hints
 
-FOUND = [
+RESULTS = [
     core.trajectory(DANCE, [0, 300]),
     core.clearance_profile(DANCE, [400, 401]),
     core.first_contact(DANCE, start=410),
@@ -23,12 +23,12 @@ FOUND = [
 ]
 
 
-@pytest.mark.parametrize("found", FOUND, ids=lambda found: type(found).__name__)
-def test_arrays_hold_doubles_and_points_two_floats(found: object) -> None:
-    told = {name: hint for name, hint in hints(type(found)).items() if hint in (Floats, Point, Point | None)}
-    assert told
-    for name, hint in told.items():
-        value = getattr(found, name)
+@pytest.mark.parametrize("result", RESULTS, ids=lambda result: type(result).__name__)
+def test_arrays_hold_doubles_and_points_two_floats(result: object) -> None:
+    values = {name: hint for name, hint in hints(type(result)).items() if hint in (Floats, Point, Point | None)}
+    assert values
+    for name, hint in values.items():
+        value = getattr(result, name)
         if hint == Floats:
             assert (type(value), value.dtype) == (np.ndarray, get_args(get_args(Floats)[1])[0])
         else:

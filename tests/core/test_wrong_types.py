@@ -13,7 +13,7 @@ from core import Dragon, InvalidValue, Spiral
 from tests.support.public_calls import CALLS, COLUMN, DANCE, DRAGON, POSES, SPIRAL
 
 # Parameters that a refusal calls by another name: as part of the whole, or by their columns.
-SPOKEN = {
+WORDS = {
     core.Arc: dict.fromkeys(CALLS[core.Arc], "arc."),
     core.Area: {"name": "venue", "rings": "venue"},
     core.Clothoid: dict.fromkeys(CALLS[core.Clothoid], "clothoid."),
@@ -61,19 +61,19 @@ SPELLED |= {(core.propose, "venue")}
 SPELLED |= {(core.ClothoidTurn, "ratio"), (core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
 
 
-def spoken(call: Callable[..., Any]) -> str:
+def words_of(call: Callable[..., Any]) -> str:
     return getattr(call, "__qualname__", str(call))
 
 
-def refusal(call: Callable[..., Any], **given: Any) -> InvalidValue | None:
+def refusal(call: Callable[..., Any], **arguments: Any) -> InvalidValue | None:
     try:
-        call(**given)
+        call(**arguments)
     except InvalidValue as refused:
         return refused
     return None
 
 
-@pytest.mark.parametrize("call", CALLS, ids=spoken)
+@pytest.mark.parametrize("call", CALLS, ids=words_of)
 def test_the_good_call_is_good(call: Callable[..., Any]) -> None:
     call(**CALLS[call])
 
@@ -84,12 +84,12 @@ def test_every_public_function_is_called() -> None:
     assert functions - set(CALLS) == set()
 
 
-@pytest.mark.parametrize("call", CALLS, ids=spoken)
+@pytest.mark.parametrize("call", CALLS, ids=words_of)
 def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any]) -> None:
     for name, (kind, wrong) in product(CALLS[call], WRONG.items()):
         if (kind, name) in ALLOWED and (call, name) not in SPELLED:
             continue
-        expected = SPOKEN.get(call, {}).get(name, name)
+        expected = WORDS.get(call, {}).get(name, name)
         refused = refusal(call, **{**CALLS[call], name: wrong})
         assert refused, f"this {kind} is taken as {name}"
         assert refused.field.startswith(expected)
@@ -101,16 +101,16 @@ QUESTIONS = [call for call, good in CALLS.items() if next(iter(good)) in SUBJECT
 
 
 BEHIND: list[tuple[Any, ...]] = [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)]
-SAID = [(None, "None"), (0.55, "0.55"), (SPIRAL, "a Spiral"), (Dragon, "the class Dragon")]
+IN_WORDS = [(None, "None"), (0.55, "0.55"), (SPIRAL, "a Spiral"), (Dragon, "the class Dragon")]
 
 
-@pytest.mark.parametrize("call", QUESTIONS, ids=spoken)
+@pytest.mark.parametrize("call", QUESTIONS, ids=words_of)
 def test_what_a_question_is_asked_of_is_refused_by_name_whatever_stands_behind_it(call: Callable[..., Any]) -> None:
     name = next(iter(CALLS[call]))
-    for behind, (wrong, given) in product(BEHIND, SAID):
+    for behind, (wrong, in_words) in product(BEHIND, IN_WORDS):
         with pytest.raises(InvalidValue) as refused:
             call(wrong, *behind)
-        assert refused.value.message == f"{name} must be a {SUBJECTS[name]}, got {given}"
+        assert refused.value.message == f"{name} must be a {SUBJECTS[name]}, got {in_words}"
         assert refused.value.field == name
 
 

@@ -80,9 +80,9 @@ def without_browser(folder: Path, *arguments: str, **more: str) -> subprocess.Co
 
 def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) -> None:
     done = without_browser(tmp_path, "--collect-only", "tests/page", DEEP="1")
-    told = [line for line in done.stdout.splitlines() if LEFT_OUT in line]
-    assert len(told) == 1
-    count = told[0].split()[0]
+    lines = [line for line in done.stdout.splitlines() if LEFT_OUT in line]
+    assert len(lines) == 1
+    count = lines[0].split()[0]
     assert int(count) > 40
     assert re.search(r"\b\d+ deselected", done.stdout)
     assert "test_everyone.py" not in done.stdout
@@ -118,7 +118,7 @@ case "$*" in *"recommends chromium") {installed};; esac
         (folder / name).write_text(script)
         (folder / name).chmod(0o755)
     pretend = f"import os, sys; os.geteuid = lambda: {user}; sys.executable = {str(folder / 'python')!r}"
-    code = f"{WITHOUT}; {pretend}; browser.main(); print(browser.found())"
+    code = f"{WITHOUT}; {pretend}; browser.main(); print(browser.browser_path())"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=bare(folder), capture_output=True, text=True)
     log = folder / "log"
     return done.stdout, done.stderr, log.read_text().splitlines() if log.exists() else []
@@ -132,9 +132,9 @@ def test_nothing_is_got_and_nothing_said_where_all_is_there(tmp_path: Path) -> N
 
 def test_root_gets_the_browser_and_the_font_of_the_system(tmp_path: Path) -> None:
     program(tmp_path / "fc-list", "")
-    found, told, ran = got(tmp_path, user=0)
-    assert found == f"{tmp_path / 'chromium'}\n"
-    assert told == "Installing chromium fonts-wqy-microhei for the tests of the page (once)\n"
+    result, output, ran = got(tmp_path, user=0)
+    assert result == f"{tmp_path / 'chromium'}\n"
+    assert output == "Installing chromium fonts-wqy-microhei for the tests of the page (once)\n"
     assert [(line.split()[1], line.split()[-1]) for line in ran] == [
         ("update", "-qq"),
         ("install", "chromium"),
@@ -147,6 +147,6 @@ def test_root_gets_the_browser_and_the_font_of_the_system(tmp_path: Path) -> Non
 )
 def test_without_the_packages_of_a_system_playwright_is_asked(tmp_path: Path, user: int, commands: list[str]) -> None:
     program(tmp_path / "fc-list", "Noto Sans CJK SC")
-    found, told, ran = got(tmp_path, user, has_apt=False)
-    assert (found, told) == ("None\n", "Downloading a Chromium for the tests of the page (once)\n")
+    result, output, ran = got(tmp_path, user, has_apt=False)
+    assert (result, output) == ("None\n", "Downloading a Chromium for the tests of the page (once)\n")
     assert ran == [f"python -m playwright {command} chromium" for command in commands]

@@ -126,8 +126,8 @@ def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when
     page.locator("#minimum-pitch summary").click()
     page.locator("#first-contact summary").click()
     text_of(page, "#minimum-pitch caption", "judged all 40 benches. They agree.")
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url))
+    query: list[str] = []
+    page.on("request", lambda request: query.append(request.url))
     page.evaluate(HELD)
     page.locator("#controls input[aria-label^=Width]").press("ArrowLeft")
     text_of(page, "#minimum-pitch caption", "alone. They agree.")
@@ -135,10 +135,10 @@ def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when
     page.evaluate("rest()")
     text_of(page, "#first-contact caption", "judged all 40 benches")
     text_of(page, "#minimum-pitch caption", "judged all 40 benches. They agree.")
-    contacts = [url for url in asked if "/collision-time" in url]
+    contacts = [url for url in query if "/collision-time" in url]
     assert contacts
     assert all("cross_check=pair" in url for url in contacts)
-    minima = [url for url in asked if "/minimum-pitch" in url]
+    minima = [url for url in query if "/minimum-pitch" in url]
     assert "cross_check=pair" in minima[0]
     assert "cross_check" not in minima[-1]
     page.locator("[data-lang=zh]").click()
@@ -211,15 +211,15 @@ def test_slow_charts_are_asked_for_when_somebody_scrolls_to_them_and_a_click_set
     open_page: Any, look_at: Any, server: str
 ) -> None:
     page = open_page("?benches=20&time=end")
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url.removeprefix(f"{server}/").partition("?")[0]))
+    query: list[str] = []
+    page.on("request", lambda request: query.append(request.url.removeprefix(f"{server}/").partition("?")[0]))
     page.locator("#width").fill("0.29")
     settled(page)
-    assert "tolerance" in asked
-    assert not {"pitch-scan", "tolerance-curve"} & set(asked)
+    assert "tolerance" in query
+    assert not {"pitch-scan", "tolerance-curve"} & set(query)
     assert page.locator("#curve .uplot, #scan .uplot").count() == 0
     look_at(page, "curve", "scan")
-    assert (asked.count("pitch-scan"), asked.count("tolerance-curve")) == (2, 1)
+    assert (query.count("pitch-scan"), query.count("tolerance-curve")) == (2, 1)
     for kind in ("curve", "scan"):
         assert page.locator(f"#{kind} h2").evaluate(ON_TOP)
     plot = page.locator("#scan .u-over")
@@ -289,9 +289,9 @@ def test_rows_stay_in_motion_so_that_none_is_replaced_under_the_mouse(visit: Any
     page = visit("?time=0&benches=40&rate=1")
     text_of(page, "#table-time", "0.000000")
     row = page.locator("#rows tr[data-handle='5']").element_handle()
-    shown = row.inner_text()
+    text = row.inner_text()
     page.locator("#play").click()
-    expect(page.locator("#rows tr[data-handle='5']")).not_to_have_text(shown, use_inner_text=True)
+    expect(page.locator("#rows tr[data-handle='5']")).not_to_have_text(text, use_inner_text=True)
     assert row.evaluate("row => row.isConnected")
     row.evaluate("row => row.cells[1].click()")
     text_of(page, "#rows tr.chosen", "5 · body 5")
@@ -314,8 +314,8 @@ def test_a_shared_link_opens_the_same_state(visit: Any, open_page: Any, picture:
     settled(page)
     other = open_page(page.url.split("/")[-1])
     settled(other)
-    for shown in ("#first-contact", "#clock", "#table-time", "tr.chosen", "#minimum-pitch", "#curl"):
-        assert other.locator(shown).inner_text() == page.locator(shown).inner_text()
+    for place in ("#first-contact", "#clock", "#table-time", "tr.chosen", "#minimum-pitch", "#curl"):
+        assert other.locator(place).inner_text() == page.locator(place).inner_text()
     assert other.url.split("?")[1] == page.url.split("?")[1]
     assert alike(picture(other), picture(page))
 
@@ -391,8 +391,8 @@ def test_a_link_to_the_turn_opens_at_the_pitch_of_the_contest(visit: Any) -> Non
     # The figure of a dance without a contact is of the part that is shown.
     settled(page)
     page.locator("#curl-of").select_option("keepContact")
-    asked = json.loads(shlex.split(page.locator("#curl").inner_text())[5])
-    assert (asked["start"], asked["stop"]) == (-100, 100)
+    request = json.loads(shlex.split(page.locator("#curl").inner_text())[5])
+    assert (request["start"], request["stop"]) == (-100, 100)
 
 
 def test_a_link_to_the_end_of_the_dance_opens_there_and_not_in_motion(open_page: Any) -> None:

@@ -29,10 +29,10 @@ def put(page: Any, table: str) -> None:
     page.locator("#csv").press("Tab")
 
 
-def contact_of(server: str, **asked: Any) -> str:
+def contact_of(server: str, **request: Any) -> str:
     """Time of first contact by the service, in the words of the page."""
-    found = polite.post(f"{server}/collision-time", json={"path": SPIRAL, **asked}).raise_for_status().json()
-    return f"{found['time'] if found['time'] is not None else found['end']['time']:.6f} s"
+    result = polite.post(f"{server}/collision-time", json={"path": SPIRAL, **request}).raise_for_status().json()
+    return f"{result['time'] if result['time'] is not None else result['end']['time']:.6f} s"
 
 
 def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(
@@ -81,9 +81,9 @@ def test_benches_one_by_one_are_danced_drawn_named_shared_and_refused_by_line(
 )
 def test_the_page_reads_the_sizes_of_a_table_as_the_service_does(visit: Any, table: str) -> None:
     read = visit().evaluate("table => import('/page/benches.js').then(({ benchesOf }) => benchesOf(table))", table)
-    found = bench_table(table)._asdict()
-    del found["lines"]
-    assert read == found
+    result = bench_table(table)._asdict()
+    del result["lines"]
+    assert read == result
 
 
 def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: Any, server: str) -> None:
@@ -98,14 +98,14 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
             field.press("Tab")
     page.locator("#start_clock").fill("7:30")
     page.locator("#start_clock").press("Tab")
-    shown = contact_of(server, dragon={"benches": 30}, passages=PASSAGES)
-    expect(page.locator("#first-contact .value")).to_contain_text(shown)
+    contact = contact_of(server, dragon={"benches": 30}, passages=PASSAGES)
+    expect(page.locator("#first-contact .value")).to_contain_text(contact)
     expect(page.locator("#clock")).to_have_text(re.compile(r"^50.000000 s\s*07:30:50$"))
     # The head rests, and so does everybody.
     expect(page.locator("#rows tbody td").nth(3)).to_have_text("0.000000")
     page.wait_for_url("**passages=0.5@20m_0@100s_1.5@60m*")
     page.reload()
-    expect(page.locator("#first-contact .value")).to_contain_text(shown)
+    expect(page.locator("#first-contact .value")).to_contain_text(contact)
     expect(page.locator("#passages li")).to_have_count(3)
     page.locator("#start_clock").fill("25 o'clock")
     page.locator("#start_clock").press("Tab")
@@ -122,7 +122,7 @@ def test_faster_passages_end_earlier_and_at_the_same_places(visit: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("time", "clock", "shown"),
+    ("time", "clock", "time_of_day"),
     [
         (50.9, "07:30", "07:30:50"),
         (3600, "23:30", "00:30:00"),
@@ -130,9 +130,9 @@ def test_faster_passages_end_earlier_and_at_the_same_places(visit: Any) -> None:
         (1e5, "23:59:59", "03:46:39"),
     ],
 )
-def test_the_time_of_day_begins_anew_at_midnight(visit: Any, time: float, clock: str, shown: str) -> None:
-    told = "([time, clock]) => import('/page/passages.js').then(({ timeOfDay }) => timeOfDay(time, clock))"
-    assert visit().evaluate(told, [time, clock]) == shown
+def test_the_time_of_day_begins_anew_at_midnight(visit: Any, time: float, clock: str, time_of_day: str) -> None:
+    script = "([time, clock]) => import('/page/passages.js').then(({ timeOfDay }) => timeOfDay(time, clock))"
+    assert visit().evaluate(script, [time, clock]) == time_of_day
 
 
 def test_a_pause_lies_at_the_instant_shown(visit: Any) -> None:

@@ -59,7 +59,7 @@ def test_chosen_files_are_graded_each_for_itself_and_accessibly(page: Any, files
     assert serious(page, "#grade") == []
 
 
-def test_an_empty_file_is_told_as_such(page: Any) -> None:
+def test_an_empty_file_is_reported_as_such(page: Any) -> None:
     page.locator("#files").set_input_files({"name": "result1.csv", "mimeType": "text/csv", "buffer": b""})
     expect(page.locator("#grades .answer")).to_contain_text("The file is empty.")
 

@@ -18,8 +18,8 @@ SECTIONS = ("chord", "staircase", "step", "graze", "stray")
 QUARTER = 70
 
 
-def said(server: str, call: str, **asked: Any) -> Any:
-    return polite.post(f"{server}/{call}", json=asked).raise_for_status().json()
+def answer_of(server: str, call: str, **request: Any) -> Any:
+    return polite.post(f"{server}/{call}", json=request).raise_for_status().json()
 
 
 def dial(page: Any, section: str, name: str) -> Any:
@@ -52,7 +52,7 @@ def test_dragged_numbers_get_the_answers_of_the_service(figures: Any, server: st
     page.mouse.move(box["x"] + 5 - QUARTER, box["y"] + 5, steps=4)
     page.mouse.up()
     expect(length).to_have_text("2.01 m")
-    pose = said(
+    pose = answer_of(
         server,
         "trajectory",
         dragon={"benches": 11, "head_length": 2.56},
@@ -77,7 +77,7 @@ def test_dragged_numbers_get_the_answers_of_the_service(figures: Any, server: st
 def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(open_page: Any, server: str) -> None:
     page = drawn(open_page("how?lang=en", failing=True))
     dial(page, "staircase", "Pitch of the spiral").press("ArrowUp")
-    contact = said(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
+    contact = answer_of(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
     head, bench = contact["benches"]
     assert head == 0
     stops = f"At a pitch of 0.4504 m the head stops {contact['head']['radius']:.4f} m from the centre: there the head"
@@ -86,7 +86,7 @@ def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(open_page: An
     )
     length = dial(page, "step", "Length of the interval")
     length.press("PageUp")
-    proof = said(server, "collision-time", dragon={"benches": 40}, start=409.7, stop=409.86, cross_check="none")
+    proof = answer_of(server, "collision-time", dragon={"benches": 40}, start=409.7, stop=409.86, cross_check="none")
     steps = proof["certificate"]["steps"]
     assert steps > 1
     expect(page.locator("#step .verdict")).to_contain_text(f"The service takes {steps} shorter steps")
@@ -100,7 +100,7 @@ def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(open_page: An
     expect(page.locator("#stray .exhibit")).to_have_count(0)
     for _ in range(2):
         dial(page, "stray", "How far every handle may stray").press("PageUp")
-    first = said(server, "collision-time", stray=0.05, cross_check="none")
+    first = answer_of(server, "collision-time", stray=0.05, cross_check="none")
     expect(page.locator("#stray .verdict")).to_contain_text(f"From {first['time']:.6f} s on benches may touch")
     expect(page.locator("#stray .exhibit")).to_have_count(2)
     dial(page, "chord", "Place of the head").press("Home")

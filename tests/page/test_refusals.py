@@ -58,7 +58,7 @@ QUERIES = (
     ("minimum-pitch", {"benches": 20, "width": 1.6, "start_turns": 5}),
     ("minimum-pitch", {"unknown": 1}),
 )
-PLAIN = [[-40, 0], [0, 5], [40, 0]]
+POINTS = [[-40, 0], [0, 5], [40, 0]]
 PATHS = (
     {"points": [[0, 0]]},
     {"points": [[-40, 0], [0, 0], [0, 0], [40, 0]]},
@@ -68,9 +68,9 @@ PATHS = (
     {"points": [[0, 0], [40, 0], [0, 0]], "straight": [0, 1]},
     {"points": [[0, 0], [40, 0], [0, 0]]},
     {"points": [[0.1 * k, 0] for k in range(1001)]},
-    {"points": PLAIN, "start": 2e6},
-    {"points": PLAIN, "radius": 0},
-    {"points": PLAIN, "start": 10},
+    {"points": POINTS, "start": 2e6},
+    {"points": POINTS, "radius": 0},
+    {"points": POINTS, "start": 10},
 )
 SQUARE = [[-50, -50], [50, -50], [50, 50], [-50, 50], [-50, -50]]
 BOW = [[0, 0], [5, 5], [5, 0], [0, 5], [0, 0]]
@@ -150,7 +150,7 @@ def refusals(server: str) -> list[dict[str, Any]]:
     with httpx.Client(base_url=server, timeout=60.0) as client:
         wrong = [(call, {name: text}) for call, names in FIELDS.items() for name in names for text in WRONG]
         answers = [client.get(f"/{call}", params={"benches": 9} | query) for call, query in (*wrong, *QUERIES)]
-        path = {"kind": "waypoints", "points": PLAIN}
+        path = {"kind": "waypoints", "points": POINTS}
         bodies: list[dict[str, Any]] = [few | {"path": {"kind": "waypoints", **one}} for one in PATHS]
         bodies += [few | {"path": path, "passages": one} for one in PASSAGES]
         bodies += [few | {"path": path, "venue": {"type": "FeatureCollection", "features": one}} for one in SQUARES]
@@ -163,38 +163,40 @@ def refusals(server: str) -> list[dict[str, Any]]:
         answers.append(client.post("/maps.kml", json=few | {"path": path}))
         answers += [client.post("/places", content=data, headers=octets) for data in FILES]
         answers += [client.get("/jobs/" + 48 * "0"), late()]
-    found = [answer.json() for answer in answers if answer.status_code >= 400]
-    assert len(found) > len(answers) - 25  # a few of the wrong texts are right for some field
-    return list({words["detail"]: words for one in found for words in (one, *one["errors"])}.values())
+    entries = [answer.json() for answer in answers if answer.status_code >= 400]
+    assert len(entries) > len(answers) - 25  # a few of the wrong texts are right for some field
+    return list({words["detail"]: words for one in entries for words in (one, *one["errors"])}.values())
 
 
 def test_every_refusal_is_a_sentence_in_both_languages(visit: Any, server: str) -> None:
     page = visit("?benches=9")
-    found = refusals(server)
-    assert len(found) > 100
-    spoken = """async (refusals) => {
+    result = refusals(server)
+    assert len(result) > 100
+    script = """async (refusals) => {
       const { refusalWords, setLanguage } = await import("/page/text.js");
       return ["zh", "en"].map((one) => setLanguage(one) && refusals.map((told) => refusalWords(told).textContent));
     }"""
-    chinese, english = page.evaluate(spoken, found)
+    chinese, english = page.evaluate(script, result)
     assert [words for words in chinese if ENGLISH.search(QUOTED.sub("", words)) or not words.endswith("。")] == []
     assert [words for words in english if INSIDE.search(words) or not words.endswith(".")] == []
 
 
 def test_a_refusal_is_its_template_with_the_values(server: str) -> None:
-    for told in refusals(server):
-        values = told["values"]
+    for problem in refusals(server):
+        values = problem["values"]
 
-        def filled(text: str, values: dict[str, Any] = values) -> str:
+        def fill(text: str, values: dict[str, Any] = values) -> str:
             return re.sub(r"\{(\w+)\}", lambda word: values[word[1]]["text"] if word[1] in values else word[0], text)
 
-        given = f", got {told['got']['text']}" if "got" in told else ""
-        whole = filled(told["template"]) + given + (f": {filled(told['reason'])}" if "reason" in told else "")
-        rest = told["detail"].removeprefix(whole)
-        assert not rest or rest.startswith((" (and ", ". Ask for it as a job")) or len(whole) > DETAIL_MAX, told
+        value_in_words = f", got {problem['got']['text']}" if "got" in problem else ""
+        whole = (
+            fill(problem["template"]) + value_in_words + (f": {fill(problem['reason'])}" if "reason" in problem else "")
+        )
+        rest = problem["detail"].removeprefix(whole)
+        assert not rest or rest.startswith((" (and ", ". Ask for it as a job")) or len(whole) > DETAIL_MAX, problem
         # A template is the same for all values: it holds none of them.
-        for value in (*values.values(), *([told["got"]] if "got" in told else [])):
-            assert "parameter" in value or len(value["text"]) < 4 or value["text"] not in told["template"], told
+        for value in (*values.values(), *([problem["got"]] if "got" in problem else [])):
+            assert "parameter" in value or len(value["text"]) < 4 or value["text"] not in problem["template"], problem
 
 
 def test_the_page_knows_only_templates_that_the_program_has(visit: Any) -> None:
@@ -208,31 +210,31 @@ def test_the_page_knows_only_templates_that_the_program_has(visit: Any) -> None:
     assert len(known) > 100
     files = [file for room in ("app", "core") for file in (ROOT / room).rglob("*.py")]
     nodes = (node for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
-    said = "\n".join(str(node.value) for node in nodes if isinstance(node, ast.Constant))
+    text = "\n".join(str(node.value) for node in nodes if isinstance(node, ast.Constant))
     own = ("within ", "HTTP ")
     gaps = re.compile(r"\{\w+\}|: | \(\w+\)$")
     parts = ((key, part.strip()) for key in known if not key.startswith(own) for part in gaps.split(key))
-    assert [(key, part) for key, part in parts if len(part) > 2 and not _told(part, said)] == []
+    assert [(key, part) for key, part in parts if len(part) > 2 and not _is_in(part, text)] == []
 
 
-def _told(part: str, said: str) -> bool:
+def _is_in(part: str, text: str) -> bool:
     """Whether nearly all pairs of words of a template stand in the texts of the program: some are joined there."""
     words = part.split()
     pairs = [" ".join(words[k : k + 2]) for k in range(max(1, len(words) - 1))]
-    return all(word in said for word in words) and sum(pair not in said for pair in pairs) <= 3
+    return all(word in text for word in words) and sum(pair not in text for pair in pairs) <= 3
 
 
 def test_every_proof_is_told_in_chinese_as_the_library_does(visit: Any) -> None:
-    shown = {name: claim for name, claim in CLAIMS.items() if isinstance(claim, (ContactClaim, StrayClaim))}
+    claims = {name: claim for name, claim in CLAIMS.items() if isinstance(claim, (ContactClaim, StrayClaim))}
     values = [
-        getattr(wire, type(claim).__name__).model_validate(claim).model_dump(mode="json") for claim in shown.values()
+        getattr(wire, type(claim).__name__).model_validate(claim).model_dump(mode="json") for claim in claims.values()
     ]
     proofs = visit("?benches=9").evaluate(CHINESE, values)
-    assert dict(zip(shown, proofs, strict=True)) == {name: SENTENCES[name][1] for name in shown}
+    assert dict(zip(claims, proofs, strict=True)) == {name: SENTENCES[name][1] for name in claims}
 
 
 def test_every_proof_of_the_service_is_told_in_chinese(visit: Any, server: str) -> None:
-    paths = [{"kind": "waypoints", "points": PLAIN, "start": 20}, {"kind": "turn", "pitch": 1.7}, {"kind": "spiral"}]
+    paths = [{"kind": "waypoints", "points": POINTS, "start": 20}, {"kind": "turn", "pitch": 1.7}, {"kind": "spiral"}]
     few = [{"speed": 0.5, "until_s": 5}, {"speed": 0, "until_time": 60}, {"speed": 2, "until_time": 61}]
     many = [{"speed": 1, "until_time": 1 + 0.1 * k} for k in range(30)]
     tree = feature("tree", "Point", [0, 5], radius=2)

@@ -172,15 +172,15 @@ def test_each_failure_stands_in_order_of_time_and_is_shown_on_the_picture(
     verdict(page, "Cannot be danced")
     page.locator("#run-end[aria-busy=false]").wait_for()
     body = saved(page)
-    told = polite.post(f"{server}/check", json=body).raise_for_status().json()["failures"]
-    assert [one["kind"] for one in told] == ["venue", "speed"]
+    answer = polite.post(f"{server}/check", json=body).raise_for_status().json()["failures"]
+    assert [one["kind"] for one in answer] == ["venue", "speed"]
     rows = page.locator(".failures li")
-    assert rows.locator("button").all_inner_texts() == [f"{one['time']:.6f} s" for one in told]
+    assert rows.locator("button").all_inner_texts() == [f"{one['time']:.6f} s" for one in answer]
     assert "the head touches well" in rows.first.text_content()
     assert "highest speed is 1.202470 m/s" in rows.nth(1).text_content()
     rows.first.get_by_role("button").click()
-    page.wait_for_url(f"**time={round(told[0]['time'], 9)}**")
-    page.locator("#clock", has_text=f"{told[0]['time']:.6f}").wait_for()
+    page.wait_for_url(f"**time={round(answer[0]['time'], 9)}**")
+    page.locator("#clock", has_text=f"{answer[0]['time']:.6f}").wait_for()
     settled(page)
     marked = picture(page)
     page.locator("#on").click()
@@ -216,8 +216,8 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) 
         verdict(page, "Can be danced")
     assert page.locator("#things li").count() == 0
     # The run ends at one time, wherever it is told.
-    shown, end = (page.locator(place).inner_text() for place in ("#clock", "#run-end .value"))
-    assert shown == end
+    text, end = (page.locator(place).inner_text() for place in ("#clock", "#run-end .value"))
+    assert text == end
     page = visit("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
     for name, count in (("street", 2), ("empty", 0)):
         page.locator("#preset").select_option(name)
@@ -313,12 +313,12 @@ def test_a_dance_is_back_after_a_look_at_an_empty_square(
     visit: Any, picture: Any, alike: Any, query: str, place: str
 ) -> None:
     page = visit(query)
-    shown, words = picture(page), page.locator(place).inner_text()
+    before, words = picture(page), page.locator(place).inner_text()
     visit("?path=route")
-    assert not alike(picture(page), shown)
+    assert not alike(picture(page), before)
     visit(query)
     assert page.locator(place).inner_text() == words
-    assert alike(picture(page), shown)
+    assert alike(picture(page), before)
 
 
 @pytest.mark.parametrize(

@@ -75,7 +75,7 @@ def right_again(page: Any, name: str | None) -> None:
         page.locator(f"#{name}-error").wait_for(state="hidden")
 
 
-def test_a_wrong_value_is_told_once_in_a_sentence_beside_its_control(visit: Any) -> None:
+def test_a_wrong_value_is_reported_once_in_a_sentence_beside_its_control(visit: Any) -> None:
     page = visit(SHORT, failing=True)
     bench = "where the head of this dragon folds; it is 0.5 turns."
     before = None
@@ -213,7 +213,7 @@ def test_superseded_questions_are_aborted_and_the_slider_does_not_wait(visit: An
 def test_a_dragged_slider_sees_answers_of_a_service_that_takes_longer_than_the_grace(visit: Any) -> None:
     page = visit(SHORT)
     page.evaluate(SLOW, 400)
-    shown = page.evaluate("""async () => {
+    value = page.evaluate("""async () => {
       let shown = 0;
       const answers = document.querySelector("#first-contact");
       new MutationObserver(() => shown++).observe(answers, { childList: true });
@@ -226,7 +226,7 @@ def test_a_dragged_slider_sees_answers_of_a_service_that_takes_longer_than_the_g
       return shown;
     }""")
     page.evaluate(QUICK)
-    assert shown >= 2
+    assert value >= 2
 
 
 def test_a_wait_of_more_than_half_a_second_shows_its_progress(visit: Any) -> None:
@@ -318,26 +318,26 @@ def loaded(browser: Any, server: str) -> tuple[dict[str, int], float]:
     wire.send("Network.enable")
     urls: dict[str, str] = {}
     weights: dict[str, int] = {}
-    wire.on("Network.requestWillBeSent", lambda told: urls.update({told["requestId"]: told["request"]["url"]}))
-    wire.on("Network.loadingFinished", lambda told: weights.update({told["requestId"]: told["encodedDataLength"]}))
+    wire.on("Network.requestWillBeSent", lambda event: urls.update({event["requestId"]: event["request"]["url"]}))
+    wire.on("Network.loadingFinished", lambda event: weights.update({event["requestId"]: event["encodedDataLength"]}))
     before = page.evaluate(LOOP)[0]
     page.goto(f"{server}/?time=end")
     page.locator("#first-contact .value").wait_for()
-    shown = page.evaluate("performance.now()")
+    value = page.evaluate("performance.now()")
     after = page.evaluate(LOOP)[0]
     settled(page)
     context.close()
     slower = max(1.0, (before + after) / 2 / LOOP_MS)
-    return {f"{urls[one]} {one}": weight for one, weight in weights.items()}, shown / slower
+    return {f"{urls[one]} {one}": weight for one, weight in weights.items()}, value / slower
 
 
 def test_the_page_is_light_and_quick(browser: Any, server: str) -> None:
     for _ in range(LOADS):
-        weights, shown = loaded(browser, server)
+        weights, seconds = loaded(browser, server)
         files = [one for one in weights if ("/page-" in one and "uPlot" not in one) or "?time=end" in one]
         assert len(files) > 1
         assert sum(weights[one] for one in files) < OWN_MAX
         assert sum(weights.values()) < ALL_MAX
-        if shown < FIRST_MAX:
+        if seconds < FIRST_MAX:
             break
-    assert shown < FIRST_MAX
+    assert seconds < FIRST_MAX

@@ -27,7 +27,7 @@ ON_GROUND = """async ([stray, chord, overhang, width, points]) => {
 }"""
 
 
-def asked(server: str, call: str, **query: Any) -> Any:
+def answer_of(server: str, call: str, **query: Any) -> Any:
     return polite.get(f"{server}/{call}", params=query).raise_for_status().json()
 
 
@@ -39,9 +39,9 @@ def shows(page: Any, selector: str, *words: str) -> None:
 
 def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: Any, server: str) -> None:
     page = visit("?benches=40&stray=0.02")
-    contact = asked(server, "collision-time", benches=40, stray=0.02)
-    least = asked(server, "minimum-pitch", benches=40, stray=0.02)
-    free = asked(server, "tolerance", benches=40)
+    contact = answer_of(server, "collision-time", benches=40, stray=0.02)
+    least = answer_of(server, "minimum-pitch", benches=40, stray=0.02)
+    free = answer_of(server, "tolerance", benches=40)
     time, pitch, gap = f"{contact['time']:.6f} s", f"{least['pitch']:.9f} m", f"{1000 * contact['gap']:.3f} mm"
     safe = f"{int(10_000 * free['stray']) / 100:.2f} cm"
     shows(page, "#first-contact", "First contact, everybody within 2 cm of their place", f"May touch from {time}", gap)
@@ -72,10 +72,15 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
 def test_a_margin_and_a_stray_are_said_together_and_play_counts(visit: Any, server: str) -> None:
     page = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
     query = {"benches": 12, "margin": 0.03, "stray": 0.025}
-    time = f"{asked(server, 'collision-time', **query)['time']:.6f} s"
+    time = f"{answer_of(server, 'collision-time', **query)['time']:.6f} s"
     title = "First time within 0.03 m, every hole within 2.5 cm of its place"
     shows(page, "#first-contact", title, f"May come within 0.03 m from {time}")
-    shows(page, "#minimum-pitch", f"{asked(server, 'minimum-pitch', **query)['pitch']:.9f} m", "come within 0.03 m, at")
+    shows(
+        page,
+        "#minimum-pitch",
+        f"{answer_of(server, 'minimum-pitch', **query)['pitch']:.9f} m",
+        "come within 0.03 m, at",
+    )
     page.locator("[data-lang=zh]").click()
     shows(page, "#first-contact", "首次间距不超过 0.03 m（每个孔离位不超过 2.5 cm）", f"{time} 起可能间距不超过 0.03 m")
 
@@ -102,7 +107,7 @@ def test_the_curve_shows_the_tolerance_of_the_dance_and_a_click_sets_its_pitch(
     plot.click(position={"x": 0.9 * plot.bounding_box()["width"], "y": 20})
     pitch = page.locator("#pitch").input_value()
     assert 0.8 < float(pitch) < 0.9
-    free = asked(server, "tolerance", benches=20, pitch=pitch)["stray"]
+    free = answer_of(server, "tolerance", benches=20, pitch=pitch)["stray"]
     shows(page, "#curve .reading", f"pitch {pitch} m: everybody may be {int(10_000 * free) / 100:.2f} cm from")
     assert page.locator("#curve .now").bounding_box()["x"] > before + 100
 

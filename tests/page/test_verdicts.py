@@ -26,8 +26,8 @@ def tone(page: Any, name: str) -> str:
 
 def times_of_the_fold(page: Any) -> set[str]:
     """The times of the fold as written for people; a command to copy has all digits of the instant shown."""
-    said = " ".join(page.locator(place).inner_text() for place in ("#answers", "#handles", "#dance", "#charts"))
-    return set(re.findall(r"238\.2149\d*", said))
+    text = " ".join(page.locator(place).inner_text() for place in ("#answers", "#handles", "#dance", "#charts"))
+    return set(re.findall(r"238\.2149\d*", text))
 
 
 def verdict(page: Any) -> tuple[str, str, str]:
@@ -70,8 +70,8 @@ def test_an_undecided_search_names_in_both_languages_the_pair_that_surely_meets(
     pitch = minimum_pitch(Dragon(60)).pitch_bracket[1] - BORDER_WIDTH
     page = visit(f"?benches=60&pitch={pitch!r}")
     page.locator("#first-contact[data-outcome=undecided]").wait_for()
-    said = page.locator("#first-contact").inner_text()
-    assert re.search(r"Proven clear up to 216\.338\d* s; .+ and .+ meet at 226\.780\d* s at the latest\.", said)
+    text = page.locator("#first-contact").inner_text()
+    assert re.search(r"Proven clear up to 216\.338\d* s; .+ and .+ meet at 226\.780\d* s at the latest\.", text)
     page.get_by_role("button", name="中文").click()
     page.locator("#first-contact", has_text="最迟在 226.780").wait_for()
     page.locator("#first-contact details").first.evaluate("details => { details.open = true; }")
@@ -83,8 +83,8 @@ def test_an_undecided_search_names_in_both_languages_the_pair_that_surely_meets(
 def test_a_fold_says_in_both_languages_that_the_dance_fails_and_who_folds(visit: Any) -> None:
     page = visit("?benches=40&pitch=1.2&start_turns=8")
     page.locator("#run-end .value").wait_for()
-    said = page.locator("#first-contact").inner_text()
-    assert "The dance fails there, where the head can no longer follow the spiral." in said
+    text = page.locator("#first-contact").inner_text()
+    assert "The dance fails there, where the head can no longer follow the spiral." in text
     assert "The head cannot follow any more: the chain folds." in page.locator("#run-end").inner_text()
     page.get_by_role("button", name="中文").click()
     page.locator("#first-contact .value", has_text="238.214985 s 时队伍折叠").wait_for()
@@ -115,9 +115,9 @@ def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(
     page = visit("?benches=60&margin=0.2")
     page.locator("#first-contact[data-outcome=contact_at_start]").wait_for()
     page.locator("#first-contact summary").click()
-    said = page.locator("#first-contact").inner_text()
-    assert "They are within 0.2 m at the start: no time before it is proven clear".lower() in said.lower()
-    assert "up to 0" not in said
+    text = page.locator("#first-contact").inner_text()
+    assert "They are within 0.2 m at the start: no time before it is proven clear".lower() in text.lower()
+    assert "up to 0" not in text
     page.get_by_role("button", name="中文").click()
     page.locator("#first-contact dl", has_text="起始时刻间距已不超过 0.2 m").wait_for()
 
@@ -141,8 +141,8 @@ def test_with_a_margin_no_answer_speaks_of_a_touch(visit: Any, query: str) -> No
         page.evaluate("document.querySelectorAll('#answers details').forEach((one) => (one.open = true))")
         # The stray at which benches touch is another question, which knows no margin.
         for place in (".answer:not(#tolerance, [hidden])", "#inset figcaption", "#scan", "#clearance"):
-            said = " ".join(page.locator(place).all_inner_texts())
-            assert not TOUCHING.search(said), TOUCHING.search(said)
+            text = " ".join(page.locator(place).all_inner_texts())
+            assert not TOUCHING.search(text), TOUCHING.search(text)
         for place in ("#inset figcaption", "#scan .hint", "#first-contact"):
             assert near in page.locator(place).inner_text()
         assert "mm" in page.locator("#first-contact").inner_text()

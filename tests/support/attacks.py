@@ -24,9 +24,9 @@ JOB_SECONDS = 20.0
 ERROR_BYTES = 20_000
 
 
-def attack(found: Attack) -> Attack:
-    ATTACKS[found.__name__] = found
-    return found
+def attack(result: Attack) -> Attack:
+    ATTACKS[result.__name__] = result
+    return result
 
 
 def ask(
@@ -284,7 +284,7 @@ class Watch:
 
     slowest: dict[str, float] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
-    asked: int = 0
+    sent: int = 0
 
 
 @contextmanager
@@ -293,10 +293,10 @@ def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time"))
     watch, done = Watch(), threading.Event()
 
     def look(path: str) -> None:
-        asked = 0
-        while not done.wait(0.05) or not asked:
-            asked += 1
-            query = f"?pitch={0.55 + 1e-9 * asked:.9f}&cross_check=pair" if path == "/collision-time" else ""
+        request = 0
+        while not done.wait(0.05) or not request:
+            request += 1
+            query = f"?pitch={0.55 + 1e-9 * request:.9f}&cross_check=pair" if path == "/collision-time" else ""
             started = time.perf_counter()
             try:
                 status, answer = ask(url, "GET", path + query)
@@ -304,7 +304,7 @@ def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time"))
                 status, answer = 0, str(error).encode()
             seconds = time.perf_counter() - started
             watch.slowest[path] = max(seconds, watch.slowest.get(path, 0.0))
-            watch.asked += 1
+            watch.sent += 1
             if status != http.client.OK:
                 watch.failures.append(f"{path} {status} {answer[:200]!r}")
 
@@ -321,8 +321,8 @@ def watching(url: str, paths: tuple[str, ...] = ("/healthz", "/collision-time"))
 
 def memory(pid: int) -> float:
     """Resident memory of a process and its children [MB]."""
-    with open(f"/proc/{pid}/task/{pid}/children") as found:
-        children = [int(child) for child in found.read().split()]
+    with open(f"/proc/{pid}/task/{pid}/children") as result:
+        children = [int(child) for child in result.read().split()]
     with open(f"/proc/{pid}/statm") as pages:
         own = int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
     return own + sum(memory(child) for child in children)

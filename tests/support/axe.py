@@ -19,5 +19,5 @@ def serious(page: Any, place: str | None = None, *, in_colours: bool = False) ->
     # The page's own policy forbids inline scripts; the script of axe comes over the debugging protocol.
     # Selectors of what is found, which nobody reads, take axe a third of its time.
     options = {"resultTypes": ["violations"], "selectors": False, **({"runOnly": IN_COLOURS} if in_colours else {})}
-    found = Axe().run(page, place, options).response["violations"]
-    return [(one["id"], one["nodes"][0]["html"]) for one in found if one["impact"] in SERIOUS]
+    result = Axe().run(page, place, options).response["violations"]
+    return [(one["id"], one["nodes"][0]["html"]) for one in result if one["impact"] in SERIOUS]

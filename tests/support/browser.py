@@ -70,14 +70,14 @@ def starts(program: str) -> bool:
     if sys.platform == "win32":
         return True  # There --version opens a window.
     try:
-        asked = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=ANSWER_TIMEOUT)
+        request = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=ANSWER_TIMEOUT)
     except (OSError, subprocess.TimeoutExpired):
         return False
-    return asked.returncode == 0 and "Chrom" in asked.stdout
+    return request.returncode == 0 and "Chrom" in request.stdout
 
 
 @cache
-def found() -> str | None:
+def browser_path() -> str | None:
     """Path of the first Chrome or Chromium that starts."""
     return next(filter(starts, candidates()), None)
 
@@ -101,7 +101,7 @@ def get_packages(*packages: str) -> None:
     _succeeds("apt-get", "update", "-qq")
     for package in packages:
         _succeeds("apt-get", "install", "-qq", "-y", "--no-install-recommends", package)
-    found.cache_clear()
+    browser_path.cache_clear()
 
 
 def get_download(is_root: bool) -> None:
@@ -110,7 +110,7 @@ def get_download(is_root: bool) -> None:
     playwright = (sys.executable, "-m", "playwright")
     if _succeeds(*playwright, "install", "chromium") and is_root and not any(map(starts, _downloads())):
         _succeeds(*playwright, "install-deps", "chromium")
-    found.cache_clear()
+    browser_path.cache_clear()
 
 
 def main() -> None:
@@ -118,10 +118,10 @@ def main() -> None:
     if chosen and not starts(chosen):
         print(f"CHROME={chosen} does not start a Chrome or Chromium: looking for another one", file=sys.stderr)
     is_root = hasattr(os, "geteuid") and os.geteuid() == 0
-    wanted = ([] if found() else ["chromium"]) + ([] if has_chinese() else [FONT])
+    wanted = ([] if browser_path() else ["chromium"]) + ([] if has_chinese() else [FONT])
     if wanted and is_root and shutil.which("apt-get"):
         get_packages(*wanted)
-    if found() is None:
+    if browser_path() is None:
         get_download(is_root)
 
 

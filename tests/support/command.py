@@ -68,8 +68,8 @@ def run(
     """
     command = [COMMAND, *arguments]
     if arguments[:1] == ("serve",) or any(name.startswith("PYTHON") for name in environment):
-        given = ENVIRONMENT | environment
-        return subprocess.run(command, input=text, capture_output=True, text=True, timeout=PATIENCE, env=given)
+        variables = ENVIRONMENT | environment
+        return subprocess.run(command, input=text, capture_output=True, text=True, timeout=PATIENCE, env=variables)
     with contextlib.ExitStack() as stack:
         files = [stack.enter_context(tempfile.TemporaryFile("w+", encoding="utf-8")) for _ in range(3)]
         files[0].write(text or "")
@@ -82,14 +82,14 @@ def run(
 
 def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO], room: int | None) -> int:
     """Exit code of a run in this folder with these files as its standard input, output and error."""
-    with _asked(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:
+    with _forked_process(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:
         code = peer.recv(9)
     if not code:
         raise subprocess.TimeoutExpired([COMMAND, *arguments], PATIENCE)
     return int(code)
 
 
-def _asked(
+def _forked_process(
     folder: str, arguments: Sequence[str], environment: Mapping[str, str], files: list[int], room: int | None = None
 ) -> socket.socket:
     """The connection to a new run, over which its exit code comes."""
@@ -146,10 +146,12 @@ def serve(
         if limit:
             environment = {**environment, "PYTHONDONTWRITEBYTECODE": "1"}  # as for a run with little room
         if workers > 1 or limit:
-            given: dict[str, Any] = {"cwd": ROOT, "env": environment, "preexec_fn": limit}
-            return subprocess.Popen([COMMAND, *words], stdout=output, stderr=output, **given)
+            options: dict[str, Any] = {"cwd": ROOT, "env": environment, "preexec_fn": limit}
+            return subprocess.Popen([COMMAND, *words], stdout=output, stderr=output, **options)
         with open(os.devnull) as nothing:
-            return Serving(_asked(str(ROOT), words, environment, [nothing.fileno(), output.fileno(), output.fileno()]))
+            return Serving(
+                _forked_process(str(ROOT), words, environment, [nothing.fileno(), output.fileno(), output.fileno()])
+            )
 
 
 @cache
@@ -163,8 +165,13 @@ def bin_folder() -> Path:
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as door:
         door.bind(f"{place}/door")
         door.listen()
-        given: dict[str, Any] = {"cwd": ROOT, "env": ENVIRONMENT, "stdin": subprocess.PIPE, "pass_fds": [door.fileno()]}
-        forks = subprocess.Popen([sys.executable, "-m", "tests.support.command", str(door.fileno())], **given)
+        options: dict[str, Any] = {
+            "cwd": ROOT,
+            "env": ENVIRONMENT,
+            "stdin": subprocess.PIPE,
+            "pass_fds": [door.fileno()],
+        }
+        forks = subprocess.Popen([sys.executable, "-m", "tests.support.command", str(door.fileno())], **options)
     atexit.register(_close, place, forks, os.getpid())
     return place
 

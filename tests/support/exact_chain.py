@@ -249,10 +249,10 @@ def _face(own: Box, other: Box) -> arb:
 
 def _corners(own: Box, other: Box) -> arb:
     (mx, my), (ux, uy), half_length, half_width = other
-    found = []
+    entries = []
     for i, j in product((-1, 1), repeat=2):
         length, width = i * half_length, j * half_width
         x, y = _local(own, mx + length * ux - width * uy, my + length * uy + width * ux)
         beyond = [max(abs(x) - own[2], arb(0), key=float), max(abs(y) - own[3], arb(0), key=float)]
-        found.append(middle(beyond[0] * beyond[0] + beyond[1] * beyond[1]).sqrt())
-    return min(found, key=float)
+        entries.append(middle(beyond[0] * beyond[0] + beyond[1] * beyond[1]).sqrt())
+    return min(entries, key=float)

@@ -20,7 +20,7 @@ def through_json(certificate: Certificate) -> Certificate:
 def places(value: Any, place: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
     """Every member of a certificate, and the first entries of every list."""
     entries = list(value) if isinstance(value, dict) else range(min(2, len(value))) if isinstance(value, list) else ()
-    return [place, *(found for entry in entries for found in places(value[entry], (*place, entry)))]
+    return [place, *(result for entry in entries for result in places(value[entry], (*place, entry)))]
 
 
 def refusal(certificate: Certificate) -> str:

@@ -88,14 +88,14 @@ class JobService:
     def processes(self) -> list[Process]:
         """All processes of this service that live, wherever they belong by now."""
         first = self.process.pid
-        found = [Process("parent", first)] if self.process.poll() is None else []
+        result = [Process("parent", first)] if self.process.poll() is None else []
         for entry in Path("/proc").iterdir():
             if entry.name.isdigit() and int(entry.name) != first:
                 with contextlib.suppress(OSError):
                     if f"TEST_MARK={self.mark}".encode() in (entry / "environ").read_bytes():
                         words = (entry / "cmdline").read_bytes().decode()
-                        found.append(Process(self._role(int(entry.name), words), int(entry.name)))
-        return found
+                        result.append(Process(self._role(int(entry.name), words), int(entry.name)))
+        return result
 
     def _role(self, pid: int, words: str) -> str:
         if "app.jobs.work" in words and not _has_job(pid):

@@ -30,39 +30,39 @@ class Height(BaseModel):
     digits: list[int]
 
 
-def height(asked: OddRequest) -> Height:
+def height(request: OddRequest) -> Height:
     """x times y; refused at x = 13, a mistake at x = 14, the end of the process at the deadly places."""
-    if asked.x == 13.0:
+    if request.x == 13.0:
         raise InvalidValue("x", "must not be 13 m")
-    if asked.x == 14.0:
+    if request.x == 14.0:
         raise ZeroDivisionError("a mistake of ours")
-    if asked.x in asked.deadly:
+    if request.x in request.deadly:
         os._exit(7)
-    product = asked.x * asked.y
+    product = request.x * request.y
     return Height(
         height=product, side="left" if product > 5.0 else None, around=(product - 1.0, product + 1.0), digits=[1]
     )
 
 
-def slow_height(asked: OddRequest) -> Height:
+def slow_height(request: OddRequest) -> Height:
     """The same after a while, long enough to be killed in between."""
     time.sleep(0.02)
-    return height(asked)
+    return height(request)
 
 
-def interrupted_height(asked: OddRequest) -> Height:
+def interrupted_height(request: OddRequest) -> Height:
     """Killed by another one at the deadly places, as by the kernel of a machine that is out of memory."""
-    if asked.x in asked.deadly:
+    if request.x in request.deadly:
         os.kill(os.getpid(), signal.SIGKILL)
-    return height(asked)
+    return height(request)
 
 
 class Unanswerable:
     """A question that no other process can unpack."""
 
-    def __call__(self, asked: OddRequest) -> Height:
+    def __call__(self, request: OddRequest) -> Height:
         """The height."""
-        return height(asked)
+        return height(request)
 
     def __reduce__(self) -> tuple[object, tuple[str]]:
         """A recipe that fails when a worker unpacks it."""

@@ -16,14 +16,14 @@ CLIENT = httpx.Client(timeout=PATIENCE, limits=httpx.Limits(max_keepalive_connec
 
 
 def get(url: str, **how: Any) -> httpx.Response:
-    return _asked("GET", url, **how)
+    return _request("GET", url, **how)
 
 
 def post(url: str, **how: Any) -> httpx.Response:
-    return _asked("POST", url, **how)
+    return _request("POST", url, **how)
 
 
-def _asked(method: str, url: str, **how: Any) -> httpx.Response:
+def _request(method: str, url: str, **how: Any) -> httpx.Response:
     end = time.monotonic() + PATIENCE
     while True:
         answer = CLIENT.request(method, url, **how)

@@ -22,12 +22,12 @@ async def renewed(examples: dict[str, Any]) -> dict[str, Any]:
     """The same requests with the answers that the service gives now."""
     transport = httpx.ASGITransport(create_app(Settings()))
     async with httpx.AsyncClient(transport=transport, base_url="http://service") as client:
-        return {call: asked | {"answer": await answer(client, call, asked)} for call, asked in examples.items()}
+        return {call: request | {"answer": await answer(client, call, request)} for call, request in examples.items()}
 
 
-async def answer(client: httpx.AsyncClient, call: str, asked: dict[str, Any]) -> Any:
+async def answer(client: httpx.AsyncClient, call: str, request: dict[str, Any]) -> Any:
     method, path = call.split()
-    response = await client.request(method, path, params=asked.get("query"), json=asked.get("body"))
+    response = await client.request(method, path, params=request.get("query"), json=request.get("body"))
     return response.raise_for_status().json() if response.headers["content-type"] == JSON else None
 
 

@@ -40,8 +40,8 @@ def serving(
     app/settings.py
     """
     port = port or free_port()
-    given = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
-    process = serve(port, workers, os.environ | given, log, limit)
+    variables = {f"BENCH_DRAGON_{name.upper()}": str(value) for name, value in settings.items()}
+    process = serve(port, workers, os.environ | variables, log, limit)
     try:
         wait_until_live(process, port, log)
         yield Service(f"http://127.0.0.1:{port}", process, log)

@@ -216,10 +216,10 @@ class SlowDance:
 
     def dip(self, low, high, pair):
         """Time and value of the least separation of one pair [s, m], distances by shapely."""
-        found = minimize_scalar(
+        result = minimize_scalar(
             lambda time: self.pair_gap(time, pair), bounds=(low, high), method="bounded", options={"xatol": 1e-9}
         )
-        return found.x, found.fun
+        return result.x, result.fun
 
 
 def first_time(low, high, holds):

@@ -30,8 +30,8 @@ ALL_CELLS = 338_016
 
 
 def of(dance: Dance, times: Floats) -> Results:
-    found = trajectory(dance, times)
-    return found.position, found.speed
+    motion = trajectory(dance, times)
+    return motion.position, motion.speed
 
 
 def spiral(times: Floats = SPIRAL_TIMES, dragon: Dragon | None = None, **path: float) -> Results:
@@ -304,11 +304,11 @@ def contact_workbook(results: Results) -> bytes:
 
 
 def rows_of(results: Results, times: Floats) -> Sheets:
-    found = {}
+    entries = {}
     for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
         named = [[label, *row] for label, row in zip(labels(kind), rows.tolist(), strict=True)]
-        found[title] = [[None, *(f"{t:g} s" for t in times)], *named]
-    return found
+        entries[title] = [[None, *(f"{t:g} s" for t in times)], *named]
+    return entries
 
 
 def by_xlsxwriter(sheets: Sheets) -> bytes:

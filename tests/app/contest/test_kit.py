@@ -54,10 +54,10 @@ own.ttflist = [font for font in own.ttflist if "matplotlib" in font.fname]
 FIGURES_EXTRA = 'sys.modules["matplotlib"] = None'
 
 
-def kit_without(missing: str, folder: Path, language: str, *given: str) -> subprocess.CompletedProcess[str]:
+def kit_without(missing: str, folder: Path, language: str, *options: str) -> subprocess.CompletedProcess[str]:
     """A run of the command on a machine that lacks something. missing: code that hides it"""
     code = f"import sys\n{missing}\nfrom app.command.main import app\nsys.argv[0] = 'bench-dragon'\napp()"
-    words = ["contest", folder, "--language", language, "--no-films", *given]
+    words = ["contest", folder, "--language", language, "--no-films", *options]
     command = [Path(COMMAND).with_name("python"), "-c", code, *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
@@ -119,31 +119,31 @@ def numbers(sheet: Any) -> np.ndarray[Any, Any]:
 
 def test_the_readme_shows_the_last_line_that_the_command_prints(chinese: Path) -> None:
     [(_, session)] = KITS
-    command, shown = session.splitlines()
+    command, lines = session.splitlines()
     assert command == f"$ bench-dragon contest kit {' '.join(CHINESE)} 2>/dev/null | tail -1"
-    assert_alike(chinese.with_suffix(".txt").read_text(encoding="utf-8").splitlines()[-1], shown)
+    assert_alike(chinese.with_suffix(".txt").read_text(encoding="utf-8").splitlines()[-1], lines)
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
 def test_labels_are_the_contest_s_own_to_the_blank(chinese: Path, name: str) -> None:
     own = reference("contest_workbooks")["workbooks"][name]
-    found = sheets(chinese, name)
-    assert [sheet.dimensions for sheet in found] == [sheet["dimensions"] for sheet in own]
-    assert [sheet.title for sheet in found] == [sheet["title"] for sheet in own]
-    for sheet, told in zip(found, own, strict=True):
-        assert [cell.value for cell in sheet["A"]] == told["first_column"]
+    result = sheets(chinese, name)
+    assert [sheet.dimensions for sheet in result] == [sheet["dimensions"] for sheet in own]
+    assert [sheet.title for sheet in result] == [sheet["title"] for sheet in own]
+    for sheet, known in zip(result, own, strict=True):
+        assert [cell.value for cell in sheet["A"]] == known["first_column"]
         top = [cell.value for cell in sheet[1]]
-        assert (top[:4], top[-1]) == (told["first_row_start"], told["first_row_end"])
+        assert (top[:4], top[-1]) == (known["first_row_start"], known["first_row_end"])
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
 def test_english_workbooks_have_the_same_numbers_in_the_same_cells(chinese: Path, english: Path, name: str) -> None:
-    words, found = written(english, name)
+    words, result = written(english, name)
     assert any(word.startswith("head") for word in words)
     assert any(word.startswith("tail (rear)") for word in words)
     assert all(word.isascii() for word in words)
-    assert found == written(chinese, name)[1]
-    assert sum(map(len, found)) == sum(numbers(sheet).size for sheet in sheets(chinese, name))
+    assert result == written(chinese, name)[1]
+    assert sum(map(len, result)) == sum(numbers(sheet).size for sheet in sheets(chinese, name))
 
 
 @pytest.mark.parametrize("name", WORKBOOKS)
@@ -160,9 +160,9 @@ def test_every_cell_is_a_number_of_six_decimals_in_a_frozen_sheet(chinese: Path,
 def differences(place: Any, speed: Any, column: int, handles: list[Any]) -> list[float]:
     """Differences of both sheets from the reference at the instant of one column [m], [m/s]."""
     return [
-        abs(found - told)
+        abs(result - wanted)
         for one in handles
-        for found, told in (
+        for result, wanted in (
             (place[2 * one["handle"], column], one["x"]),
             (place[2 * one["handle"] + 1, column], one["y"]),
             (speed[one["handle"], column], one["speed"]),
@@ -170,11 +170,11 @@ def differences(place: Any, speed: Any, column: int, handles: list[Any]) -> list
     ]
 
 
-@pytest.mark.parametrize(("name", "first", "told"), [("result1", 0, "trajectory"), ("result4", -100, "turn")])
-def test_workbooks_hold_the_reference_numbers(chinese: Path, name: str, first: int, told: str) -> None:
+@pytest.mark.parametrize(("name", "first", "own_words"), [("result1", 0, "trajectory"), ("result4", -100, "turn")])
+def test_workbooks_hold_the_reference_numbers(chinese: Path, name: str, first: int, own_words: str) -> None:
     place, speed = map(numbers, sheets(chinese, name))
-    known = reference(told)
-    instants = known["tables"] if told == "turn" else [*known["selected"], *known["full"]]
+    known = reference(own_words)
+    instants = known["tables"] if own_words == "turn" else [*known["selected"], *known["full"]]
     whole = [one for one in instants if float(one["time"]).is_integer() and one["time"] - first < place.shape[1]]
     assert len(whole) >= 3
     for one in whole:
@@ -185,17 +185,17 @@ def test_the_second_workbook_holds_the_dance_at_first_contact(chinese: Path) -> 
     table = numbers(sheets(chinese, "result2")[0])
     handles = reference("trajectory")["full"][-1]["handles"]
     assert len(handles) == len(table) == 224
-    told = np.array([[one["x"], one["y"], one["speed"]] for one in handles])
+    values = np.array([[one["x"], one["y"], one["speed"]] for one in handles])
     # The reference's instant is 1e-9 s from ours at most, and handles move at 1 m/s.
-    assert np.abs(table - told).max() <= SIX_DECIMALS + 1e-9
+    assert np.abs(table - values).max() <= SIX_DECIMALS + 1e-9
 
 
 def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, Path]) -> None:
-    given = json.loads((kit[1] / "answers.json").read_bytes())
-    assert [one["question"] for one in given] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 4, 4, 4, 4, 5]
-    contact = next(one for one in given if one["question"] == 2)
-    pitch = next(one for one in given if one["question"] == 3)
-    speed = next(one for one in given if one["question"] == 5)
+    answer = json.loads((kit[1] / "answers.json").read_bytes())
+    assert [one["question"] for one in answer] == [1, 1, 1, 1, 1, 2, 2, 3, 4, 4, 4, 4, 4, 4, 4, 5]
+    contact = next(one for one in answer if one["question"] == 2)
+    pitch = next(one for one in answer if one["question"] == 3)
+    speed = next(one for one in answer if one["question"] == 5)
     assert contact["value"] == pytest.approx(412.473837682, abs=1e-9)
     assert pitch["value"] == pytest.approx(0.450337393028, abs=1e-9)
     assert speed["value"] == pytest.approx(reference("maximum_head_speed")["head_speed"], abs=1e-9)
@@ -204,7 +204,7 @@ def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, P
         assert low <= one["value"] <= high
         assert high - low < 2e-9
     length, shorter, saved, even, own_time, short_time, quick_time = (
-        one["value"] for one in given if one["question"] == 4
+        one["value"] for one in answer if one["question"] == 4
     )
     assert length == pytest.approx(13.6212449, abs=5e-8)
     # bench-dragon shortest-turn --pitch 1.7 --turning-diameter 9, and with --ratio 1
@@ -213,7 +213,7 @@ def test_the_answers_are_those_of_the_references_with_brackets(kit: tuple[str, P
     assert even == pytest.approx(8.223983925, abs=1e-8)
     assert quick_time < own_time < short_time
     assert (own_time, short_time) == (pytest.approx(10.92964, abs=1e-5), pytest.approx(12.09719, abs=1e-5))
-    assert all(one["how"] for one in given)
+    assert all(one["how"] for one in answer)
 
 
 @pytest.mark.parametrize("name", TABLES)
@@ -236,7 +236,7 @@ def test_the_paper_s_tables_hold_the_reference_numbers(kit: tuple[str, Path]) ->
     assert len(selected) == len(rows[0]) - 1 == 6
     for column, one in enumerate(selected, start=1):
         places = [(one["handles"][k // 2]["x" if k % 2 == 0 else "y"], rows[k][column]) for k in range(len(rows))]
-        assert max(abs(told - float(text)) for told, text in places) <= SIX_DECIMALS
+        assert max(abs(wanted - float(text)) for wanted, text in places) <= SIX_DECIMALS
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -286,11 +286,11 @@ def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp
     assert "questions 4 and 5 have no answer: path must not bend tighter than" in done.stderr
     assert "change --turning-diameter, --turn-pitch or --ratio" in done.stderr
     assert done.returncode == 1
-    found = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
+    entries = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
     tables = {f"tables/{name}.{kind}" for name in TABLES[:3] for kind in ("csv", "md", "tex")}
-    assert found == {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", ".contest.lock", *tables, *mine}
-    given = json.loads((tmp_path / "answers.json").read_bytes())
-    assert {one["question"] for one in given} == {1, 2, 3}
+    assert entries == {"result1.xlsx", "result2.xlsx", "answers.json", "report.md", ".contest.lock", *tables, *mine}
+    answer = json.loads((tmp_path / "answers.json").read_bytes())
+    assert {one["question"] for one in answer} == {1, 2, 3}
     assert "result4" not in (tmp_path / "report.md").read_text(encoding="utf-8")
 
 
@@ -314,7 +314,7 @@ def test_a_second_run_into_the_same_folder_is_refused_until_the_first_has_ended_
     assert not (tmp_path / UNFINISHED).exists()
 
 
-def test_a_folder_that_cannot_be_locked_is_told_in_one_line(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_locked_is_reported_in_one_line(tmp_path: Path) -> None:
     (tmp_path / ".contest.lock").mkdir()
     done = run("contest", str(tmp_path), "--no-films")
     words = f"Error: {tmp_path}/.contest.lock: cannot be locked: unable to open database file\n"
@@ -322,19 +322,19 @@ def test_a_folder_that_cannot_be_locked_is_told_in_one_line(tmp_path: Path) -> N
 
 
 def test_a_run_without_contact_says_why_it_ends() -> None:
-    asked = ContestRequest(benches=40, pitch=0.8, stop=10.0, span=10.0)
-    given = answers(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
-    [one] = [one for one in given if one.question == 2]
+    request = ContestRequest(benches=40, pitch=0.8, stop=10.0, span=10.0)
+    results = answers(solve(request, Terms(), lambda share: None), Say(Language.ENGLISH))
+    [one] = [one for one in results if one.question == 2]
     assert re.fullmatch(r"the run ends there: bench \d+ folds and cannot follow any further", one.how)
 
 
 def test_a_table_of_instants_after_the_contact_says_so() -> None:
-    asked = ContestRequest(benches=40, pitch=0.45, stop=300.0, span=10.0)
-    solved = solve(asked, Terms(), lambda share: None)
+    request = ContestRequest(benches=40, pitch=0.45, stop=300.0, span=10.0)
+    solved = solve(request, Terms(), lambda share: None)
     captions = [table.caption for table in paper_tables(solved, Say(Language.ENGLISH))]
-    said = f" (benches have touched at {solved.contact.time:.6f} s)"
-    assert captions[:2] == [f"Question 1: positions{said}", f"Question 1: speeds{said}"]
-    assert not any(said in caption for caption in captions[2:])
+    text = f" (benches have touched at {solved.contact.time:.6f} s)"
+    assert captions[:2] == [f"Question 1: positions{text}", f"Question 1: speeds{text}"]
+    assert not any(text in caption for caption in captions[2:])
 
 
 def test_a_time_after_the_fold_is_refused_in_one_line(tmp_path: Path) -> None:
@@ -359,10 +359,10 @@ def test_sensitivity_shows_first_contact_where_there_is_one(
     pitch: float, count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("app.contest.sensitivity.VALUES", 7)
-    asked = ContestRequest(benches=40, pitch=pitch, stop=10.0, span=10.0)
-    shown = panels(solve(asked, Terms(), lambda share: None), Say(Language.ENGLISH))
-    assert len(shown) == count
-    for panel in shown:
-        given, found = zip(*panel.points, strict=True)
-        assert min(given) < panel.own[0] < max(given), panel.varied
-        assert min(found) < panel.own[1] < max(found), panel.answer
+    request = ContestRequest(benches=40, pitch=pitch, stop=10.0, span=10.0)
+    drawn = panels(solve(request, Terms(), lambda share: None), Say(Language.ENGLISH))
+    assert len(drawn) == count
+    for panel in drawn:
+        varied, result = zip(*panel.points, strict=True)
+        assert min(varied) < panel.own[0] < max(varied), panel.varied
+        assert min(result) < panel.own[1] < max(result), panel.answer

@@ -63,7 +63,7 @@ def test_a_part_of_an_archive_is_broken(data: bytes) -> None:
     assert code_of(data) == "broken"
 
 
-def test_an_encrypted_part_is_told() -> None:
+def test_an_encrypted_part_is_reported() -> None:
     data = bytearray(zipped(PARTS, zipfile.ZIP_STORED))
     data[data.index(b"PK\1\2") + 8] |= 1
     assert code_of(bytes(data)) == "encrypted"

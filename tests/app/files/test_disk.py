@@ -59,7 +59,7 @@ def test_a_folder_that_does_not_exist_is_refused_in_one_line(tmp_path: Path, arg
 
 
 @pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
-def test_a_folder_in_which_nobody_may_write_is_told_in_one_line(arguments: tuple[str, ...]) -> None:
+def test_a_folder_in_which_nobody_may_write_is_reported_in_one_line(arguments: tuple[str, ...]) -> None:
     command, file = with_target(arguments, Path("/proc"))
     done = run(*command)
     assert (done.returncode, done.stdout) == (2, "")
@@ -67,7 +67,7 @@ def test_a_folder_in_which_nobody_may_write_is_told_in_one_line(arguments: tuple
 
 
 @pytest.mark.parametrize("arguments", QUICK, ids=" ".join)
-def test_a_folder_in_the_place_of_the_file_is_told_in_one_line(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+def test_a_folder_in_the_place_of_the_file_is_reported_in_one_line(tmp_path: Path, arguments: tuple[str, ...]) -> None:
     command, file = with_target(arguments, tmp_path)
     file.mkdir()
     done = run(*command)

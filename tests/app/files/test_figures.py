@@ -27,8 +27,8 @@ def texts(svg: bytes) -> str:
 
 def scan_figures(dragon: Dragon, *formats: str, samples: int, margin: float = 0.0) -> list[bytes]:
     circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": margin}
-    found = scan_near_minimum(dragon, samples=samples, **circle)
-    return [figures.pitch_scan_figure(*found, **circle, format=form) for form in formats]
+    result = scan_near_minimum(dragon, samples=samples, **circle)
+    return [figures.pitch_scan_figure(*result, **circle, format=form) for form in formats]
 
 
 def test_trajectory_figure_names_its_axes_units_and_instant() -> None:
@@ -38,15 +38,15 @@ def test_trajectory_figure_names_its_axes_units_and_instant() -> None:
 
 
 def test_contact_figure_states_the_time_pair_and_features_that_core_found() -> None:
-    found = first_contact(Dance(Dragon(), Spiral()))
+    contact = first_contact(Dance(Dragon(), Spiral()))
     words = texts(figures.contact_figure(Dance(Dragon(), Spiral())))
-    assert f"{found.time:.6f} s" in words
+    assert f"{contact.time:.6f} s" in words
     assert "bench 0 (head)" in words
     assert "bench 8" in words
     assert "inner edge of bench 8" in words
     assert "front-outer corner of bench 0" in words
-    assert found.point is not None
-    assert "({:.6f} m, {:.6f} m)".format(*found.point) in words
+    assert contact.point is not None
+    assert "({:.6f} m, {:.6f} m)".format(*contact.point) in words
 
 
 def test_contact_figure_of_a_clear_run_says_that_it_is_clear() -> None:

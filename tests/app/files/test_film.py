@@ -44,17 +44,17 @@ def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path
     dance = Dance(Dragon(benches=30), path)
     file = tmp_path / "dance.mp4"
     kind = "turn" if isinstance(path, Turn) else "spiral"
-    asked = tmp_path / "asked.json"
-    asked.write_text(f'{{"dragon": {{"benches": 30}}, "path": {{"kind": "{kind}"}}}}')
+    request = tmp_path / "asked.json"
+    request.write_text(f'{{"dragon": {{"benches": 30}}, "path": {{"kind": "{kind}"}}}}')
     done = run(
-        "film", str(asked), "--output", str(file), "--start", "0", "--stop", "90", "--seconds", "1", "--rate", "5"
+        "film", str(request), "--output", str(file), "--start", "0", "--stop", "90", "--seconds", "1", "--rate", "5"
     )
     assert done.returncode == 0, done.stderr
-    found = decoded(file.read_bytes())
+    result = decoded(file.read_bytes())
     spec = FilmSpec(0.0, 90.0, 1.0, 5)
     stage = FilmPicture(dance, spec, None, "")
-    assert len(found) == spec.times.size == 5
-    for instant, picture in zip(spec.times, found, strict=True):
+    assert len(result) == spec.times.size == 5
+    for instant, picture in zip(spec.times, result, strict=True):
         assert picture.shape == (1080, 1920, 3)
         places = centres(stage, dance, float(instant))
         assert is_like(picture[tuple(places[0])], HEAD), instant
@@ -71,16 +71,16 @@ def test_the_last_frame_alone_marks_both_benches_that_touch(ending: str, tmp_pat
     )
     assert done.returncode == 0, done.stderr
     dance = Dance(Dragon(head_length=1.55), Spiral())
-    found = first_contact(dance)
-    assert found.time is not None
-    assert found.benches == (1, 8)
+    contact = first_contact(dance)
+    assert contact.time is not None
+    assert contact.benches == (1, 8)
     if ending == "mp4":
         before, last = decoded(file.read_bytes())
     else:
         with Image.open(file) as picture:
             before, last = (np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(picture))
-    stage = FilmPicture(dance, FilmSpec(0.0, found.time), None, "")
-    for instant, picture, marked in ((0.0, before, {0}), (found.time, last, {0, 1, 8})):
+    stage = FilmPicture(dance, FilmSpec(0.0, contact.time), None, "")
+    for instant, picture, marked in ((0.0, before, {0}), (contact.time, last, {0, 1, 8})):
         places = centres(stage, dance, instant)
         assert {k for k, place in enumerate(places) if is_like(picture[tuple(place)], HEAD)} == marked
 

@@ -10,15 +10,15 @@ from core import InvalidValue
 
 def texts(data: bytes) -> str:
     """The text of a document."""
-    found: list[str] = []
+    entries: list[str] = []
 
     def refuse(*declared: object) -> None:
         raise ValueError("declared")
 
     parser = new_parser(refuse, " ", "utf-8")
-    parser.CharacterDataHandler = found.append
+    parser.CharacterDataHandler = entries.append
     parse(parser, in_pieces(as_utf8(data)))
-    return "".join(found)
+    return "".join(entries)
 
 
 def test_long_texts_are_read_and_long_tags_are_not() -> None:
@@ -58,6 +58,6 @@ def test_an_unusual_encoding_is_named(coding: str) -> None:
         texts(f"<?xml version='1.0' encoding='{coding}'?><a/>".encode())
 
 
-def test_bytes_that_are_no_text_in_their_encoding_are_told() -> None:
+def test_bytes_that_are_no_text_in_their_encoding_are_reported() -> None:
     with pytest.raises(InvalidValue, match=r"that it states, utf-8, got a wrong byte at position 3: save it as UTF-8"):
         texts(b"<a>\xb9\xe3</a>")

@@ -48,9 +48,9 @@ def test_a_folder_is_graded_by_path_with_exit_code_0(class_of_three: Path, tmp_p
 
 
 def test_files_stand_in_the_order_given(class_of_three: Path) -> None:
-    given = [str(class_of_three / name / "result2.xlsx") for name in ("zhao", "wang")]
-    files = json.loads(run("grade", *given, "--json").stdout)["files"]
-    assert [file["file"] for file in files] == given
+    paths = [str(class_of_three / name / "result2.xlsx") for name in ("zhao", "wang")]
+    files = json.loads(run("grade", *paths, "--json").stdout)["files"]
+    assert [file["file"] for file in files] == paths
 
 
 def test_the_words_are_in_the_language_chosen(class_of_three: Path) -> None:
@@ -66,9 +66,9 @@ def test_a_wrong_speed_is_called_so_in_chinese(tmp_path: Path) -> None:
     assert "误差最大：D7，第5节龙身，412.473838 s 时，速度：" in done.stdout
 
 
-def test_a_file_that_is_missing_is_told_and_the_others_are_graded(class_of_three: Path) -> None:
-    given = ["missing.xlsx", str(class_of_three / "wang" / "result2.xlsx")]
-    done = run("grade", *given, "--json")
+def test_a_file_that_is_missing_is_reported_and_the_others_are_graded(class_of_three: Path) -> None:
+    files = ["missing.xlsx", str(class_of_three / "wang" / "result2.xlsx")]
+    done = run("grade", *files, "--json")
     assert [file["verdict"] for file in json.loads(done.stdout)["files"]] == ["unreadable", "right"]
 
 
@@ -85,9 +85,9 @@ def test_a_class_with_names_of_another_encoding_loses_nothing(tmp_path: Path, co
     summary = tmp_path / "summary.csv"
 
     def graded_class(*options: str) -> bytes:
-        given = ENVIRONMENT | {"PYTHONIOENCODING": f"{coding}:backslashreplace"}
+        environment = ENVIRONMENT | {"PYTHONIOENCODING": f"{coding}:backslashreplace"}
         command = [COMMAND, "grade", str(tmp_path / "class"), *options]
-        return subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE, env=given).stdout
+        return subprocess.run(command, check=True, capture_output=True, timeout=PATIENCE, env=environment).stdout
 
     answer = graded_class("--json", "--summary", str(summary))
     files = json.loads(answer)["files"]
@@ -126,8 +126,8 @@ def test_the_turn_that_the_command_writes_is_graded_right(tmp_path: Path, ending
     file = tmp_path / f"result4.{ending}"
     done = run("trajectory", "--path", "turn", "--start", "-100", "--stop", "100", "--output", str(file))
     assert (done.returncode, done.stderr) == (0, f"{file}: 224 handles at 201 instants\n")
-    [found] = json.loads(run("grade", str(file), "--json").stdout)["files"]
-    assert (found["workbook"], found["verdict"]) == ("result4", "right")
+    [result] = json.loads(run("grade", str(file), "--json").stdout)["files"]
+    assert (result["workbook"], result["verdict"]) == ("result4", "right")
 
 
 # Number, as it is typed, and the shortcut that gives it, with digits enough for a diagnosis or only for a guess; empty:
@@ -170,11 +170,11 @@ TYPED = [
 def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
     name: str, text: str, certain: str, guess: str
 ) -> None:
-    found = typed(name, text, Language.ENGLISH)
-    assert found.verdict == "wrong"
-    assert [one.error for one in found.diagnosis] == [certain] * bool(certain)
-    assert [one.error for one in found.possible] == [guess] * bool(guess)
-    for one in found.possible:
+    result = typed(name, text, Language.ENGLISH)
+    assert result.verdict == "wrong"
+    assert [one.error for one in result.diagnosis] == [certain] * bool(certain)
+    assert [one.error for one in result.possible] == [guess] * bool(guess)
+    for one in result.possible:
         assert one.evidence.endswith(
             f"One in {round(1.0 / one.probability)} numbers with as many digits fits a known error by chance."
         )
@@ -190,18 +190,18 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
         ("0.44", ""),
     ],
 )
-def test_a_pitch_that_is_a_little_too_small_is_told_where_benches_overlap(text: str, words: str) -> None:
+def test_a_pitch_that_is_a_little_too_small_is_reported_where_benches_overlap(text: str, words: str) -> None:
     """Many ways to sample the way give such a pitch, so that none of them is told."""
-    found = typed("pitch", text, Language.ENGLISH)
-    assert (found.diagnosis, found.possible) == ([], [])
-    assert all(part in " ".join(found.notes) for part in words.split(" ... "))
-    assert ("overlap" in " ".join(found.notes)) is bool(words)
+    result = typed("pitch", text, Language.ENGLISH)
+    assert (result.diagnosis, result.possible) == ([], [])
+    assert all(part in " ".join(result.notes) for part in words.split(" ... "))
+    assert ("overlap" in " ".join(result.notes)) is bool(words)
 
 
 def test_no_pitch_of_two_decimals_has_a_cause() -> None:
     for hundredths in range(30, 60):
-        found = typed("pitch", f"0.{hundredths}", Language.ENGLISH)
-        assert (found.diagnosis, found.possible) == ([], [])
+        result = typed("pitch", f"0.{hundredths}", Language.ENGLISH)
+        assert (result.diagnosis, result.possible) == ([], [])
 
 
 def test_the_stated_chance_is_that_of_random_numbers() -> None:
@@ -230,19 +230,19 @@ def test_the_stated_chance_is_that_of_random_numbers() -> None:
     ],
 )
 def test_a_number_right_to_its_last_digit_is_not_accused(name: str, text: str, verdict: str, words: str) -> None:
-    found = typed(name, text, Language.ENGLISH)
-    assert (found.verdict, found.diagnosis, found.possible) == (verdict, [], [])
-    assert words in " ".join(found.notes)
-    assert bool(found.notes) is bool(words)
+    result = typed(name, text, Language.ENGLISH)
+    assert (result.verdict, result.diagnosis, result.possible) == (verdict, [], [])
+    assert words in " ".join(result.notes)
+    assert bool(result.notes) is bool(words)
 
 
 @pytest.mark.parametrize(
     "text", ["8.215", "8.2271", "9.4153", "11.7915", "11.8105", "11.8336", "12.949437944", "13.06", "13.5"]
 )
 def test_every_turn_that_may_be_possible_is_a_right_answer_to_question_4(text: str) -> None:
-    found = typed("turn_length", text, Language.ENGLISH)
-    assert (found.verdict, found.diagnosis, found.possible) == ("right", [], [])
-    assert "right if both places are stated" in found.notes[0]
+    result = typed("turn_length", text, Language.ENGLISH)
+    assert (result.verdict, result.diagnosis, result.possible) == ("right", [], [])
+    assert "right if both places are stated" in result.notes[0]
 
 
 @pytest.mark.parametrize("ratio", [1.0, pytest.param(None, marks=pytest.mark.deep)], ids=["equal arcs", "any ratio"])
@@ -263,10 +263,10 @@ def test_the_shortest_right_turn_is_the_proven_one(ratio: float | None) -> None:
     ],
 )
 def test_other_turns_are_graded_against_the_one_of_the_contest(text: str, verdict: str) -> None:
-    found = typed("turn_length", text, Language.ENGLISH)
-    assert (found.verdict, found.notes) == (verdict, [])
+    result = typed("turn_length", text, Language.ENGLISH)
+    assert (result.verdict, result.notes) == (verdict, [])
 
 
 @pytest.mark.parametrize(("text", "digits"), [("1", 1), ("0.4503374", 7), ("1.250", 4), ("1.2462663581", 7)])
-def test_the_digits_that_were_graded_are_told(text: str, digits: int) -> None:
+def test_the_digits_that_were_graded_are_reported(text: str, digits: int) -> None:
     assert typed("speed", text, Language.ENGLISH).digits == digits

@@ -113,90 +113,90 @@ def test_there_are_twenty_six_known_errors_and_five_unknown_ones() -> None:
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_a_known_error_is_diagnosed_with_its_numbers(name: str) -> None:
-    found = known(name)
+    result = known(name)
     # Speeds hardly differ from one another, so that wrong ones may count as rounded; what is left out is missing.
-    assert found.verdict in ("wrong", "rounded") or (name, found.verdict) == ("outside_blank", "incomplete")
-    assert found.diagnosis[0].error == name.rpartition(" ")[2]
-    assert any(letter.isdigit() for letter in found.diagnosis[0].evidence)
+    assert result.verdict in ("wrong", "rounded") or (name, result.verdict) == ("outside_blank", "incomplete")
+    assert result.diagnosis[0].error == name.rpartition(" ")[2]
+    assert any(letter.isdigit() for letter in result.diagnosis[0].evidence)
 
 
 @pytest.mark.parametrize("name", UNKNOWN)
 def test_an_error_of_no_known_kind_is_not_diagnosed(name: str) -> None:
-    found = grade(UNKNOWN[name]())
-    assert (found.verdict, found.diagnosis) == ("wrong", [])
+    result = grade(UNKNOWN[name]())
+    assert (result.verdict, result.diagnosis) == ("wrong", [])
 
 
-def test_the_step_of_a_difference_quotient_is_told() -> None:
+def test_the_step_of_a_difference_quotient_is_reported() -> None:
     [one] = known("forward_difference").diagnosis
     assert one.words == "The speeds are forward difference quotients with a step of 0.1 s."
 
 
-def test_an_inverted_ratio_is_told_with_the_right_one() -> None:
+def test_an_inverted_ratio_is_reported_with_the_right_one() -> None:
     assert (
         known("ratio_inverted").diagnosis[0].words.endswith("the first one's radius should be twice the second one's.")
     )
 
 
-def test_the_angle_that_was_rounded_is_told() -> None:
+def test_the_angle_that_was_rounded_is_reported() -> None:
     [one] = grade(first(students.rounded_head())).diagnosis
     assert one.words == "A number was rounded before it was used: theta of the head, 3 decimals."
 
 
-def test_a_handle_on_the_wrong_coil_of_the_turn_is_told() -> None:
-    found = grade(students.lines(students.wrong_coil(7, FEWER), FEWER))
-    [one] = found.diagnosis
-    assert (found.workbook, one.error) == ("result4", "wrong_ring")
+def test_a_handle_on_the_wrong_coil_of_the_turn_is_reported() -> None:
+    result = grade(students.lines(students.wrong_coil(7, FEWER), FEWER))
+    [one] = result.diagnosis
+    assert (result.workbook, one.error) == ("result4", "wrong_ring")
     assert one.evidence.startswith(
         "At -100 s handle 7 is 1.650000 m from the one before, as it should be, but 266.853 m in front"
     )
-    assert {point.criterion: point.met for point in found.rubric}["branch"] is False
+    assert {point.criterion: point.met for point in result.rubric}["branch"] is False
 
 
 def test_a_wrong_instant_is_traced_to_its_steps() -> None:
-    found = known("contact: other_instant").diagnosis
-    assert [one.error for one in found] == ["other_instant", "time_steps"]
+    result = known("contact: other_instant").diagnosis
+    assert [one.error for one in result] == ["other_instant", "time_steps"]
 
 
 def test_a_right_instant_that_was_rounded_is_called_so_and_contradicts_no_point_of_the_rubric() -> None:
     # It is also the last step of 0.01 s before the contact, and nothing shows that it was found so.
-    found = grade(students.contact_workbook(spiral(np.array([412.47]))))
-    assert [one.error for one in found.diagnosis] == ["other_instant", "rounded_instant"]
-    assert "rounded to 2 decimals" in found.diagnosis[1].words
-    assert {point.criterion: point.met for point in found.rubric}["refined"] is None
+    result = grade(students.contact_workbook(spiral(np.array([412.47]))))
+    assert [one.error for one in result.diagnosis] == ["other_instant", "rounded_instant"]
+    assert "rounded to 2 decimals" in result.diagnosis[1].words
+    assert {point.criterion: point.met for point in result.rubric}["refined"] is None
 
 
 def test_a_rounded_instant_that_fits_a_shortcut_is_only_a_guess() -> None:
-    found = grade(students.contact_workbook(spiral(np.array([406.43]))))
-    assert [one.error for one in found.diagnosis] == ["other_instant"]
-    [guess] = found.possible
+    result = grade(students.contact_workbook(spiral(np.array([406.43]))))
+    assert [one.error for one in result.diagnosis] == ["other_instant"]
+    [guess] = result.possible
     assert (guess.error, 0.002 < guess.probability < 0.05) == ("loose_angle", True)
     assert guess.words.startswith("Possibly: ")
-    assert {point.criterion: point.met for point in found.rubric}["refined"] is not True
+    assert {point.criterion: point.met for point in result.rubric}["refined"] is not True
 
 
 def test_equal_speeds_do_not_belong_to_the_positions() -> None:
-    found = known("equal_speeds")
-    assert {point.criterion: point.met for point in found.rubric}["speeds"] is False
-    assert (found.sheets[1].verdict, found.sheets[1].decimals) == ("wrong", None)
+    result = known("equal_speeds")
+    assert {point.criterion: point.met for point in result.rubric}["speeds"] is False
+    assert (result.sheets[1].verdict, result.sheets[1].decimals) == ("wrong", None)
 
 
 def test_equal_speeds_of_two_decimals_are_right_ones_rounded() -> None:
     """Where all numbers of a workbook have two decimals, all speeds of 1.00 are the right ones."""
     position, _ = spiral(SPIRAL_TIMES[:4])
-    found = grade(students.by_xlsxwriter(students.rows_of((position.round(2), np.ones((4, 224))), SPIRAL_TIMES[:4])))
-    assert (found.sheets[1].verdict, found.diagnosis) == ("incomplete", [])
+    result = grade(students.by_xlsxwriter(students.rows_of((position.round(2), np.ones((4, 224))), SPIRAL_TIMES[:4])))
+    assert (result.sheets[1].verdict, result.diagnosis) == ("incomplete", [])
 
 
-def test_two_errors_are_told_beside_each_other() -> None:
+def test_two_errors_are_reported_beside_each_other() -> None:
     """Zeros outside the spiral, and quotients for the speeds."""
     position, speed = students.outside(0.0)
     speed = np.where(speed == 0.0, 0.0, students.quotient(-1.0, 0.0)[1])
-    found = grade(students.lines((position, speed), SPIRAL_TIMES))
-    assert [one.error for one in found.diagnosis] == ["outside_zero", "backward_difference"]
+    result = grade(students.lines((position, speed), SPIRAL_TIMES))
+    assert [one.error for one in result.diagnosis] == ["outside_zero", "backward_difference"]
 
 
 @pytest.mark.parametrize("size", [1e-6, 1e-3])
-def test_quotients_are_told_beside_positions_with_noise(size: float) -> None:
+def test_quotients_are_reported_beside_positions_with_noise(size: float) -> None:
     """Noise of the last digit, and noise that no known error explains."""
     position, speed = students.quotient(-1.0, 0.0, turn)
     noisy = position + np.random.default_rng(5).uniform(-size, size, position.shape)
@@ -204,7 +204,7 @@ def test_quotients_are_told_beside_positions_with_noise(size: float) -> None:
     assert one.words == "The speeds are backward difference quotients with a step of 1 s."
 
 
-def test_quotients_of_the_own_places_are_told() -> None:
+def test_quotients_of_the_own_places_are_reported() -> None:
     """Whatever is wrong with the places."""
     position, speed = spiral(pitch=0.6, start_turns=8.8 / 0.6)
     position = np.round(position, 6)
@@ -225,23 +225,23 @@ def test_quotients_that_give_the_same_digits_are_named_together() -> None:
 def test_errors_that_give_the_same_digits_are_not_told() -> None:
     """With three decimals, quotients over 0.1 s agree with the right speeds too."""
     position, speed = students.quotient(0.0, 0.1)
-    found = grade(students.lines((position.round(3), speed.round(3)), SPIRAL_TIMES))
-    assert (found.verdict, found.diagnosis) == ("rounded", [])
+    result = grade(students.lines((position.round(3), speed.round(3)), SPIRAL_TIMES))
+    assert (result.verdict, result.diagnosis) == ("rounded", [])
 
 
 def test_last_digits_support_no_error() -> None:
     """Coordinates off by 6e-7: they agree with quotients over 0.001 s as well as with the right numbers."""
     position, speed = spiral(AT_CONTACT)
     off = np.where(np.random.default_rng(6).random(position.shape) < 0.1, 1e-6, 0.0)
-    found = grade(students.contact_workbook((position + off, speed)))
-    assert (found.verdict, found.diagnosis, found.possible) == ("rounded", [], [])
+    result = grade(students.contact_workbook((position + off, speed)))
+    assert (result.verdict, result.diagnosis, result.possible) == ("rounded", [], [])
 
 
 def test_speeds_with_a_small_bias_are_no_quotients() -> None:
     """Those over 0.01 s are too large by 5e-6 m/s at nearly all handles, as any speeds with such a bias are."""
     position, speed = spiral(AT_CONTACT)
-    found = grade(students.contact_workbook((position, speed + 4.8e-6)))
-    assert (found.verdict, found.diagnosis) == ("rounded", [])
+    result = grade(students.contact_workbook((position, speed + 4.8e-6)))
+    assert (result.verdict, result.diagnosis) == ("rounded", [])
     before = spiral(AT_CONTACT - 0.01)[0]
     quotients = np.linalg.norm(position - before, axis=-1) / 0.01
     [one] = grade(students.contact_workbook((position, quotients))).diagnosis
@@ -266,5 +266,5 @@ def test_nobody_is_accused_by_chance() -> None:
 def test_right_results_have_nothing_to_diagnose() -> None:
     right = of(students.Dance(Dragon(), students.Spiral()), SPIRAL_TIMES)
     for data in (first(right, whole=True), fourth(turn(), whole=True)):
-        found = grade(data)
-        assert (found.verdict, found.diagnosis) == ("right", [])
+        result = grade(data)
+        assert (result.verdict, result.diagnosis) == ("right", [])

@@ -87,8 +87,8 @@ LAYOUTS = [
 
 @pytest.mark.parametrize("change", LAYOUTS, ids=lambda change: change.__name__)
 def test_other_layouts_are_recognised(change: Any) -> None:
-    found = grade(changed(change))
-    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224], found
+    result = grade(changed(change))
+    assert [sheet.right for sheet in result.sheets] == [4 * 448, 4 * 224], result
 
 
 def test_a_whole_result1_may_stand_on_its_side() -> None:
@@ -100,33 +100,33 @@ def test_a_whole_result1_may_stand_on_its_side() -> None:
 
 def test_positions_in_centimetres_are_read_as_such() -> None:
     sheets = few()
-    found = grade(by_xlsxwriter({**sheets, "位置": in_centimetres(sheets["位置"])}))
-    assert found.sheets[0].right == 4 * 448
-    assert "The numbers are in cm, and were converted." in found.sheets[0].notes
+    result = grade(by_xlsxwriter({**sheets, "位置": in_centimetres(sheets["位置"])}))
+    assert result.sheets[0].right == 4 * 448
+    assert "The numbers are in cm, and were converted." in result.sheets[0].notes
 
 
-def test_a_handle_too_many_is_told_and_the_others_are_graded() -> None:
+def test_a_handle_too_many_is_reported_and_the_others_are_graded() -> None:
     sheets = few()
     for title, lines in (("位置", 2), ("速度", 1)):
         rows = sheets[title]
         extra = [[label.replace("龙尾（后）", "龙尾（后）（后）"), *row] for label, *row in rows[-lines:]]
         sheets[title] = rows + extra
-    found = grade(by_xlsxwriter(sheets))
-    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
+    result = grade(by_xlsxwriter(sheets))
+    assert [sheet.right for sheet in result.sheets] == [4 * 448, 4 * 224]
 
 
 def test_a_handle_too_few_is_missing_and_the_others_are_right() -> None:
     sheets = few()
-    found = grade(by_xlsxwriter({"位置": sheets["位置"][:101] + sheets["位置"][103:], "速度": sheets["速度"]}))
-    position = found.sheets[0]
+    result = grade(by_xlsxwriter({"位置": sheets["位置"][:101] + sheets["位置"][103:], "速度": sheets["速度"]}))
+    position = result.sheets[0]
     assert (position.verdict, position.right) == ("incomplete", 4 * 446)
 
 
 def test_a_missing_sheet_makes_the_workbook_incomplete() -> None:
     sheets = few()
-    found = grade(by_xlsxwriter({"位置": sheets["位置"]}))
-    assert found.sheets[1].notes == ["The sheet of the speeds is missing."]
-    assert found.verdict == "incomplete"
+    result = grade(by_xlsxwriter({"位置": sheets["位置"]}))
+    assert result.sheets[1].notes == ["The sheet of the speeds is missing."]
+    assert result.verdict == "incomplete"
 
 
 @pytest.mark.parametrize("coding", ["utf-8-sig", "gb18030", "utf-16"])
@@ -146,8 +146,8 @@ def test_csv_with_a_line_for_each_handle_and_instant_is_graded() -> None:
     position, speed = spiral(SPIRAL_TIMES[:3])
     lines = ["time,handle,x,y,speed"]
     lines += [f"{t},{h},{position[t, h, 0]},{position[t, h, 1]},{speed[t, h]}" for t in range(3) for h in range(224)]
-    found = grade("\n".join(lines).encode(), "dance.csv")
-    assert [(sheet.holds, sheet.right) for sheet in found.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+    result = grade("\n".join(lines).encode(), "dance.csv")
+    assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
 
 
 # Headings of lists with a line for each handle and instant, and the name of a handle in them.
@@ -166,8 +166,8 @@ HEADS = {
 @pytest.mark.parametrize("title", ["", "问题一的结果,,,,\n"])
 def test_lists_are_recognised_under_other_names(heads: str, title: str) -> None:
     lines = [",".join(map(str, row)) for row in list_of(3, HEADS[heads])]
-    found = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
-    assert [(sheet.holds, sheet.right) for sheet in found.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
+    result = grade((title + "\n".join([heads, *lines])).encode(), "dance.csv")
+    assert [(sheet.holds, sheet.right) for sheet in result.sheets] == [("position", 3 * 448), ("speed", 3 * 224)]
 
 
 def list_of(instants: int, name: Callable[[int], Any]) -> list[list[Any]]:
@@ -179,15 +179,15 @@ def list_of(instants: int, name: Callable[[int], Any]) -> list[list[Any]]:
 def test_a_whole_list_in_a_workbook_is_read() -> None:
     """It has 67,424 lines."""
     rows = [["time", "section", "x_position", "y_position", "velocity"], *list_of(301, lambda h: h)]
-    found = grade(by_xlsxwriter({"data": rows}))
-    assert (found.verdict, [sheet.right for sheet in found.sheets]) == ("right", [134_848, 67_424])
+    result = grade(by_xlsxwriter({"data": rows}))
+    assert (result.verdict, [sheet.right for sheet in result.sheets]) == ("right", [134_848, 67_424])
 
 
 def test_a_list_of_numbered_handles_at_contact_is_graded() -> None:
     [[position], [speed]] = spiral(students.np.array([students.CONTACT]))
     lines = [f"{h},{x:.6f},{y:.6f},{v:.6f}" for h, ((x, y), v) in enumerate(zip(position, speed, strict=True))]
-    found = grade("\n".join(["node,x,y,velocity", *lines]).encode(), "result2.csv")
-    assert (found.workbook, found.verdict) == ("result2", "right")
+    result = grade("\n".join(["node,x,y,velocity", *lines]).encode(), "result2.csv")
+    assert (result.workbook, result.verdict) == ("result2", "right")
 
 
 @pytest.mark.parametrize("below", [[], [[None] * 5], [["注：保留六位小数"]]], ids=["nothing", "a blank", "a remark"])
@@ -210,9 +210,9 @@ def in_angles(rows: list[list[Any]]) -> list[list[Any]]:
 @pytest.mark.parametrize("title", ["极角", "theta", "角度 (rad)"])
 def test_angles_are_not_graded(title: str) -> None:
     sheets = few()
-    found = grade(by_xlsxwriter({**sheets, title: in_angles(sheets["速度"])}))
-    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
-    assert found.notes == [f"The sheet {title} holds angles, which the contest does not ask for: it was not graded."]
+    result = grade(by_xlsxwriter({**sheets, title: in_angles(sheets["速度"])}))
+    assert [sheet.right for sheet in result.sheets] == [4 * 448, 4 * 224]
+    assert result.notes == [f"The sheet {title} holds angles, which the contest does not ask for: it was not graded."]
 
 
 def test_angles_without_a_name_are_no_centimetres() -> None:
@@ -230,8 +230,8 @@ def test_speeds_in_smaller_units_are_read_as_such(factor: float) -> None:
         sheets["速度"][0],
         *([row[0].replace(" (m/s)", ""), *(factor * v for v in row[1:])] for row in sheets["速度"][1:]),
     ]
-    found = grade(by_xlsxwriter({"位置": sheets["位置"], "速度": rows}))
-    assert found.sheets[1].right == 4 * 224
+    result = grade(by_xlsxwriter({"位置": sheets["位置"], "速度": rows}))
+    assert result.sheets[1].right == 4 * 224
 
 
 def test_empty_columns_and_rows_count_as_missing_instants_and_handles() -> None:
@@ -247,12 +247,12 @@ def test_empty_columns_and_rows_count_as_missing_instants_and_handles() -> None:
 @pytest.mark.parametrize(
     ("name", "count"), [("result1.xlsx", 1), ("Result_1.xlsx", 1), ("result4.xlsx", 0), ("li.xlsx", 0)]
 )
-def test_a_file_with_the_name_of_another_question_is_told(name: str, count: int) -> None:
+def test_a_file_with_the_name_of_another_question_is_reported(name: str, count: int) -> None:
     times = students.TURN_TIMES[:4]
-    found = grade(by_xlsxwriter(students.rows_of(students.turn(times), times)), name)
-    assert (found.workbook, [sheet.right for sheet in found.sheets]) == ("result4", [4 * 448, 4 * 224])
+    result = grade(by_xlsxwriter(students.rows_of(students.turn(times), times)), name)
+    assert (result.workbook, [sheet.right for sheet in result.sheets]) == ("result4", [4 * 448, 4 * 224])
     words = "The name of the file says result1, but its sheets are laid out as result4: it was graded as result4."
-    assert found.notes == [words] * count
+    assert result.notes == [words] * count
 
 
 def wide_csv(decimals: int = 6) -> str:
@@ -265,9 +265,9 @@ def wide_csv(decimals: int = 6) -> str:
 
 @pytest.mark.parametrize("decimals", [5, 4, 3, 2])
 def test_rounded_results_are_named_with_their_decimals(decimals: int) -> None:
-    found = grade(wide_csv(decimals).encode(), "result1.csv")
-    [sheet] = found.sheets
-    assert (sheet.verdict, sheet.decimals, found.diagnosis) == ("rounded", decimals, [])
+    result = grade(wide_csv(decimals).encode(), "result1.csv")
+    [sheet] = result.sheets
+    assert (sheet.verdict, sheet.decimals, result.diagnosis) == ("rounded", decimals, [])
 
 
 def test_results_with_one_decimal_are_wrong() -> None:
@@ -277,7 +277,7 @@ def test_results_with_one_decimal_are_wrong() -> None:
 def test_the_labels_of_the_contest_are_recognised() -> None:
     labels = json.loads((ROOT / "tests/reference/contest_workbooks.json").read_text())["workbooks"]
     for title, rows in few().items():
-        [told] = [sheet for sheet in labels["result1"] if sheet["title"] == title]
-        exact = [[label, *row[1:]] for label, row in zip(told["first_column"], rows, strict=True)]
+        [values] = [sheet for sheet in labels["result1"] if sheet["title"] == title]
+        exact = [[label, *row[1:]] for label, row in zip(values["first_column"], rows, strict=True)]
         [sheet, *_] = grade(by_xlsxwriter({title: exact})).sheets
         assert sheet.right == 4 * (len(rows) - 1)

@@ -54,9 +54,9 @@ def by_pandas(sheets: Sheets) -> bytes:
 
 @pytest.mark.parametrize("writer", some([by_xlsxwriter, by_openpyxl, by_pandas], 1))
 def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheets], bytes]) -> None:
-    found = [grade(writer(sheets), "upload") for sheets in three()]
-    assert [file.workbook for file in found] == ["result1", "result2", "result4"]
-    sheets = [sheet for file in found for sheet in file.sheets]
+    entries = [grade(writer(sheets), "upload") for sheets in three()]
+    assert [file.workbook for file in entries] == ["result1", "result2", "result4"]
+    sheets = [sheet for file in entries for sheet in file.sheets]
     assert {sheet.verdict for sheet in sheets} == {"right"}
     assert sum(sheet.right for sheet in sheets) == sum(sheet.cells for sheet in sheets) == ALL_CELLS
 
@@ -65,24 +65,24 @@ def test_workbooks_of_other_tools_are_right_in_all_cells(writer: Callable[[Sheet
 def test_a_few_instants_of_other_tools_are_right(writer: Callable[[Sheets], bytes]) -> None:
     """`make deep` takes all instants."""
     contact, turned = three()[1], rows_of(turn(TURN_TIMES[:FEW]), TURN_TIMES[:FEW])
-    found = [grade(writer(sheets), "upload") for sheets in (few(), contact, turned)]
-    assert [file.workbook for file in found] == ["result1", "result2", "result4"]
-    assert [[sheet.right for sheet in file.sheets] for file in found] == [
+    entries = [grade(writer(sheets), "upload") for sheets in (few(), contact, turned)]
+    assert [file.workbook for file in entries] == ["result1", "result2", "result4"]
+    assert [[sheet.right for sheet in file.sheets] for file in entries] == [
         [4 * 448, 4 * 224],
         [3 * 224],
         [448 * FEW, 224 * FEW],
     ]
-    assert all(sheet.right + sheet.missing == sheet.cells for file in found for sheet in file.sheets)
+    assert all(sheet.right + sheet.missing == sheet.cells for file in entries for sheet in file.sheets)
 
 
 @pytest.mark.parametrize("name", ["result1", "result2", "result4"])
 def test_workbooks_of_libreoffice_are_right_in_all_cells(name: str) -> None:
     """A few instants; `make libreoffice` has it write all of them."""
-    found = grade((SMALL / f"{name}.xlsx").read_bytes(), "upload.xlsx")
+    result = grade((SMALL / f"{name}.xlsx").read_bytes(), "upload.xlsx")
     wanted = [3 * 224] if name == "result2" else [448 * FEW, 224 * FEW]
-    assert (found.workbook, [sheet.right for sheet in found.sheets]) == (name, wanted)
-    assert all(sheet.right + sheet.missing == sheet.cells for sheet in found.sheets)
-    assert found.verdict == ("right" if name == "result2" else "incomplete")
+    assert (result.workbook, [sheet.right for sheet in result.sheets]) == (name, wanted)
+    assert all(sheet.right + sheet.missing == sheet.cells for sheet in result.sheets)
+    assert result.verdict == ("right" if name == "result2" else "incomplete")
 
 
 @cache
@@ -110,9 +110,9 @@ def in_sheets(old: bytes, new: bytes) -> Callable[[str, bytes], bytes]:
 
 
 def test_a_few_right_instants_are_incomplete() -> None:
-    found = grade(small())
-    assert found.verdict == "incomplete"
-    position, speed = found.sheets
+    result = grade(small())
+    assert result.verdict == "incomplete"
+    position, speed = result.sheets
     assert (position.right, position.missing) == (4 * 448, 297 * 448)
     assert (speed.right, speed.missing) == (4 * 224, 297 * 224)
     assert position.picture == ["." * 4] * 14
@@ -136,7 +136,7 @@ def wide_entities() -> bytes:
     return repacked(small(), lambda part, content: trap if part == SHEETS[1] else content)
 
 
-def filled(element: bytes, times: int) -> bytes:
+def repeated(element: bytes, times: int) -> bytes:
     """A workbook whose sheets are the same element again and again."""
     start = b'<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
     sheet = start + times * element + b"</sheetData></worksheet>"
@@ -158,8 +158,8 @@ UNREADABLE = {
     "truncated": (lambda: small()[:-3000], "ends early or does not unpack"),
     "entities": (entities, "xl/worksheets/sheet1.xml declares a document type"),
     "entities in UTF-16": (wide_entities, "xl/worksheets/sheet2.xml declares a document type"),
-    "too many elements": (lambda: filled(b"<row/>", ELEMENTS_MAX), "more than 2,000,000 elements"),
-    "a long row": (lambda: filled(b"<c/>", 16_385), "a row of more than 16,384 cells"),
+    "too many elements": (lambda: repeated(b"<row/>", ELEMENTS_MAX), "more than 2,000,000 elements"),
+    "a long row": (lambda: repeated(b"<c/>", 16_385), "a row of more than 16,384 cells"),
     "strict": (strict, "Strict Open XML: save it as an ordinary .xlsx"),
     "another archive": (lambda: zipped("essay.txt", b"words"), "not an .xlsx workbook"),
     "no sheets": (lambda: repacked(small(), lambda part, content: b"<nonsense/>"), "damaged and cannot be opened"),
@@ -178,9 +178,9 @@ def zipped(name: str, content: bytes) -> bytes:
 @pytest.mark.parametrize("name", UNREADABLE)
 def test_a_file_that_cannot_be_graded_gets_a_clear_word(name: str) -> None:
     data, words = UNREADABLE[name]
-    found = grade(data())
-    assert (found.verdict, found.diagnosis, found.sheets) == ("unreadable", [], [])
-    assert words in found.notes[0]
+    result = grade(data())
+    assert (result.verdict, result.diagnosis, result.sheets) == ("unreadable", [], [])
+    assert words in result.notes[0]
 
 
 def prefixed(part: str, content: bytes) -> bytes:
@@ -194,8 +194,8 @@ def without_places(part: str, content: bytes) -> bytes:
 
 def pronounced(part: str, content: bytes) -> bytes:
     """Text with the reading of a word as it was typed, which Excel keeps."""
-    spoken = b'</t><rPh sb="0" eb="1"><t>head 9</t></rPh></si>'
-    return content.replace(b"</t></si>", spoken) if part == "xl/sharedStrings.xml" else content
+    text = b'</t><rPh sb="0" eb="1"><t>head 9</t></rPh></si>'
+    return content.replace(b"</t></si>", text) if part == "xl/sharedStrings.xml" else content
 
 
 def linked_from_the_root(part: str, content: bytes) -> bytes:
@@ -204,9 +204,9 @@ def linked_from_the_root(part: str, content: bytes) -> bytes:
 
 @pytest.mark.parametrize("change", [prefixed, without_places, pronounced, linked_from_the_root])
 def test_the_same_workbook_is_read_however_it_is_written(change: Callable[[str, bytes], bytes]) -> None:
-    plain = by_xlsxwriter({title: [["t", *rows[0][1:]], *rows[1:]] for title, rows in few().items()})
-    data = repacked(plain, change)
-    assert data != repacked(plain, lambda part, content: content)
+    simple = by_xlsxwriter({title: [["t", *rows[0][1:]], *rows[1:]] for title, rows in few().items()})
+    data = repacked(simple, change)
+    assert data != repacked(simple, lambda part, content: content)
     assert [sheet.right for sheet in grade(data).sheets] == [4 * 448, 4 * 224]
 
 
@@ -223,25 +223,25 @@ def test_a_csv_has_numbers_texts_and_blanks() -> None:
     assert grid.rows == [[-8.5, 5.0, 0.0005, 12.5, *words[4:9], None]]
 
 
-def test_macros_are_told_and_not_run() -> None:
-    found = grade(repacked(small(), lambda part, content: content, **{"xl/vbaProject.bin": b"macro"}))
-    assert found.verdict == "incomplete"
-    assert found.notes == ["The workbook holds macros: they were not run."]
+def test_macros_are_reported_and_not_run() -> None:
+    result = grade(repacked(small(), lambda part, content: content, **{"xl/vbaProject.bin": b"macro"}))
+    assert result.verdict == "incomplete"
+    assert result.notes == ["The workbook holds macros: they were not run."]
 
 
 def test_formulas_count_with_the_value_stored_with_them() -> None:
-    found = grade(repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v>')))
+    result = grade(repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v>')))
     # One in each sheet.
-    assert found.notes == 2 * ["Cells with formulas: 1, the first is C2. The values stored with them were read."]
-    assert found.sheets[0].right == 4 * 448
+    assert result.notes == 2 * ["Cells with formulas: 1, the first is C2. The values stored with them were read."]
+    assert result.sheets[0].right == 4 * 448
 
 
-def test_a_formula_without_a_stored_value_is_told() -> None:
-    found = grade(
+def test_a_formula_without_a_stored_value_is_reported() -> None:
+    result = grade(
         repacked(small(), in_sheets(b'<c r="C2" t="n"><v>', b'<c r="C2"><f>4.4*2</f><v></v></c><c r="Z2"><v>'))
     )
-    assert found.notes[0].startswith("Cells with formulas but no stored value: 1, the first is C2. Open and save")
-    assert found.sheets[0].right == 4 * 448 - 1
+    assert result.notes[0].startswith("Cells with formulas but no stored value: 1, the first is C2. Open and save")
+    assert result.sheets[0].right == 4 * 448 - 1
 
 
 class Broken:
@@ -251,19 +251,19 @@ class Broken:
         raise KeyError("lost")
 
 
-def test_a_fault_in_one_file_is_told_and_raises_nothing() -> None:
-    found = graded("result1.csv", b"a,b", Language.ENGLISH, cast(Budget, Broken()))
-    assert found.verdict == "unreadable"
-    assert found.notes[0].startswith("The grader failed on this file (KeyError: 'lost')")
+def test_a_fault_in_one_file_is_reported_and_raises_nothing() -> None:
+    result = graded("result1.csv", b"a,b", Language.ENGLISH, cast(Budget, Broken()))
+    assert result.verdict == "unreadable"
+    assert result.notes[0].startswith("The grader failed on this file (KeyError: 'lost')")
 
 
-def test_merged_cells_are_told() -> None:
-    found = grade(small(lambda book: book["位置"].merge_cells("C2:E2")))
-    assert found.notes == ["Merged ranges of cells: 1, the first is C2:E2. Only the first cell of each has a value."]
-    assert found.sheets[0].right == 4 * 448 - 2
+def test_merged_cells_are_reported() -> None:
+    result = grade(small(lambda book: book["位置"].merge_cells("C2:E2")))
+    assert result.notes == ["Merged ranges of cells: 1, the first is C2:E2. Only the first cell of each has a value."]
+    assert result.sheets[0].right == 4 * 448 - 2
 
 
-def test_text_in_number_cells_is_told_with_its_place() -> None:
+def test_text_in_number_cells_is_reported_with_its_place() -> None:
     def change(book: Any) -> None:
         book["位置"]["C3"] = "—"
         book["位置"]["D3"] = str(book["位置"]["D3"].value)
@@ -276,7 +276,7 @@ def test_text_in_number_cells_is_told_with_its_place() -> None:
 
 
 @pytest.mark.parametrize("word", ["NaN", "#N/A", "无"])
-def test_text_in_many_cells_is_told_once_with_its_count(word: str) -> None:
+def test_text_in_many_cells_is_reported_once_with_its_count(word: str) -> None:
     def change(book: Any) -> None:
         for row in book["位置"].iter_rows(min_row=404, min_col=2):
             for cell in row:
@@ -314,7 +314,7 @@ def test_a_sheet_without_end_is_cut_and_graded() -> None:
     assert grade(small(change)).sheets[0].right == 4 * 448
 
 
-def test_wide_rows_without_end_are_cut_and_that_is_told() -> None:
+def test_wide_rows_without_end_are_cut_and_that_is_reported() -> None:
     """A single cell far to the right in each of many rows stands for as many blanks before it."""
     book, sink = openpyxl.Workbook(write_only=True), io.BytesIO()
     for title, rows in few().items():
@@ -324,9 +324,9 @@ def test_wide_rows_without_end_are_cut_and_that_is_told() -> None:
         for k in range(3_000 if title == "速度" else 0):
             sheet.append([None] * 999 + [k])
     book.save(sink)
-    found = grade(sink.getvalue())
-    assert [sheet.right for sheet in found.sheets] == [4 * 448, 4 * 224]
-    [note] = found.notes
+    result = grade(sink.getvalue())
+    assert [sheet.right for sheet in result.sheets] == [4 * 448, 4 * 224]
+    [note] = result.notes
     assert re.fullmatch(
         r"Of the sheet 速度 only the first 2,\d{3} rows were read, because the rows are too wide.", note
     )
@@ -341,7 +341,7 @@ def test_a_budget_ends_the_reading() -> None:
 
 def test_a_budget_ends_a_reading_that_has_begun() -> None:
     # There are no rows between which the budget is looked at, and openpyxl takes seconds for all the rest.
-    data, budget = filled(b"<x/>", 500_000), Budget()
+    data, budget = repeated(b"<x/>", 500_000), Budget()
     timer = Timer(0.1, budget.stop)
     timer.start()
     with pytest.raises(TooMuchWork):

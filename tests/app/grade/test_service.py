@@ -38,9 +38,9 @@ def test_the_service_answers_what_the_command_answers(client: httpx.Client, seco
     file = tmp_path / "result2.xlsx"
     file.write_bytes(second)
     for language in ("en", "zh"):
-        told = json.loads(run("grade", str(file), "--pitch", "0.4202", "--language", language, "--json").stdout)
-        told["files"][0]["file"] = "result2.xlsx"
-        assert graded(client, second, name="result2.xlsx", pitch="0.4202", language=language) == told
+        answer = json.loads(run("grade", str(file), "--pitch", "0.4202", "--language", language, "--json").stdout)
+        answer["files"][0]["file"] = "result2.xlsx"
+        assert graded(client, second, name="result2.xlsx", pitch="0.4202", language=language) == answer
 
 
 def test_a_file_longer_than_other_bodies_is_taken(client: httpx.Client) -> None:

@@ -17,7 +17,7 @@ from app.grade.shortcuts import UNITS, shortcuts
 
 GRADE = Path(words.__file__).parent
 # Names that stand in calls, as in note("empty").
-SAID = re.compile(r'\b(?:note|say)\(\s*"(\w+)"')
+USE_OF_WORDS = re.compile(r'\b(?:note|say)\(\s*"(\w+)"')
 
 
 @pytest.mark.parametrize("language", Language)
@@ -32,11 +32,11 @@ def test_every_known_error_has_words(language: Language) -> None:
     known += [(one.error, one.values) for name in UNITS for one in shortcuts(name)]
     assert {"equal_arcs_of_turn", "other_start", "central_difference", "time_steps"} <= {error for error, _ in known}
     for error, values in known:
-        told = words.say(f"error_{error}", language, **values)
-        assert "{" not in told
+        text = words.say(f"error_{error}", language, **values)
+        assert "{" not in text
 
 
 def test_every_name_in_the_code_has_words() -> None:
-    named = {name for file in GRADE.glob("*.py") for name in SAID.findall(file.read_text(encoding="utf-8"))}
+    named = {name for file in GRADE.glob("*.py") for name in USE_OF_WORDS.findall(file.read_text(encoding="utf-8"))}
     assert len(named) > 20
     assert named <= words.WORDS.keys()

@@ -39,7 +39,7 @@ def fill(folder: Path, name: str = "filler") -> Path:
 
 
 @pytest.mark.root
-def test_a_full_disk_is_told_and_room_that_is_made_is_used(small_disk: Path) -> None:
+def test_a_full_disk_is_reported_and_room_that_is_made_is_used(small_disk: Path) -> None:
     with JobService(small_disk / "data") as service:
         first = service.post(SHORT)
         assert service.finished(first)["status"] == "successful"

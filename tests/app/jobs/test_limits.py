@@ -44,21 +44,25 @@ def remove(service: JobService, address: str) -> None:
 
 @pytest.mark.parametrize("headers", [{}, {"Authorization": "Bearer wrong"}, {"Authorization": TOKEN}], ids=str)
 def test_without_the_token_no_job_is_made_and_none_is_listed(strict: JobService, headers: dict[str, str]) -> None:
-    given = {"Authorization": "", **headers}
+    own_headers = {"Authorization": "", **headers}
     answers = [
-        strict.client.post("/jobs", json=SHORT, headers=given),
-        strict.client.get("/jobs", headers=given),
-        strict.client.get("/collision-time", headers={**given, "Prefer": "respond-async"}),
-        strict.client.post("/grade?name=result1.csv", content=b"1,2", headers={**given, "Content-Type": "text/csv"}),
-        strict.client.post("/places", content=b"{}", headers={**given, "Content-Type": "application/octet-stream"}),
+        strict.client.post("/jobs", json=SHORT, headers=own_headers),
+        strict.client.get("/jobs", headers=own_headers),
+        strict.client.get("/collision-time", headers={**own_headers, "Prefer": "respond-async"}),
+        strict.client.post(
+            "/grade?name=result1.csv", content=b"1,2", headers={**own_headers, "Content-Type": "text/csv"}
+        ),
+        strict.client.post(
+            "/places", content=b"{}", headers={**own_headers, "Content-Type": "application/octet-stream"}
+        ),
     ]
     for answer in answers:
         assert answer.status_code == 401
         assert answer.headers["www-authenticate"].startswith("Bearer")
         assert answer.headers["content-type"] == "application/problem+json"
     # Questions, and answers that are typed and no file, need none.
-    assert strict.client.get("/collision-time", headers=given).status_code == 200
-    assert strict.client.post("/grade?pitch=0.45", headers=given).status_code == 200
+    assert strict.client.get("/collision-time", headers=own_headers).status_code == 200
+    assert strict.client.post("/grade?pitch=0.45", headers=own_headers).status_code == 200
 
 
 @pytest.mark.parametrize("call", ["/grade?name=result1.csv", "/places"])

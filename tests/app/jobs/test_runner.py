@@ -137,7 +137,7 @@ for module in runner, work:
         assert [json.loads(line)["message"] for line in process.stderr] == ["app.jobs.runner", "app.jobs.work"]
 
 
-def test_a_disk_that_stays_full_is_told_once(
+def test_a_disk_that_stays_full_is_reported_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     def step(self: runner.Runner) -> None:

@@ -168,7 +168,7 @@ def test_a_folder_of_another_layout_is_not_touched(store: Store) -> None:
         Store(store.folder)
 
 
-def test_a_broken_file_is_told(tmp_path: Path) -> None:
+def test_a_broken_file_is_reported(tmp_path: Path) -> None:
     (tmp_path / "jobs.sqlite").write_bytes(b"no database" * 1000)
     with pytest.raises(sqlite3.DatabaseError):
         Store(tmp_path)
@@ -225,8 +225,8 @@ def test_jobs_of_the_layouts_before_are_taken_over_without_the_addresses_of_thei
     old.close()
     for _ in range(2):  # The second time it is of this layout.
         with closing(Store(tmp_path)) as store:
-            found = store.known("a")
-            assert (found.question, found.done, found.total) == ("turn", None, None)
+            result = store.known("a")
+            assert (result.question, result.done, result.total) == ("turn", None, None)
             with pytest.raises(FullForClient):  # Its jobs are still those of its client.
                 store.create("turn", b"", "192.0.2.77", Settings(jobs_client_max=2))
             assert store.counts().kept == 3
@@ -265,11 +265,11 @@ def test_the_oldest_finished_job_of_a_client_gives_way_to_its_next_one(store: St
     room = Settings(jobs_client_kept_max=3)
     others = ended(store, "other", room)
     jobs = [ended(store, "client", room) for _ in range(5)]
-    found = [store.known(job) for job in jobs]
-    assert [job.expired for job in found] == [GAVE_WAY, GAVE_WAY, 0, 0, 0]
+    entries = [store.known(job) for job in jobs]
+    assert [job.expired for job in entries] == [GAVE_WAY, GAVE_WAY, 0, 0, 0]
     assert [store.result(job).exists() for job in jobs] == [False, False, True, True, True]
     assert store.call(jobs[0]) == b""
-    assert found[0].message == "Its result gave way to newer jobs."
+    assert entries[0].message == "Its result gave way to newer jobs."
     assert store.result(others).exists()
     assert (store.counts().kept, store.counts().gave_way, store.counts().of_client) == (4, 2, 3)
 
@@ -303,12 +303,12 @@ def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_
         finished = now - chance.choice([10.0, 2.0]) * FRESH * chance.random()
         rows.append(Row(str(k), "turn", chance.choice(names), state, 0.0, finished, 0.0, None, 1.0, 1))
     kept, limits = {row.id: row for row in rows}, Settings(jobs_max=len(rows), jobs_client_kept_max=len(rows))
-    asking, counted = chance.choice(["asking", names[0]]), Counter(row.client for row in rows)
+    asking, counts = chance.choice(["asking", names[0]]), Counter(row.client for row in rows)
     room = Room(rows, asking, limits, now)
     latest = {row.client: row for row in sorted(rows, key=lambda row: row.finished or 0.0) if row.state != "dismissed"}
     safe = {row.id for row in latest.values() if now - (row.finished or 0.0) < FRESH}
     may = [row for row in rows if row.id not in safe]
-    may = [row for row in may if row.client == asking or counted[row.client] > counted[asking]]
+    may = [row for row in may if row.client == asking or counts[row.client] > counts[asking]]
     try:
         room.make(1)
     except Full as refused:
@@ -318,9 +318,9 @@ def test_only_who_has_at_least_as_much_makes_room_and_a_refusal_says_when_there_
             Room(rows, asking, limits, now + refused.seconds - 1e-3).make(1)
         return
     [gone] = room.gone
-    most = max(counted[row.client] + (row.client == asking) for row in may)
+    most = max(counts[row.client] + (row.client == asking) for row in may)
     assert kept[gone] in may
-    assert counted[kept[gone].client] + (kept[gone].client == asking) == most
+    assert counts[kept[gone].client] + (kept[gone].client == asking) == most
     assert all(row.finished >= kept[gone].finished for row in may if row.client == kept[gone].client)
 
 

@@ -53,9 +53,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
         yield service
 
 
-def undisturbed(folder: Path, told: dict[str, Any]) -> Sweep:
+def undisturbed(folder: Path, spec_fields: dict[str, Any]) -> Sweep:
     """The same sweep, answered in this process."""
-    spec = Spec.of(told)
+    spec = Spec.of(spec_fields)
     begin(folder, spec)
     for shard in range(spec.shards):
         write_part(folder, spec, shard, [ShardPiece.whole(spec, spec.asks, shard).answer()])
@@ -64,15 +64,15 @@ def undisturbed(folder: Path, told: dict[str, Any]) -> Sweep:
 
 def parts(service: JobService) -> dict[str, tuple[int, int]]:
     """The shards of all sweeps: which file each is, and when it was written."""
-    found = sorted((service.folder / "sweeps").glob("*/part-*"))
-    return {file.name: (file.stat().st_ino, file.stat().st_mtime_ns) for file in found}
+    result = sorted((service.folder / "sweeps").glob("*/part-*"))
+    return {file.name: (file.stat().st_ino, file.stat().st_mtime_ns) for file in result}
 
 
 def followed(client: httpx.Client, address: str) -> tuple[Any, list[Any]]:
     """The last status of a sweep, and all from the first one that says how many designs are done."""
     with client.stream("GET", f"{address}/events") as events:
-        told = [json.loads(line[6:]) for line in events.iter_lines() if line.startswith("data: ")]
-    return told[-1], [status for status in told if status["done"] is not None]
+        lines = [json.loads(line[6:]) for line in events.iter_lines() if line.startswith("data: ")]
+    return lines[-1], [status for status in lines if status["done"] is not None]
 
 
 def metric(service: JobService, name: str) -> float:
@@ -86,7 +86,7 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobServ
     expected.to_csv(tmp_path / "a.csv")
     rows = expected.table().to_pylist()
     addresses = {form: service.post(SPEC | {"accept": form}, "/sweeps") for form in (CSV_TYPE, JSON)}
-    found = {}
+    entries = {}
     for form, address in addresses.items():
         status = service.finished(address)
         assert (status["status"], status["processID"], status["done"], status["total"]) == (
@@ -97,9 +97,9 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobServ
         )
         answer = service.client.get(f"{address}/result")
         assert answer.headers["content-type"].partition(";")[0] == form
-        found[form] = answer.content
-    assert found[CSV_TYPE] == (tmp_path / "a.csv").read_bytes()
-    columns = json.loads(found[JSON])
+        entries[form] = answer.content
+    assert entries[CSV_TYPE] == (tmp_path / "a.csv").read_bytes()
+    columns = json.loads(entries[JSON])
     assert [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)] == rows
     assert sum(code == "invalid-value" for code in columns["error.code"]) == 10
     wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
@@ -129,10 +129,10 @@ def test_a_sweep_that_is_killed_more_often_than_other_jobs_may_be_goes_on_from_i
         wait_for(lambda: service.of("child"))
         now = parts(service)
         assert {name: now[name] for name in there} == there
-    status, told = followed(service.client, address)
+    status, events = followed(service.client, address)
     assert status["status"] == "successful", status
-    assert any(0 < status["done"] < LONG_SPEC["over"]["dragon.width"]["count"] for status in told if status["rate"])
-    assert [status["done"] for status in told] == sorted(status["done"] for status in told)
+    assert any(0 < status["done"] < LONG_SPEC["over"]["dragon.width"]["count"] for status in events if status["rate"])
+    assert [status["done"] for status in events] == sorted(status["done"] for status in events)
     expected = undisturbed(tmp_path / "a", LONG_SPEC).compact().read_bytes()
     answer = service.client.get(f"{address}/result")
     assert answer.headers["content-type"] == PARQUET_TYPE

@@ -47,7 +47,7 @@ def test_a_workbook_is_the_table_that_a_spreadsheet_would_save_as_csv(client: ht
     assert client.post("/check", json=request).json()["first_contact"]["outcome"]
 
 
-def test_a_formula_without_a_value_is_told(client: httpx.Client) -> None:
+def test_a_formula_without_a_value_is_reported(client: httpx.Client) -> None:
     answer = client.post("/places", content=saved(ROWS), headers={"Content-Type": XLSX_TYPE}).json()
     assert answer["dance"]["dragon"]["csv"] == CSV + "吴,,0.3,0.275\n"
     assert answer["notes"] == [

@@ -41,11 +41,11 @@ def read(draw: Draw, unit: int = 6, version: str = "R2010", square: bool = True)
     return places_of(drawing(draw, unit, version, square), None, Say(Language.ENGLISH))
 
 
-def things(found: DanceParts) -> list[tuple[str, str, Any, float | None]]:
+def things(result: DanceParts) -> list[tuple[str, str, Any, float | None]]:
     """Name, form, coordinates and radius of the obstacles."""
-    assert found.geometry is not None
-    told = [(one["properties"], one["geometry"]) for one in found.geometry["features"][1:]]
-    return [(own["name"], form["type"], form["coordinates"], own.get("radius")) for own, form in told]
+    assert result.geometry is not None
+    values = [(one["properties"], one["geometry"]) for one in result.geometry["features"][1:]]
+    return [(own["name"], form["type"], form["coordinates"], own.get("radius")) for own, form in values]
 
 
 def tree(document: Any) -> Any:
@@ -59,9 +59,9 @@ def test_an_array_of_blocks_has_all_of_them() -> None:
         array = {"row_count": 2, "column_count": 3, "row_spacing": 4.0, "column_spacing": 5.0}
         tree(document).add_blockref("TREE", (0, 0), dxfattribs=array)
 
-    found = things(read(draw))
-    assert [(form, radius) for _, form, _, radius in found] == [("Point", 0.4)] * 6
-    assert sorted(place for _, _, place, _ in found) == [[x, y] for x in (0.0, 5.0, 10.0) for y in (0.0, 4.0)]
+    result = things(read(draw))
+    assert [(form, radius) for _, form, _, radius in result] == [("Point", 0.4)] * 6
+    assert sorted(place for _, _, place, _ in result) == [[x, y] for x in (0.0, 5.0, 10.0) for y in (0.0, 4.0)]
 
 
 def test_the_service_finds_every_tree_of_an_array(client: httpx.Client) -> None:
@@ -80,12 +80,12 @@ def test_a_drawing_without_a_unit_is_in_metres_however_small_it_is(place: tuple[
         document.modelspace().add_circle(place, 1.5)
         document.modelspace().add_circle((place[0] + 0.1, place[1] + 0.05), 0.2)
 
-    found = read(draw, unit=0, square=False)
-    (_, _, first, wide), (_, _, second, narrow) = things(found)
+    result = read(draw, unit=0, square=False)
+    (_, _, first, wide), (_, _, second, narrow) = things(result)
     assert first == pytest.approx(place)
     assert np.hypot(*(np.array(second) - first)) == pytest.approx(0.1118, abs=1e-4)
     assert (wide, narrow) == (1.5, 0.2)
-    assert "The file states no unit: its numbers are metres." in found.notes
+    assert "The file states no unit: its numbers are metres." in result.notes
 
 
 @pytest.mark.parametrize(("unit", "metres"), [(2, 0.3048), (21, 1200 / 3937), (15, 10.0), (8, 2.54e-8)])
@@ -110,10 +110,10 @@ def test_what_cannot_be_seen_is_left_out_and_said() -> None:
         space.add_blockref("TREE", (40, 9), dxfattribs={"layer": "TREES"})
         space.add_circle((0, 30), 1.0)
 
-    found = read(draw)
-    assert [place for _, _, place, _ in things(found)] == [[0.0, 30.0]]
-    assert "Left out, because hidden: 4 CIRCLEs." in found.notes
-    assert "Left out, because hidden: 1 INSERT." in found.notes
+    result = read(draw)
+    assert [place for _, _, place, _ in things(result)] == [[0.0, 30.0]]
+    assert "Left out, because hidden: 4 CIRCLEs." in result.notes
+    assert "Left out, because hidden: 1 INSERT." in result.notes
 
 
 def test_entities_of_a_block_take_its_layer() -> None:
@@ -122,10 +122,10 @@ def test_entities_of_a_block_take_its_layer() -> None:
         document.modelspace().add_blockref("BED", (5, 5), dxfattribs={"layer": "障碍"})
         document.modelspace().add_lwpolyline([(-60, -60), (60, -60), (60, 60), (-60, 60)], close=True)
 
-    found = read(draw, square=False)
-    assert found.venue is not None
-    assert found.venue.square.rings[0][0] == (-60.0, -60.0)
-    assert [form for _, form, _, _ in things(found)] == ["Polygon"]
+    result = read(draw, square=False)
+    assert result.venue is not None
+    assert result.venue.square.rings[0][0] == (-60.0, -60.0)
+    assert [form for _, form, _, _ in things(result)] == ["Polygon"]
 
 
 def test_meshes_are_left_out_and_the_rest_is_read() -> None:
@@ -134,9 +134,9 @@ def test_meshes_are_left_out_and_the_rest_is_read() -> None:
         document.modelspace().add_polyface()
         document.modelspace().add_circle((10, 5), 1.0)
 
-    found = read(draw)
-    assert [place for _, _, place, _ in things(found)] == [[10.0, 5.0]]
-    assert {"Left out: 1 POLYMESH.", "Left out: 1 POLYFACE."} <= set(found.notes)
+    result = read(draw)
+    assert [place for _, _, place, _ in things(result)] == [[10.0, 5.0]]
+    assert {"Left out: 1 POLYMESH.", "Left out: 1 POLYFACE."} <= set(result.notes)
 
 
 def test_a_closed_spline_is_the_area_in_it() -> None:
@@ -157,9 +157,9 @@ def test_a_spline_that_is_damaged_is_left_out_and_said() -> None:
         entity.control_points, entity.knots = [(0, 0, 0), (1, 2, 0), (3, 4, 0), (9, 9, 0)], [0, 0, 0, 0, 1, 1, 1, 0.5]
         document.modelspace().add_circle((10, 5), 1.0)
 
-    found = read(draw)
-    assert len(things(found)) == 1
-    assert "Left out: 1 damaged SPLINE." in found.notes
+    result = read(draw)
+    assert len(things(result)) == 1
+    assert "Left out: 1 damaged SPLINE." in result.notes
 
 
 @pytest.mark.parametrize(("version", "unit"), [("R12", 6), ("R2010", 6), ("R2010", 4)])
@@ -175,10 +175,10 @@ def test_a_wide_line_is_a_wall_of_its_width(version: str, unit: int) -> None:
         assert line.dxf.const_width == pytest.approx(0.6 / metres)
         space.add_lwpolyline([(x, 20 / metres, 0.4 / metres, 2.0 / metres) for x, _ in points], format="xyse")
 
-    found = things(read(draw, unit=unit, version=version, square=False))
-    assert {form for _, form, _, _ in found} == {"LineString"}
+    result = things(read(draw, unit=unit, version=version, square=False))
+    assert {form for _, form, _, _ in result} == {"LineString"}
     # A line of changing width is as wide as its widest place: the safe side.
-    assert [radius for *_, radius in found] == pytest.approx([1.0] if version == "R12" else [0.3, 1.0])
+    assert [radius for *_, radius in result] == pytest.approx([1.0] if version == "R12" else [0.3, 1.0])
 
 
 def test_a_wide_line_in_a_block_is_as_wide_as_the_block_is_large() -> None:
@@ -205,10 +205,10 @@ def test_a_wide_outline_of_the_square_leaves_the_square() -> None:
         corners = [(-60, -60), (60, -60), (60, 60), (-60, 60)]
         document.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"const_width": 1.0})
 
-    found = read(draw, square=False)
-    assert found.venue is not None
-    assert found.venue.square.rings[0][0] == (-60.0, -60.0)
-    assert [(form, radius) for _, form, _, radius in things(found)] == [("LineString", 0.5)]
+    result = read(draw, square=False)
+    assert result.venue is not None
+    assert result.venue.square.rings[0][0] == (-60.0, -60.0)
+    assert [(form, radius) for _, form, _, radius in things(result)] == [("LineString", 0.5)]
 
 
 def test_a_text_beside_a_wall_names_the_wall() -> None:
@@ -223,9 +223,9 @@ def test_a_text_beside_a_wall_names_the_wall() -> None:
         space.add_mtext("bed\nof roses", dxfattribs={"insert": (-30, 30), "char_height": 1.0})
         space.add_lwpolyline([(-32, 25), (-25, 25), (-25, 29), (-32, 29)], close=True)
 
-    found = read(draw)
-    assert found.venue is not None
-    assert [area.name for area in found.venue.areas] == ["Temple square", "garden wall", "old elm", "bed of roses"]
+    result = read(draw)
+    assert result.venue is not None
+    assert [area.name for area in result.venue.areas] == ["Temple square", "garden wall", "old elm", "bed of roses"]
 
 
 def test_an_attribute_of_a_block_names_what_is_beside_it() -> None:
@@ -235,8 +235,8 @@ def test_an_attribute_of_a_block_names_what_is_beside_it() -> None:
         block.add_attdef("NAME", (0.5, 0), height=0.3)
         document.modelspace().add_blockref("TREE", (7, 7)).add_auto_attribs({"NAME": "camphor"})
 
-    found = read(draw)
-    assert [name for name, *_ in things(found)] == ["camphor"]
+    result = read(draw)
+    assert [name for name, *_ in things(result)] == ["camphor"]
 
 
 def test_a_circle_on_the_layer_of_the_square_is_a_round_square() -> None:
@@ -244,12 +244,12 @@ def test_a_circle_on_the_layer_of_the_square_is_a_round_square() -> None:
         document.modelspace().add_circle((5, 0), 30.0, dxfattribs={"layer": "SQUARE"})
         document.modelspace().add_circle((5, 5), 1.0, dxfattribs={"layer": "TREES"})
 
-    found = read(draw, square=False)
-    assert found.venue is not None
-    away = np.hypot(*(np.array(found.venue.square.rings[0]) - (5.0, 0.0)).T)
+    result = read(draw, square=False)
+    assert result.venue is not None
+    away = np.hypot(*(np.array(result.venue.square.rings[0]) - (5.0, 0.0)).T)
     assert away == pytest.approx(30.0)
     assert len(away) > 100
-    assert len(things(found)) == 1
+    assert len(things(result)) == 1
 
 
 def test_four_lines_that_close_are_the_square() -> None:
@@ -260,10 +260,10 @@ def test_four_lines_that_close_are_the_square() -> None:
             document.modelspace().add_line(corners[k], corners[(k + 1) % 4], dxfattribs={"layer": "SQUARE"})
         document.modelspace().add_circle((5, 5), 1.0)
 
-    found = read(draw, square=False)
-    assert found.venue is not None
-    assert set(found.venue.square.rings[0]) == set(corners)
-    assert len(things(found)) == 1
+    result = read(draw, square=False)
+    assert result.venue is not None
+    assert set(result.venue.square.rings[0]) == set(corners)
+    assert len(things(result)) == 1
 
 
 def test_lines_and_arcs_of_the_path_are_one_path() -> None:
@@ -274,13 +274,13 @@ def test_lines_and_arcs_of_the_path_are_one_path() -> None:
         document.modelspace().add_line((10, 10), (0, 10), dxfattribs=on_path)
         document.modelspace().add_line((30, 30), (40, 40), dxfattribs=on_path)
 
-    found = read(draw)
-    assert found.path is not None
-    points = np.array(found.path["points"])
+    result = read(draw)
+    assert result.path is not None
+    points = np.array(result.path["points"])
     assert {tuple(points[0]), tuple(points[-1])} == {(0.0, 0.0), (0.0, 10.0)}
     assert np.abs(points[:, 0] - 15.0).min() < 0.1
-    assert things(found) == []
-    assert "2 lines are called path; the first is the path, and the others are left out." in found.notes
+    assert things(result) == []
+    assert "2 lines are called path; the first is the path, and the others are left out." in result.notes
 
 
 def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said() -> None:
@@ -289,10 +289,10 @@ def test_the_line_of_a_square_that_is_not_closed_is_closed_and_said() -> None:
         document.modelspace().add_lwpolyline(corners, dxfattribs={"layer": "SQUARE"})
         document.modelspace().add_circle((5, 5), 1.0)
 
-    found = read(draw, square=False)
-    assert found.venue is not None
-    assert len(found.venue.square.rings[0]) == 5
-    assert any("does not end where it begins" in note for note in found.notes)
+    result = read(draw, square=False)
+    assert result.venue is not None
+    assert len(result.venue.square.rings[0]) == 5
+    assert any("does not end where it begins" in note for note in result.notes)
 
 
 def test_a_large_arc_is_as_round_as_it_is() -> None:
@@ -349,8 +349,8 @@ def test_the_command_keeps_a_survey_grid(tmp_path: Path) -> None:
     (tmp_path / "grid.dxf").write_bytes(drawing(on_grid(500_000.0, 3_220_000.0), square=False))
     done = run("places", str(tmp_path / "grid.dxf"), "--output", str(tmp_path / "dance.json"))
     assert "The coordinates are those of a survey grid; x = y = 0 is its x 500000 m, y 3220000 m." in done.stderr
-    told = json.loads((tmp_path / "dance.json").read_text())
-    (tmp_path / "dance.json").write_text(json.dumps(told | {"dragon": {"benches": 2}}))
+    answer = json.loads((tmp_path / "dance.json").read_text())
+    (tmp_path / "dance.json").write_text(json.dumps(answer | {"dragon": {"benches": 2}}))
     assert run("check", str(tmp_path / "dance.json")).returncode == 0
     assert run("maps", str(tmp_path / "dance.json"), "--output", str(tmp_path / "again.dxf")).returncode == 0
     [circle] = ezdxf.readfile(tmp_path / "again.dxf").modelspace().query("CIRCLE[layer=='OBSTACLES']")
@@ -400,9 +400,9 @@ def test_a_long_path_beside_the_square_is_compared() -> None:
         line = [(300.0 + 0.001 * k, 300.0) for k in range(15_000)]
         document.modelspace().add_lwpolyline(line, dxfattribs={"layer": "PATH"})
 
-    found = read(draw, square=False)
-    assert found.path is not None
-    assert any("No polygon is the square" in note for note in found.notes)
+    result = read(draw, square=False)
+    assert result.path is not None
+    assert any("No polygon is the square" in note for note in result.notes)
 
 
 def test_blocks_that_are_not_in_the_file_are_left_out_and_said() -> None:
@@ -412,9 +412,9 @@ def test_blocks_that_are_not_in_the_file_are_left_out_and_said() -> None:
         document.modelspace().add_blockref("OTHER", (5, 5))
         document.modelspace().add_circle((10, 5), 1.0)
 
-    found = read(draw)
-    assert len(things(found)) == 1
-    assert {"Left out: 1 damaged INSERT.", "Left out: 1 block of another drawing."} <= set(found.notes)
+    result = read(draw)
+    assert len(things(result)) == 1
+    assert {"Left out: 1 damaged INSERT.", "Left out: 1 block of another drawing."} <= set(result.notes)
 
 
 @pytest.mark.parametrize("version", ["R2000", "R2010"])
@@ -428,8 +428,8 @@ def test_names_of_a_chinese_drawing_are_read(version: str) -> None:
     document.modelspace().add_text("樟树", height=0.5, dxfattribs={"insert": (3, 4)})
     sink = io.StringIO()
     document.write(sink)
-    found = places_of(sink.getvalue().encode(document.output_encoding), None, Say(Language.ENGLISH))
-    assert [name for name, *_ in things(found)] == ["樟树"]
+    result = places_of(sink.getvalue().encode(document.output_encoding), None, Say(Language.ENGLISH))
+    assert [name for name, *_ in things(result)] == ["樟树"]
 
 
 def test_more_texts_than_can_be_compared_name_nothing_and_are_said() -> None:
@@ -439,7 +439,7 @@ def test_more_texts_than_can_be_compared_name_nothing_and_are_said() -> None:
         line = [(300.0 + 0.1 * k, 300.0) for k in range(1_500)]
         document.modelspace().add_lwpolyline(line, dxfattribs={"layer": "PATH"})
 
-    found = read(draw)
-    assert "Left out: 3000 texts." in found.notes
-    assert found.venue is not None
-    assert found.venue.square.name == "square"
+    result = read(draw)
+    assert "Left out: 3000 texts." in result.notes
+    assert result.venue is not None
+    assert result.venue.square.name == "square"

@@ -63,6 +63,6 @@ def test_a_path_that_closes_stays_a_line() -> None:
 def test_two_rings_are_two_areas_in_their_places() -> None:
     other = [[(x + 20, y) for x, y in points] for points in FOUR]
     between = MapFeature("point", (((1, 1),),), "tree")
-    found = joined([*lines(*FOUR), between, *lines(*other)])
-    assert [one.shape for one in found] == ["polygon", "point", "polygon"]
-    assert {x for x, _ in found[2].rings[0]} == {20, 29}
+    result = joined([*lines(*FOUR), between, *lines(*other)])
+    assert [one.shape for one in result] == ["polygon", "point", "polygon"]
+    assert {x for x, _ in result[2].rings[0]} == {20, 29}

@@ -43,9 +43,9 @@ def read(data: bytes, units: Any = None) -> DanceParts:
     return places_of(data, units, SAY)
 
 
-def rings(found: DanceParts) -> list[Any]:
-    assert found.venue is not None
-    return [np.array(ring) for area in found.venue.areas for ring in area.rings]
+def rings(result: DanceParts) -> list[Any]:
+    assert result.venue is not None
+    return [np.array(ring) for area in result.venue.areas for ring in area.rings]
 
 
 @pytest.mark.parametrize("format", MapFormat)
@@ -55,13 +55,13 @@ def test_what_goes_out_comes_in_as_it_was(client: httpx.Client, format: str, pat
     data = client.post(f"/maps.{format}", json=body).raise_for_status().content
     headers = {"Content-Type": "application/octet-stream"}
     got = client.post("/places", content=data, headers=headers).raise_for_status().json()
-    told = {name: value for name, value in got["path"].items() if path.get(name) is not None}
-    assert told == path
+    values = {name: value for name, value in got["path"].items() if path.get(name) is not None}
+    assert values == path
     assert got["venue"]["origin"] == ORIGIN
     came = [(one["properties"]["name"], one["geometry"]["coordinates"]) for one in got["venue"]["features"]]
     assert [name for name, _ in came] == [one["properties"]["name"] for one in VILLAGE["features"]]
-    for (_, found), one in zip(came, VILLAGE["features"], strict=True):
-        assert np.abs(np.array(found) - np.array(one["geometry"]["coordinates"])).max() < ROUNDING
+    for (_, result), one in zip(came, VILLAGE["features"], strict=True):
+        assert np.abs(np.array(result) - np.array(one["geometry"]["coordinates"])).max() < ROUNDING
     # The answer can be sent back, and knows where it is.
     again = {"dragon": {"benches": 2}, "path": got["path"], "venue": got["venue"]}
     assert client.post("/maps.kml", json=again).raise_for_status().content.startswith(b"<?xml")
@@ -91,18 +91,18 @@ def test_trees_and_walls_come_back_as_they_were(
 ) -> None:
     body = {"dragon": {"benches": 2}, "path": CORNER, "venue": {"type": "FeatureCollection", "features": THINGS}}
     data = client.post(f"/maps.{format}", json=body | {"origin": origin}).raise_for_status().content
-    found = read(data)
-    assert found.geometry is not None
-    assert not any("without a radius" in note for note in found.notes)
-    for got, put in zip(found.geometry["features"], THINGS, strict=True):
+    result = read(data)
+    assert result.geometry is not None
+    assert not any("without a radius" in note for note in result.notes)
+    for got, put in zip(result.geometry["features"], THINGS, strict=True):
         assert (got["properties"], got["geometry"]["type"]) == (put["properties"], put["geometry"]["type"])
         came, was = (np.array(one["geometry"]["coordinates"]) for one in (got, put))
         assert came.shape == was.shape
         assert np.abs(came - was).max() < ROUNDING
     # So they do from a file that describes the dance.
-    again = read(json.dumps({"venue": found.geometry}).encode())
-    assert again.geometry == found.geometry
-    assert again.venue == found.venue
+    again = read(json.dumps({"venue": result.geometry}).encode())
+    assert again.geometry == result.geometry
+    assert again.venue == result.venue
 
 
 def test_trees_and_walls_of_a_drawing_are_as_wide_as_they_are(client: httpx.Client) -> None:
@@ -116,8 +116,8 @@ def test_trees_and_walls_of_a_drawing_are_as_wide_as_they_are(client: httpx.Clie
 
 def test_marks_stand_every_five_metres_of_the_path(client: httpx.Client) -> None:
     body = {"dragon": {"benches": 2}, "path": CORNER}
-    told = client.post("/maps.geojson", json=body).raise_for_status().json()
-    marks = [one for one in told["features"] if one["properties"]["role"] == "mark"]
+    answer = client.post("/maps.geojson", json=body).raise_for_status().json()
+    marks = [one for one in answer["features"] if one["properties"]["role"] == "mark"]
     assert [one["properties"]["name"] for one in marks] == ["0", "5", "10", "15"]
     # 15 m along: 3 m into the arc of radius 5 m around (0, -3).
     angle = -np.pi / 2 + 3.0 / 5.0
@@ -134,9 +134,9 @@ def test_a_path_whose_line_was_moved_goes_through_the_line() -> None:
     straight = {"kind": "waypoints", "points": [[0.0, 0.0], [20.0, 0.0]]}
     feature = {"type": "Feature", "properties": {"name": "path", "path": straight},
                "geometry": {"type": "LineString", "coordinates": line}}  # fmt: skip
-    found = read(json.dumps(feature).encode())
-    assert found.path == {"kind": "waypoints", "points": line}
-    assert "edited" in found.notes[1]
+    result = read(json.dumps(feature).encode())
+    assert result.path == {"kind": "waypoints", "points": line}
+    assert "edited" in result.notes[1]
 
 
 KML = """<kml xmlns="http://www.opengis.net/kml/2.2"><Document><name>Temple</name>
@@ -156,21 +156,21 @@ def test_a_map_drawn_on_a_phone_is_understood() -> None:
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("doc.kml", KML)
     for data in (KML.encode(), packed.getvalue()):
-        found = read(data)
-        assert found.venue is not None
-        assert [area.name for area in found.venue.areas] == ["square", "camphor"]
-        square, tree = rings(found)
+        result = read(data)
+        assert result.venue is not None
+        assert [area.name for area in result.venue.areas] == ["square", "camphor"]
+        square, tree = rings(result)
         # A degree of longitude is 96,486 m at a latitude of 30 degrees, one of latitude 110,852 m.
         assert np.ptp(square, axis=0) == pytest.approx([0.0004 * 96_486, 0.0003 * 110_852], rel=1e-3)
         centre = np.array([-0.0001 * 96_486, -0.00005 * 110_852])
         away = np.hypot(*(tree - centre).T)
         assert away.min() > 0.79
         assert away.max() < 0.83
-        assert found.path is not None
-        assert found.path["points"][0] == pytest.approx([-0.0001 * 96_486, 0.00005 * 110_852], rel=1e-2)
-        assert found.origin is not None
-        assert (found.origin.longitude, found.origin.latitude) == pytest.approx((120.0002, 30.00015))
-        assert "Left out: 1 GroundOverlay." in found.notes
+        assert result.path is not None
+        assert result.path["points"][0] == pytest.approx([-0.0001 * 96_486, 0.00005 * 110_852], rel=1e-2)
+        assert result.origin is not None
+        assert (result.origin.longitude, result.origin.latitude) == pytest.approx((120.0002, 30.00015))
+        assert "Left out: 1 GroundOverlay." in result.notes
 
 
 def drawing() -> bytes:
@@ -193,18 +193,18 @@ def drawing() -> bytes:
 
 
 def test_a_foreign_drawing_is_understood() -> None:
-    found = read(drawing())
-    assert found.venue is not None
-    assert [area.name for area in found.venue.areas] == ["square", "obstacle 1", "well", "obstacle 3"]
-    square, tree, well, wall = rings(found)
+    result = read(drawing())
+    assert result.venue is not None
+    assert [area.name for area in result.venue.areas] == ["square", "obstacle 1", "well", "obstacle 3"]
+    square, tree, well, wall = rings(result)
     assert np.ptp(square[:, 1]) == pytest.approx(30.0)
     # A bulge of 0.2 on a side of 30 m reaches 0.2 x 15 m beyond it.
     assert square[:, 0].max() == pytest.approx(43.0, abs=0.01)
     assert tree.mean(axis=0) == pytest.approx([10.0, 10.0], abs=0.1)
     assert np.ptp(well[:, 0]) == pytest.approx(3.0, rel=0.02)  # as far as the polygon of a circle may exceed it
     assert np.ptp(wall, axis=0) == pytest.approx([4.2, 0.2], rel=GROWTH_MOST - 1.0)
-    assert found.path == {"kind": "waypoints", "points": [[5.0, 5.0], [30.0, 5.0]]}
-    assert "Left out: 1 3DFACE." in found.notes
+    assert result.path == {"kind": "waypoints", "points": [[5.0, 5.0], [30.0, 5.0]]}
+    assert "Left out: 1 3DFACE." in result.notes
 
 
 @pytest.mark.parametrize("version", ["R12", "R2010"])
@@ -233,14 +233,14 @@ def test_the_unit_is_told_by_the_range_or_by_who_asks() -> None:
 
 def test_points_alone_get_a_square_around_them_and_a_radius_that_is_said() -> None:
     points = {"type": "MultiPoint", "coordinates": [[0.0, 0.0], [300.0, 40.0]]}
-    found = read(json.dumps(points).encode())
-    assert found.venue is not None
-    assert rings(found)[0].min(axis=0).tolist() == [-20.0, -20.0]
-    assert [area.name for area in found.venue.obstacles] == ["obstacle 1", "obstacle 2"]
-    assert any("2 things without a radius; 0.5 m is assumed" in note for note in found.notes)
+    result = read(json.dumps(points).encode())
+    assert result.venue is not None
+    assert rings(result)[0].min(axis=0).tolist() == [-20.0, -20.0]
+    assert [area.name for area in result.venue.obstacles] == ["obstacle 1", "obstacle 2"]
+    assert any("2 things without a radius; 0.5 m is assumed" in note for note in result.notes)
     # They stay points with a radius, for a request and for whoever moves them.
-    assert found.geometry is not None
-    thing = found.geometry["features"][2]
+    assert result.geometry is not None
+    thing = result.geometry["features"][2]
     assert thing["geometry"] == {"type": "Point", "coordinates": [300.0, 40.0]}
     assert thing["properties"] == {"name": "obstacle 2", "radius": 0.5}
 
@@ -283,10 +283,10 @@ def test_a_map_that_states_no_encoding_is_read_as_chinese_programs_write_it(arch
         with zipfile.ZipFile(packed, "w") as archive:
             archive.writestr("doc.kml", data)
         data = packed.getvalue()
-    found = read(data)
-    assert found.venue is not None
-    assert found.venue.square.name == "广场"
-    assert "The file is not in UTF-8; it was read as GB 18030." in found.notes
+    result = read(data)
+    assert result.venue is not None
+    assert result.venue.square.name == "广场"
+    assert "The file is not in UTF-8; it was read as GB 18030." in result.notes
 
 
 @pytest.mark.parametrize("coding", ["utf-16", "gb18030"])
@@ -296,13 +296,13 @@ def test_text_of_chinese_and_windows_programs_is_read(coding: str, form: str) ->
     if form == "geojson":
         square = {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 95], [0, 0]]]}
         text = json.dumps({"type": "Feature", "properties": {"name": "广场"}, "geometry": square}, ensure_ascii=False)
-    found = read(text.encode(coding))
+    result = read(text.encode(coding))
     if form == "geojson":
-        assert found.venue is not None
-        assert found.venue.square.name == "广场"
+        assert result.venue is not None
+        assert result.venue.square.name == "广场"
     else:
-        assert found.dance == {"name": "龙"}
-    assert ("The file is not in UTF-8; it was read as GB 18030." in found.notes) == (coding == "gb18030")
+        assert result.dance == {"name": "龙"}
+    assert ("The file is not in UTF-8; it was read as GB 18030." in result.notes) == (coding == "gb18030")
 
 
 @pytest.mark.parametrize(
@@ -317,15 +317,15 @@ def test_a_map_of_nothing_is_refused(client: httpx.Client, inner: str) -> None:
     assert answer.json()["detail"] == "file must hold a polygon, a line or a point, got none of these"
 
 
-def test_what_is_empty_or_hidden_is_left_out_and_said() -> None:
+def test_what_is_empty_or_hidden_is_left_out_and_reported() -> None:
     point = "<Point><coordinates>119.6405,29.1105</coordinates></Point>"
     hidden = f"<Folder><visibility>0</visibility><Placemark>{point}</Placemark></Folder>"
     hidden += f"<Placemark><visibility>0</visibility>{point}</Placemark>"
     lone = f"<Placemark>{outline(' ')}</Placemark>"
-    found = read(placemark(f"<name>square</name>{outline(CORNERS)}", hidden + lone).encode())
-    assert found.venue is not None
-    assert found.venue.obstacles == ()
-    assert {"Left out, because hidden: 2 points.", "Left out: 1 empty Polygon."} <= set(found.notes)
+    result = read(placemark(f"<name>square</name>{outline(CORNERS)}", hidden + lone).encode())
+    assert result.venue is not None
+    assert result.venue.obstacles == ()
+    assert {"Left out, because hidden: 2 points.", "Left out: 1 empty Polygon."} <= set(result.notes)
 
 
 def test_commas_between_points_are_named() -> None:
@@ -340,9 +340,9 @@ def test_a_name_in_the_data_is_the_name_where_there_is_no_other() -> None:
     point = "<Point><coordinates>119.6405,29.1105</coordinates></Point>"
     square = f"<Placemark><name>square</name>{outline(CORNERS)}</Placemark>"
     for own, name in (("", "old elm"), ("<name>elm 7</name>", "elm 7")):
-        found = read(placemark(own + data + point, square).encode())
-        assert found.venue is not None
-        assert [area.name for area in found.venue.obstacles] == [name]
+        result = read(placemark(own + data + point, square).encode())
+        assert result.venue is not None
+        assert [area.name for area in result.venue.obstacles] == [name]
 
 
 def test_a_square_at_the_date_line_is_as_small_as_it_is(client: httpx.Client) -> None:
@@ -353,12 +353,12 @@ def test_a_square_at_the_date_line_is_as_small_as_it_is(client: httpx.Client) ->
         "properties": {"name": "square"},
         "geometry": {"type": "Polygon", "coordinates": [ring]},
     }
-    found = read(json.dumps({"type": "FeatureCollection", "features": [square, tree]}).encode())
-    assert np.ptp(rings(found)[0], axis=0) == pytest.approx([111.3, 110.6], abs=0.1)
-    assert found.origin is not None
-    assert abs(found.origin.longitude) == pytest.approx(180.0)
-    assert rings(found)[1].mean(axis=0) == pytest.approx([11.1, 0.0], abs=0.2)
-    answer = client.post("/check", json={"dragon": {"benches": 2}, "venue": found.geometry})
+    result = read(json.dumps({"type": "FeatureCollection", "features": [square, tree]}).encode())
+    assert np.ptp(rings(result)[0], axis=0) == pytest.approx([111.3, 110.6], abs=0.1)
+    assert result.origin is not None
+    assert abs(result.origin.longitude) == pytest.approx(180.0)
+    assert rings(result)[1].mean(axis=0) == pytest.approx([11.1, 0.0], abs=0.2)
+    answer = client.post("/check", json={"dragon": {"benches": 2}, "venue": result.geometry})
     assert answer.status_code == 200, answer.text
 
 
@@ -376,16 +376,16 @@ def test_places_and_check_agree_about_degrees(client: httpx.Client, across: floa
             read(json.dumps(square).encode())
         assert taken_for_degrees
         return
-    found = read(json.dumps(square).encode())
-    assert (found.origin is not None) == taken_for_degrees
-    again = client.post("/check", json={"dragon": {"benches": 2}, "venue": found.geometry})
+    result = read(json.dumps(square).encode())
+    assert (result.origin is not None) == taken_for_degrees
+    again = client.post("/check", json={"dragon": {"benches": 2}, "venue": result.geometry})
     assert again.status_code == 200, again.text
 
 
 def test_a_square_that_check_refuses_is_noted() -> None:
     square = {"type": "Polygon", "coordinates": [[[0, 0], [2, 0], [2, 2], [0, 0]]]}
-    found = read(json.dumps(square).encode(), "metres")
-    assert any("narrower than a bench of 3.41 m: check refuses it" in note for note in found.notes)
+    result = read(json.dumps(square).encode(), "metres")
+    assert any("narrower than a bench of 3.41 m: check refuses it" in note for note in result.notes)
 
 
 def zipped(size: int) -> bytes:
@@ -454,8 +454,8 @@ def test_a_file_that_cannot_be_used_is_refused_in_words(data: bytes, words: str)
 def test_the_service_refuses_in_problem_details(
     client: httpx.Client, query: dict[str, str], headers: dict[str, str], status: int, words: str
 ) -> None:
-    given = {"Content-Type": "application/vnd.google-earth.kml+xml"} | headers
-    answer = client.post("/places", content=BOMB, params=query, headers=given)
+    own_headers = {"Content-Type": "application/vnd.google-earth.kml+xml"} | headers
+    answer = client.post("/places", content=BOMB, params=query, headers=own_headers)
     assert (answer.status_code, answer.headers["content-type"]) == (status, "application/problem+json")
     assert words in answer.json()["detail"]
 

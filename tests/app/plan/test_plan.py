@@ -62,8 +62,8 @@ def boxes(page: Any) -> np.ndarray[Any, Any]:
 
 
 def holds_box(page: Any, width: float, height: float) -> bool:
-    found = boxes(page)
-    sizes = found[:, 2:] - found[:, :2]
+    result = boxes(page)
+    sizes = result[:, 2:] - result[:, :2]
     # The bounds of a shape hold the line around it, too.
     return bool((np.abs(sizes - [width, height]) < 0.9).all(axis=1).any())
 
@@ -71,12 +71,12 @@ def holds_box(page: Any, width: float, height: float) -> bool:
 def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages: Any) -> None:
     assert size(pages[0]) == pytest.approx([297.0, 210.0], abs=0.01)
     assert "1:200" in words(pages[0])
-    found = boxes(pages[0])
-    sizes = found[:, 2:] - found[:, :2]
+    result = boxes(pages[0])
+    sizes = result[:, 2:] - result[:, :2]
     # The black half of the scale bar is 5 m long, without a line around it.
     assert np.abs(sizes - [25.0, 1.6]).max(axis=1).min() < ON_PAPER
     # Above the title block the nine marks, 2.2 mm high and as wide as their lines, stand every 5 m.
-    ticks = found[(np.abs(sizes[:, 1] - 2.6) < 0.1) & (sizes[:, 0] < 0.5) & (found[:, 1] > 45.0)]
+    ticks = result[(np.abs(sizes[:, 1] - 2.6) < 0.1) & (sizes[:, 0] < 0.5) & (result[:, 1] > 45.0)]
     assert np.diff(np.sort(ticks[:, 0])) == pytest.approx(np.full(8, 25.0), abs=ON_PAPER)
     # The kiosk: 6 m by 4 m; the square: 50 m by 24 m.
     assert holds_box(pages[0], 30.0, 20.0)
@@ -84,13 +84,13 @@ def test_ten_metres_are_fifty_millimetres_at_one_to_two_hundred(pages: Any) -> N
 
 
 def test_all_that_is_promised_can_be_found_as_words(pages: Any) -> None:
-    told = [words(page) for page in pages]
+    texts = [words(page) for page in pages]
     assert len(pages) == 5
     for word in ("Lantern night", "kiosk", "N", "keep clear, 0.3 m", "chalk mark every 5 m", "Checked: passes", "1/5"):
-        assert word in told[0]
+        assert word in texts[0]
     for k, time in enumerate(("0:11.1", "0:25.6", "0:40.0")):
-        assert f"Place of each bench at {time}" in told[1 + k]
-    tables = " ".join(told[4].split())
+        assert f"Place of each bench at {time}" in texts[1 + k]
+    tables = " ".join(texts[4].split())
     # The dragon is 2.86 + 5 x 1.65 = 11.11 m long, and goes the 28.89 m to the end at 1 m/s.
     assert "the dance begins, head at 11.1 m 0:11.1" in tables
     assert "the dance ends, head at 40.0 m 0:40.0" in tables
@@ -109,13 +109,13 @@ def test_every_font_is_in_the_file(pages: Any) -> None:
 
 def test_no_words_are_painted_over(pages: Any) -> None:
     drawn = list(pages[-1].get_objects())
-    filled = (ctypes.c_uint * 4)()
+    complete = (ctypes.c_uint * 4)()
     bands = []
     for k, one in enumerate(drawn):
         if one.type == pdfium.FPDF_PAGEOBJ_PATH and pdfium.FPDFPageObj_GetFillColor(
-            one.raw, *(ctypes.cast(ctypes.byref(filled, 4 * i), ctypes.POINTER(ctypes.c_uint)) for i in range(4))
+            one.raw, *(ctypes.cast(ctypes.byref(complete, 4 * i), ctypes.POINTER(ctypes.c_uint)) for i in range(4))
         ):
-            bands += [k] if tuple(filled[:3]) == (242, 242, 242) else []
+            bands += [k] if tuple(complete[:3]) == (242, 242, 242) else []
     assert len(bands) > 10
     assert max(bands) < min(k for k, one in enumerate(drawn) if one.type == pdfium.FPDF_PAGEOBJ_TEXT)
 

@@ -64,6 +64,6 @@ def test_a_student_whose_file_needs_too_much_memory_does_not_stop_the_others(tmp
     words = [sys.executable, "-c", GRADE, str(tmp_path)]
     done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    said = " ".join(done.stdout.split())  # The lines are as wide as a terminal.
-    assert said.count("The file was not read: that takes more than 8 MB of memory.") == 1
-    assert "b.csv: unreadable" in said
+    text = " ".join(done.stdout.split())  # The lines are as wide as a terminal.
+    assert text.count("The file was not read: that takes more than 8 MB of memory.") == 1
+    assert "b.csv: unreadable" in text

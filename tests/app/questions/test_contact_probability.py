@@ -15,10 +15,10 @@ import core
 from tests.support.command import run
 
 MODEL = {"lateral": 0.02, "forward": 0.005, "correlation_time": 4.0, "step": 0.5, "hole": 0.055, "pin": 0.05}
-ASKED = {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, "start": 395.0, "stop": 405.0}
+REQUEST = {"dragon": {"benches": 20}, **MODEL, "samples": 60, "seed": 3, "start": 395.0, "stop": 405.0}
 
 
-def told(*options: str, wrong: bool = False) -> str:
+def output_of(*options: str, wrong: bool = False) -> str:
     """What the command prints, on standard error if it refuses."""
     done = run("contact-probability", *options)
     assert done.returncode == (2 if wrong else 0), done.stderr
@@ -26,10 +26,10 @@ def told(*options: str, wrong: bool = False) -> str:
 
 
 def test_the_service_and_the_command_answer_what_core_answers(client: httpx.Client, tmp_path: Path) -> None:
-    got = client.post("/contact-probability", json=ASKED).raise_for_status().json()
+    got = client.post("/contact-probability", json=REQUEST).raise_for_status().json()
     dance = core.Dance(core.Dragon(20), core.Spiral())
-    found = core.contact_probability(dance, core.Wobble(**MODEL), 60, 3, start=395.0, stop=405.0)
-    assert 5 < found.contacts < 60
+    result = core.contact_probability(dance, core.Wobble(**MODEL), 60, 3, start=395.0, stop=405.0)
+    assert 5 < result.contacts < 60
     names = (
         "probability",
         "contacts",
@@ -42,20 +42,20 @@ def test_the_service_and_the_command_answer_what_core_answers(client: httpx.Clie
         "stop",
         "method",
     )
-    assert {name: got[name] for name in names} == {name: getattr(found, name) for name in names}
-    assert tuple(got["limits"]) == found.limits
-    assert got["claim"] == asdict(found.claim)
-    assert got["time_quantiles"] == np.quantile(found.time, (0.05, 0.5, 0.95)).tolist()
-    pairs = [tuple(pair) for pair in found.benches.tolist()]
+    assert {name: got[name] for name in names} == {name: getattr(result, name) for name in names}
+    assert tuple(got["limits"]) == result.limits
+    assert got["claim"] == asdict(result.claim)
+    assert got["time_quantiles"] == np.quantile(result.time, (0.05, 0.5, 0.95)).tolist()
+    pairs = [tuple(pair) for pair in result.benches.tolist()]
     assert tuple(got["benches"]) == max(sorted(set(pairs)), key=pairs.count)
     file = tmp_path / "dance.json"
-    file.write_text(json.dumps(ASKED))
-    assert json.loads(told(str(file), "--json")) == got
+    file.write_text(json.dumps(REQUEST))
+    assert json.loads(output_of(str(file), "--json")) == got
 
 
 def test_the_command_asks_for_the_way_to_the_circle(client: httpx.Client) -> None:
     options = ["--benches", "12", "--start-turns", "7", "--pitch", "0.5", "--turning-diameter", "6", "--samples", "20"]
-    got = json.loads(told(*options, "--lateral", "0.03", "--json"))
+    got = json.loads(output_of(*options, "--lateral", "0.03", "--json"))
     dance = core.Dance(core.Dragon(12), core.Spiral(0.5, 7.0))
     assert dance.path.head(got["stop"]).radius == pytest.approx(3.0, abs=1e-9)
     same = {"dragon": {"benches": 12}, "path": {"kind": "spiral", "pitch": 0.5, "start_turns": 7}, "lateral": 0.03}
@@ -77,7 +77,7 @@ def test_without_a_contact_or_with_a_pitch_error_some_fields_are_null(client: ht
 
 
 @pytest.mark.parametrize(
-    ("given", "pointer", "words"),
+    ("changes", "pointer", "words"),
     [
         ({"samples": 1_000_000}, "/samples", "samples must be at most 100000 here, got 1000000"),
         ({"samples": 0}, "/samples", "1"),
@@ -92,9 +92,9 @@ def test_without_a_contact_or_with_a_pitch_error_some_fields_are_null(client: ht
     ],
 )
 def test_what_cannot_be_is_refused_with_its_limit(
-    client: httpx.Client, given: dict[str, Any], pointer: str, words: str
+    client: httpx.Client, changes: dict[str, Any], pointer: str, words: str
 ) -> None:
-    answer = client.post("/contact-probability", json=ASKED | given)
+    answer = client.post("/contact-probability", json=REQUEST | changes)
     assert answer.status_code == 422
     error = answer.json()["errors"][0]
     assert error["pointer"] == pointer
@@ -102,6 +102,6 @@ def test_what_cannot_be_is_refused_with_its_limit(
 
 
 def test_the_command_refuses_in_its_own_words() -> None:
-    assert told("--hole", "0.05", "--pin", "0.06", wrong=True) == (
+    assert output_of("--hole", "0.05", "--pin", "0.06", wrong=True) == (
         "Error: pin must be no wider than its hole (0.05 m), got 0.06 m\n"
     )

@@ -21,7 +21,7 @@ from tests.support.command import run
 RING = {"kind": "arc", "centre": [0, 0], "radius": 5, "start_angle": 0, "sweep": 7}
 BODY: dict[str, Any] = {"dragon": {"benches": 3}, "path": {"kind": "route", "pieces": [RING], "start": 8}}
 DANCE = Dance(Dragon(3), Route([Arc((0.0, 0.0), 5.0, 0.0, 7.0)], start=8.0))
-FOUND = envelope(DANCE)
+ENVELOPE = envelope(DANCE)
 SPECTATORS = [[8.0, -3.0], [8.0, 3.0], [9.0, 9.0]]
 
 
@@ -32,39 +32,39 @@ def area_of_rings(rings: list[Any]) -> float:
 
 def test_the_answer_is_the_envelope_of_core_with_its_hole(client: httpx.Client) -> None:
     got = client.post("/envelope", json=BODY | {"spectators": SPECTATORS}).raise_for_status().json()
-    assert got["envelope"] == {"type": "Polygon", "coordinates": [ring.tolist() for ring in FOUND.polygons[0]]}
+    assert got["envelope"] == {"type": "Polygon", "coordinates": [ring.tolist() for ring in ENVELOPE.polygons[0]]}
     assert len(got["envelope"]["coordinates"]) == 2
     assert (got["excess"], got["area"], got["start"], got["stop"]) == (
-        FOUND.excess,
-        FOUND.area,
-        FOUND.start,
-        FOUND.stop,
+        ENVELOPE.excess,
+        ENVELOPE.area,
+        ENVELOPE.start,
+        ENVELOPE.stop,
     )
-    assert got["distance"] == FOUND.distance(SPECTATORS) > 2.0
-    known = FOUND.certificate
+    assert got["distance"] == ENVELOPE.distance(SPECTATORS) > 2.0
+    known = ENVELOPE.certificate
     assert got["certificate"] == {"method": known.method, "cells": known.cells, "claim": asdict(known.claim)}
 
 
 def test_a_span_at_another_speed_is_that_of_core(client: httpx.Client) -> None:
     body = {"dragon": {"benches": 4}, "head_speed": 2.0, "start": 3.0, "stop": 3.5}
     got = client.post("/envelope", json=body).raise_for_status().json()
-    found = envelope(Dance(Dragon(4), Spiral(), 2.0), start=3.0, stop=3.5)
-    assert (got["area"], got["excess"], got["distance"]) == (found.area, found.excess, None)
+    result = envelope(Dance(Dragon(4), Spiral(), 2.0), start=3.0, stop=3.5)
+    assert (got["area"], got["excess"], got["distance"]) == (result.area, result.excess, None)
 
 
 def test_several_polygons_are_a_multipolygon() -> None:
-    several = replace(FOUND, polygons=FOUND.polygons * 2)
-    told = json.loads(Envelope.of(several, EnvelopeRequest()).to_json())["envelope"]
-    assert told == {"type": "MultiPolygon", "coordinates": [[ring.tolist() for ring in FOUND.polygons[0]]] * 2}
+    several = replace(ENVELOPE, polygons=ENVELOPE.polygons * 2)
+    answer = json.loads(Envelope.of(several, EnvelopeRequest()).to_json())["envelope"]
+    assert answer == {"type": "MultiPolygon", "coordinates": [[ring.tolist() for ring in ENVELOPE.polygons[0]]] * 2}
 
 
 def test_geojson_and_dxf_are_offered(client: httpx.Client) -> None:
-    plain = client.post("/envelope", json=BODY, headers={"accept": GEOJSON_TYPE}).raise_for_status()
-    assert plain.headers["content-type"] == GEOJSON_TYPE
-    assert plain.content == envelope_geojson(FOUND)
-    feature = plain.json()
-    assert (feature["type"], feature["properties"]["excess"]) == ("Feature", FOUND.excess)
-    assert shapely.from_geojson(json.dumps(feature["geometry"])).area == pytest.approx(FOUND.area)
+    answer = client.post("/envelope", json=BODY, headers={"accept": GEOJSON_TYPE}).raise_for_status()
+    assert answer.headers["content-type"] == GEOJSON_TYPE
+    assert answer.content == envelope_geojson(ENVELOPE)
+    feature = answer.json()
+    assert (feature["type"], feature["properties"]["excess"]) == ("Feature", ENVELOPE.excess)
+    assert shapely.from_geojson(json.dumps(feature["geometry"])).area == pytest.approx(ENVELOPE.area)
     drawing = client.post("/envelope", json=BODY, headers={"accept": DXF_TYPE}).raise_for_status()
     assert client.post("/envelope", json=BODY, headers={"accept": DXF_TYPE}).content == drawing.content
 
@@ -95,22 +95,22 @@ def test_the_command_writes_what_the_service_says(tmp_path: Path) -> None:
     done = run("envelope", str(file), "--output", str(drawing))
     assert (done.returncode, done.stderr) == (0, f"{drawing}\n")
     assert "1 polygon, 1 hole, " in done.stdout
-    assert f"{FOUND.distance(SPECTATORS):.9f} m" in done.stdout
-    told = run("envelope", str(file), "--output", str(table), "--json")
-    assert json.loads(told.stdout)["excess"] == FOUND.excess
-    assert table.read_bytes() == envelope_geojson(FOUND)
+    assert f"{ENVELOPE.distance(SPECTATORS):.9f} m" in done.stdout
+    output = run("envelope", str(file), "--output", str(table), "--json")
+    assert json.loads(output.stdout)["excess"] == ENVELOPE.excess
+    assert table.read_bytes() == envelope_geojson(ENVELOPE)
     document = ezdxf.readfile(drawing)
     assert document.units == ezdxf.units.M
     assert not document.audit().has_errors
     lines = list(document.modelspace())
     assert [(line.dxf.layer, line.closed) for line in lines] == [("ENVELOPE", True), ("ENVELOPE_HOLES", True)]
     rings = [[(x, y) for x, y, *_ in line.get_points()] for line in lines]
-    assert area_of_rings(rings) == pytest.approx(FOUND.area)
+    assert area_of_rings(rings) == pytest.approx(ENVELOPE.area)
 
 
 def test_the_command_asks_for_a_spiral_by_its_options_and_refuses_other_files(tmp_path: Path) -> None:
-    found = envelope(Dance(Dragon(5), Spiral(0.6)), stop=9.0)
-    told = run("envelope", "--benches", "5", "--pitch", "0.6", "--stop", "9", "--json")
-    assert json.loads(told.stdout)["area"] == found.area
+    result = envelope(Dance(Dragon(5), Spiral(0.6)), stop=9.0)
+    output = run("envelope", "--benches", "5", "--pitch", "0.6", "--stop", "9", "--json")
+    assert json.loads(output.stdout)["area"] == result.area
     wrong = run("envelope", "--output", str(tmp_path / "ground.kml"))
     assert (wrong.returncode, wrong.stderr) == (2, "Error: --output must end in .geojson, .json or .dxf, got .kml\n")

@@ -24,9 +24,9 @@ def rows() -> dict[str, PaperNumber]:
 
 
 def evidence(row: PaperNumber, start: str) -> list[float]:
-    found = [fact.value for fact in row.evidence if fact.what.startswith(start)]
-    assert found, [fact.what for fact in row.evidence]
-    return found
+    entries = [fact.value for fact in row.evidence if fact.what.startswith(start)]
+    assert entries, [fact.what for fact in row.evidence]
+    return entries
 
 
 def test_the_paper_reports_four_numbers(rows: dict[str, PaperNumber]) -> None:
@@ -47,10 +47,10 @@ def test_each_row_states_difference_unit_source_and_reason(rows: dict[str, Paper
 
 
 def test_ours_is_what_core_answers(rows: dict[str, PaperNumber]) -> None:
-    found = first_contact(Dance(Dragon(), Spiral()))
-    assert found.head is not None
-    assert rows["time of first contact"].ours == found.time
-    assert rows["radius of the head at first contact"].ours == found.head.radius
+    contact = first_contact(Dance(Dragon(), Spiral()))
+    assert contact.head is not None
+    assert rows["time of first contact"].ours == contact.time
+    assert rows["radius of the head at first contact"].ours == contact.head.radius
     assert rows["minimum pitch"].ours == minimum_pitch(Dragon()).pitch
 
 
@@ -110,10 +110,10 @@ def test_bisecting_the_radius_ends_at_a_jump_past_the_circle(rows: dict[str, Pap
 
 def test_the_pitch_of_the_paper_is_feasible_but_not_the_smallest(rows: dict[str, PaperNumber]) -> None:
     [radius] = evidence(rows["minimum pitch"], "radius of first contact at the paper's pitch")
-    found = first_contact(Dance(Dragon(), Spiral(pitch=0.474924)))
-    assert found.outcome is Outcome.CONTACT
-    assert found.head is not None
-    assert radius == found.head.radius < 4.5
+    contact = first_contact(Dance(Dragon(), Spiral(pitch=0.474924)))
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.head is not None
+    assert radius == contact.head.radius < 4.5
 
 
 def test_the_pose_on_the_circle_alone_gives_smaller_pitches(rows: dict[str, PaperNumber]) -> None:

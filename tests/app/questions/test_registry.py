@@ -25,41 +25,43 @@ def listed(value: Any) -> Any:
     return [listed(part) for part in value] if isinstance(value, list | tuple) else value
 
 
-def told(found: object, *names: str) -> dict[str, Any]:
-    return {name: listed(getattr(found, name)) for name in names}
+def fields_of(result: object, *names: str) -> dict[str, Any]:
+    return {name: listed(getattr(result, name)) for name in names}
 
 
 def clearance() -> dict[str, Any]:
-    return told(core.clearance_profile(CLOSE, [10.0, 20.5]), "time", "clearance", "benches")
+    return fields_of(core.clearance_profile(CLOSE, [10.0, 20.5]), "time", "clearance", "benches")
 
 
 def course() -> dict[str, Any]:
-    found = core.course(Route([Waypoints(POINTS)]), DRAGON)
-    return {"x": found.points[:, 0].tolist(), "y": found.points[:, 1].tolist()} | told(found, "s", "length")
+    result = core.course(Route([Waypoints(POINTS)]), DRAGON)
+    return {"x": result.points[:, 0].tolist(), "y": result.points[:, 1].tolist()} | fields_of(result, "s", "length")
 
 
 def maximum_head_speed() -> dict[str, Any]:
-    found = core.maximum_head_speed(Dance(DRAGON, Turn(1.7)), 1.5)
-    return told(found, "head_speed", "head_speed_bracket", "speed_ratio", "handles", "time")
+    result = core.maximum_head_speed(Dance(DRAGON, Turn(1.7)), 1.5)
+    return fields_of(result, "head_speed", "head_speed_bracket", "speed_ratio", "handles", "time")
 
 
 def shortest_turn() -> dict[str, Any]:
-    found = core.deepest_turn(Dragon(14, 1.6, 1.6), 1.2, margin=0.1)
-    assert found.limited_by is core.TurnLimit.CONTACT
-    return told(found, "entry_bracket", "benches", "time", "evaluations") | {"length": found.turn.length}
+    result = core.deepest_turn(Dragon(14, 1.6, 1.6), 1.2, margin=0.1)
+    assert result.limited_by is core.TurnLimit.CONTACT
+    return fields_of(result, "entry_bracket", "benches", "time", "evaluations") | {"length": result.turn.length}
 
 
 def turn_time() -> dict[str, Any]:
-    found = core.turn_time(DRAGON, Turn(1.7, exit_radius=4.45), 1.5)
-    return told(found, "length", "head_speed", "time", "handles")
+    result = core.turn_time(DRAGON, Turn(1.7, exit_radius=4.45), 1.5)
+    return fields_of(result, "length", "head_speed", "time", "handles")
 
 
 def quickest_turn() -> dict[str, Any]:
-    found = core.quickest_turn(Dragon(8), 1.7, speed_limit=1.5, margin=0.01)
-    return told(found, "length", "head_speed", "time", "handles") | told(found.turn, "entry_radius", "exit_radius")
+    result = core.quickest_turn(Dragon(8), 1.7, speed_limit=1.5, margin=0.01)
+    return fields_of(result, "length", "head_speed", "time", "handles") | fields_of(
+        result.turn, "entry_radius", "exit_radius"
+    )
 
 
-ASKED: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
+REQUESTS: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
     "clearance": (
         {"dragon": {"benches": 40}, "path": {"pitch": 0.5, "start_turns": 8}, "times": [10, 20.5]},
         clearance,
@@ -83,10 +85,10 @@ ASKED: dict[str, tuple[dict[str, Any], Callable[[], dict[str, Any]]]] = {
 }
 
 
-@pytest.mark.parametrize("question", ASKED)
+@pytest.mark.parametrize("question", REQUESTS)
 def test_an_answer_has_the_numbers_of_core(client: httpx.Client, question: str) -> None:
-    body, asked = ASKED[question]
-    known = asked()
+    body, request = REQUESTS[question]
+    known = request()
     got = client.post(f"/{question.replace('_', '-')}", json=body).raise_for_status().json()
     assert {name: got[name] for name in known} == known
 
@@ -104,9 +106,9 @@ def test_overlaps_are_those_of_core(client: httpx.Client) -> None:
     places = [(0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (0.5, 0.2, 1.0), (9.2, 0.1, 0.5)]
     benches = [dict(zip(("x", "y", "heading"), place, strict=True), length=2.2, width=0.3) for place in places]
     got = client.post("/overlaps", json={"benches": benches}).raise_for_status().json()["overlaps"]
-    found = core.overlaps(places, [2.2] * 4, [0.3] * 4)
-    assert [one["benches"] for one in got] == found.pairs.tolist() == [[0, 2], [1, 3]]
-    assert [one["separation"] for one in got] == found.contact.separation.tolist()
+    result = core.overlaps(places, [2.2] * 4, [0.3] * 4)
+    assert [one["benches"] for one in got] == result.pairs.tolist() == [[0, 2], [1, 3]]
+    assert [one["separation"] for one in got] == result.contact.separation.tolist()
 
 
 def test_every_file_of_this_folder_has_its_question() -> None:

@@ -31,12 +31,12 @@ SQUARE = {"type": "Polygon", "coordinates": [[[-15, -15], [15, -15], [15, 15], [
 def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlaps(client: httpx.Client) -> None:
     got = client.get("/tolerance", params=SMALL | {"pitch": 0.6}).raise_for_status().json()
     dance = Dance(Dragon(40), Spiral(0.6, 9.0))
-    found = tolerance(dance, stop=time_on_circle(dance, 4.5))
-    assert (got["stray"], tuple(got["stray_bracket"])) == (found.stray, found.stray_bracket)
-    assert (got["time"], tuple(got["benches"]), got["limited_by"]) == (found.time, found.benches, "benches")
+    result = tolerance(dance, stop=time_on_circle(dance, 4.5))
+    assert (got["stray"], tuple(got["stray_bracket"])) == (result.stray, result.stray_bracket)
+    assert (got["time"], tuple(got["benches"]), got["limited_by"]) == (result.time, result.benches, "benches")
     handles = np.array(got["exhibit"]["handles"])
     touching = overlaps(bench_poses(handles), dance.dragon.lengths, dance.dragon.widths)
-    assert found.benches in {tuple(pair) for pair in touching.pairs.tolist()}
+    assert result.benches in {tuple(pair) for pair in touching.pairs.tolist()}
 
 
 def test_any_dance_in_any_venue_has_one(client: httpx.Client) -> None:
@@ -92,10 +92,11 @@ def test_the_curve_begins_at_the_minimum_pitch_and_holds_the_tolerances_of_core(
 
 
 def test_a_body_may_end_on_a_circle_as_the_query_does_and_only_on_a_spiral(client: httpx.Client) -> None:
-    asked = {"dragon": {"benches": 40}, "turning_diameter": 12}
+    request = {"dragon": {"benches": 40}, "turning_diameter": 12}
     query = {"benches": 40, "turning_diameter": 12}
     assert (
-        client.post("/tolerance", json=asked).json() == client.get("/tolerance", params=query).raise_for_status().json()
+        client.post("/tolerance", json=request).json()
+        == client.get("/tolerance", params=query).raise_for_status().json()
     )
 
 
@@ -153,7 +154,7 @@ def test_a_stray_of_0_gives_the_same_bytes(client: httpx.Client, call: str) -> N
 
 
 @pytest.mark.parametrize(
-    ("call", "given", "field", "words"),
+    ("call", "query", "field", "words"),
     [
         ("/collision-time", {"stray": 1}, "stray", "at most half the chord of bench 1"),
         ("/collision-time", {"stray": -0.1}, "stray", "-0.1"),
@@ -165,9 +166,9 @@ def test_a_stray_of_0_gives_the_same_bytes(client: httpx.Client, call: str) -> N
     ],
 )
 def test_what_cannot_be_is_refused_with_its_limit(
-    client: httpx.Client, call: str, given: dict[str, Any], field: str, words: str
+    client: httpx.Client, call: str, query: dict[str, Any], field: str, words: str
 ) -> None:
-    answer = client.get(call, params=given)
+    answer = client.get(call, params=query)
     assert answer.status_code == 422
     error = answer.json()["errors"][0]
     assert error["name"] == field
@@ -175,9 +176,9 @@ def test_what_cannot_be_is_refused_with_its_limit(
 
 
 def test_an_answer_says_which_stray_it_allows_for(client: httpx.Client) -> None:
-    given = SMALL | {"stray": 0.01, "hole": 0.05, "pin": 0.04}
+    fields = SMALL | {"stray": 0.01, "hole": 0.05, "pin": 0.04}
     for call in ("/collision-time", "/minimum-pitch"):
-        assert client.get(call, params=given).json()["stray"] == pytest.approx(0.015)
+        assert client.get(call, params=fields).json()["stray"] == pytest.approx(0.015)
         assert client.get(call, params=SMALL).json()["stray"] is None
 
 

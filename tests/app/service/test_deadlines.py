@@ -65,7 +65,7 @@ def soon(holds: Callable[[], bool]) -> bool:
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "query",
     [
         {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
         {"method": "POST", "url": "/minimum-pitch", "json": HEAVY_BODY},
@@ -77,26 +77,26 @@ def soon(holds: Callable[[], bool]) -> bool:
     ids=["query", "body", "long-body", "scan", "figure", "plan"],
 )
 def test_the_answer_at_the_deadline_says_what_was_too_much_and_offers_a_job(
-    hurried: str, asked: dict[str, Any]
+    hurried: str, query: dict[str, Any]
 ) -> None:
     with httpx.Client(base_url=hurried, timeout=SOON) as client:
-        answer = client.request(**asked)
+        answer = client.request(**query)
     assert answer.status_code == 422
-    said = answer.json()
-    assert said["type"] == "urn:problem-type:bench-dragon:too-much-work"
-    assert f"within {SHORT_DEADLINE:g} s, the time that one answer may take here" in said["detail"]
-    assert ". Ask for it as a job, which may take longer: POST /jobs" in said["detail"]
-    assert "Prefer: respond-async" in said["detail"]
-    assert said["errors"][0].get("name") or said["errors"][0]["pointer"]
+    response = answer.json()
+    assert response["type"] == "urn:problem-type:bench-dragon:too-much-work"
+    assert f"within {SHORT_DEADLINE:g} s, the time that one answer may take here" in response["detail"]
+    assert ". Ask for it as a job, which may take longer: POST /jobs" in response["detail"]
+    assert "Prefer: respond-async" in response["detail"]
+    assert response["errors"][0].get("name") or response["errors"][0]["pointer"]
     assert sample(hurried, 'bench_dragon_computations{lane="heavy"}') == 0.0
 
 
 def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
     with httpx.Client(base_url=hurried, timeout=SOON) as client:
-        asked = client.build_request("GET", "/pitch-scan", params={"samples": 401})
-        assert client.send(asked).json()["type"].endswith("too-much-work")
-        asked.headers["Prefer"] = "respond-async"
-        job = client.send(asked).headers["Location"]
+        request = client.build_request("GET", "/pitch-scan", params={"samples": 401})
+        assert client.send(request).json()["type"].endswith("too-much-work")
+        request.headers["Prefer"] = "respond-async"
+        job = client.send(request).headers["Location"]
         wait = time.monotonic() + 60.0
         while (state := client.get(job).json())["status"] in ("accepted", "running"):
             assert time.monotonic() < wait
@@ -108,7 +108,7 @@ def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "asked",
+    "query",
     [
         {"method": "GET", "url": "/minimum-pitch", "params": HEAVY},
         {"method": "POST", "url": "/minimum-pitch", "json": HEAVY_BODY},
@@ -116,10 +116,10 @@ def test_as_a_job_the_same_request_is_answered(hurried: str) -> None:
     ],
     ids=["query", "body", "long-body"],
 )
-def test_a_computation_ends_when_its_client_is_gone(patient: str, asked: dict[str, Any]) -> None:
+def test_a_computation_ends_when_its_client_is_gone(patient: str, query: dict[str, Any]) -> None:
     running, gone = 'bench_dragon_computations{lane="heavy"}', 'bench_dragon_stopped_total{reason="client gone"}'
     before = sample(patient, gone)
-    request = httpx.Request(asked["method"], patient + asked["url"], params=asked.get("params"), json=asked.get("json"))
+    request = httpx.Request(query["method"], patient + query["url"], params=query.get("params"), json=query.get("json"))
     connection = http.client.HTTPConnection(request.url.netloc.decode())
     with closing(connection):
         target = request.url.raw_path.decode()
@@ -141,9 +141,9 @@ def test_a_client_that_waits_is_answered(patient: str) -> None:
 def test_what_takes_longer_than_expected_is_answered_all_the_same(patient: str) -> None:
     """The event loop gives up, and a thread answers to the last digit."""
     with httpx.Client(base_url=patient, timeout=SOON) as client:
-        asked = client.get("/collision-time", params=GRAZE | {"cross_check": "none"}).raise_for_status().json()
-        told = client.post("/collision-time", json={"path": {"kind": "spiral"} | GRAZE, "cross_check": "none"})
-    assert asked == told.raise_for_status().json()
+        request = client.get("/collision-time", params=GRAZE | {"cross_check": "none"}).raise_for_status().json()
+        answer = client.post("/collision-time", json={"path": {"kind": "spiral"} | GRAZE, "cross_check": "none"})
+    assert request == answer.raise_for_status().json()
 
 
 def test_the_deadline_ends_a_plan_that_is_being_drawn(tmp_path: Path) -> None:

@@ -41,7 +41,7 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[JobService]:
 def events_of(service: JobService, address: str, last: int | None = None) -> list[tuple[int, Any]]:
     """Numbers and statuses, until the service ends the stream."""
     headers = {} if last is None else {"Last-Event-ID": str(last)}
-    numbers, found = [], []
+    numbers, entries = [], []
     with service.client.stream("GET", f"{address}/events", headers=headers) as answer:
         assert answer.status_code == 200
         assert answer.headers["content-type"].startswith("text/event-stream")
@@ -49,18 +49,18 @@ def events_of(service: JobService, address: str, last: int | None = None) -> lis
             if line.startswith("id: "):
                 numbers.append(int(line[4:]))
             elif line.startswith("data: "):
-                found.append(json.loads(line[6:]))
-    return list(zip(numbers, found, strict=True))
+                entries.append(json.loads(line[6:]))
+    return list(zip(numbers, entries, strict=True))
 
 
 def test_a_job_answers_what_its_call_answers_to_the_byte(service: JobService) -> None:
     addresses = [service.post(wanted) for wanted in ANSWERED]
     for wanted, address in zip(ANSWERED, addresses, strict=True):
         assert service.finished(address)["status"] == "successful"
-        kept, asked = service.client.get(f"{address}/result"), direct(service.client, wanted)
-        assert (kept.status_code, asked.status_code) == (200, 200)
-        assert kept.headers["content-type"] == asked.headers["content-type"]
-        assert kept.content == asked.content
+        kept, request = service.client.get(f"{address}/result"), direct(service.client, wanted)
+        assert (kept.status_code, request.status_code) == (200, 200)
+        assert kept.headers["content-type"] == request.headers["content-type"]
+        assert kept.content == request.content
 
 
 def test_any_question_is_answered_later_for_who_prefers_that(service: JobService) -> None:
@@ -113,14 +113,14 @@ def test_what_is_wrong_is_refused_at_once_by_its_place(service: JobService, want
 
 def test_a_job_that_fails_answers_the_problem_of_its_call(service: JobService) -> None:
     wanted = {"question": "trajectory", "request": {"times": {"stop": 100, "step": 1e-3}}}
-    address, asked = service.post(wanted), direct(service.client, wanted)
+    address, request = service.post(wanted), direct(service.client, wanted)
     status, kept = service.finished(address), service.client.get(f"{address}/result")
     assert status["status"] == "failed"
-    assert status["problem"] == asked.json()
-    assert status["message"] == asked.json()["detail"]
-    assert kept.status_code == asked.status_code == 422
+    assert status["problem"] == request.json()
+    assert status["message"] == request.json()["detail"]
+    assert kept.status_code == request.status_code == 422
     assert kept.headers["content-type"] == "application/problem+json"
-    assert kept.content == asked.content
+    assert kept.content == request.content
 
 
 def test_a_large_result_is_sent_in_parts_and_an_odd_range_is_ignored(service: JobService) -> None:
@@ -157,15 +157,15 @@ def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_
     service: JobService, followed: tuple[str, list[tuple[int, Any]]]
 ) -> None:
     address, after_first = followed
-    told = events_of(service, address)
-    numbers, statuses = [number for number, _ in told], [status for _, status in told]
-    assert numbers == list(range(1, len(told) + 1))
-    assert told[1:] == after_first
+    events = events_of(service, address)
+    numbers, statuses = [number for number, _ in events], [status for _, status in events]
+    assert numbers == list(range(1, len(events) + 1))
+    assert events[1:] == after_first
     assert [status["status"] for status in statuses][:2] == ["accepted", "running"]
     assert statuses[-1]["status"] == "successful"
     assert [status["progress"] for status in statuses] == sorted(status["progress"] for status in statuses)
     assert statuses[-1]["progress"] == 100
-    assert events_of(service, address, last=numbers[1]) == told[2:]
+    assert events_of(service, address, last=numbers[1]) == events[2:]
     # The word for a browser not to come again.
     after = service.client.get(f"{address}/events", headers={"Last-Event-ID": str(numbers[-1])})
     assert (after.status_code, after.content) == (204, b"")

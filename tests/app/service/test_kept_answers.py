@@ -12,13 +12,13 @@ REPEATED = "bench_dragon_repeated_total"
 
 
 def test_a_question_that_is_asked_again_is_answered_from_memory(server: str, client: httpx.Client) -> None:
-    before, asked = sample(server, REPEATED), {"samples": 21, "benches": 39}
-    first = client.get("/pitch-scan", params=asked)
+    before, request = sample(server, REPEATED), {"samples": 21, "benches": 39}
+    first = client.get("/pitch-scan", params=request)
     assert sample(server, REPEATED) == before
-    again = client.get("/pitch-scan", params=asked)
+    again = client.get("/pitch-scan", params=request)
     assert (again.content, again.headers["etag"]) == (first.content, first.headers["etag"])
     assert sample(server, REPEATED) == before + 1.0
-    other = client.get("/pitch-scan", params=asked | {"margin": 0.01})
+    other = client.get("/pitch-scan", params=request | {"margin": 0.01})
     assert other.content != first.content
     assert sample(server, REPEATED) == before + 1.0
 

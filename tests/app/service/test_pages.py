@@ -12,24 +12,24 @@ import pytest
 from app.service.pages import Files
 
 FILES = ["/", "/how", "/page/main.js", "/page/uPlot.iife.js", "/docs", "/openapi.json"]
-PLAIN, PACKED = {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip"}
+UNPACKED, PACKED = {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip"}
 
 
 @pytest.mark.parametrize("path", FILES)
 def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(server: str, path: str) -> None:
-    plain = httpx.get(server + path, headers=PLAIN)
+    answer = httpx.get(server + path, headers=UNPACKED)
     with httpx.stream("GET", server + path, headers=PACKED) as packed:
-        assert gzip.decompress(b"".join(packed.iter_raw())) == plain.raise_for_status().content
+        assert gzip.decompress(b"".join(packed.iter_raw())) == answer.raise_for_status().content
     assert packed.headers["Content-Encoding"] == "gzip"
-    assert int(packed.headers["Content-Length"]) < len(plain.content)
-    assert "Content-Encoding" not in plain.headers
-    assert plain.headers["Vary"] == packed.headers["Vary"] == "Accept-Encoding"
-    assert plain.headers["Content-Type"] == packed.headers["Content-Type"]
-    assert plain.headers["ETag"] != packed.headers["ETag"]
+    assert int(packed.headers["Content-Length"]) < len(answer.content)
+    assert "Content-Encoding" not in answer.headers
+    assert answer.headers["Vary"] == packed.headers["Vary"] == "Accept-Encoding"
+    assert answer.headers["Content-Type"] == packed.headers["Content-Type"]
+    assert answer.headers["ETag"] != packed.headers["ETag"]
 
 
 @pytest.mark.parametrize("path", FILES)
-@pytest.mark.parametrize("form", [PLAIN, PACKED], ids=["plain", "gzip"])
+@pytest.mark.parametrize("form", [UNPACKED, PACKED], ids=["plain", "gzip"])
 def test_who_has_a_file_is_told_so(server: str, path: str, form: dict[str, str]) -> None:
     tag = httpx.get(server + path, headers=form).headers["ETag"]
     again = httpx.get(server + path, headers={**form, "If-None-Match": tag})

@@ -15,13 +15,13 @@ from tests.support.odd_questions import LAND
 
 def test_a_call_answers_and_the_same_call_goes_on(tmp_path: Path) -> None:
     pitches = np.linspace(0.5, 0.6, 5)
-    found = sweep("collision_time", {"pitch": pitches}, tmp_path / "a", request={"benches": 40})
-    frame = found.to_dataframe(["pitch", "time", "outcome"])
+    result = sweep("collision_time", {"pitch": pitches}, tmp_path / "a", request={"benches": 40})
+    frame = result.to_dataframe(["pitch", "time", "outcome"])
     for pitch, time in zip(frame["pitch"], frame["time"], strict=True):
         assert time == core.first_contact(core.Dance(core.Dragon(40), core.Spiral(pitch))).time
     assert list(frame["pitch"]) == pitches.tolist()
     again = sweep("collision_time", {"pitch": pitches}, tmp_path / "a", request={"benches": 40})
-    assert again.table().equals(found.table())
+    assert again.table().equals(result.table())
 
 
 def test_ranges_and_samples_are_given_as_such(tmp_path: Path) -> None:

@@ -25,9 +25,9 @@ from tests.support.odd_questions import LAND, UNANSWERABLE
 def test_a_local_cluster_answers_as_this_process_does_and_leaves_no_worker(tmp_path: Path) -> None:
     before = {child.pid for child in psutil.Process().children(recursive=True)}
     spec = spec_of(LAND)
-    told: list[Progress] = []
-    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1), progress=told.append)
-    assert told[-1].designs == 60
+    values: list[Progress] = []
+    run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(LOCAL, 1), progress=values.append)
+    assert values[-1].designs == 60
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
     left = [child for child in psutil.Process().children(recursive=True) if child.pid not in before]
     assert not [child for child in left if "resource_tracker" not in " ".join(child.cmdline())]
@@ -36,12 +36,12 @@ def test_a_local_cluster_answers_as_this_process_does_and_leaves_no_worker(tmp_p
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
     """Address of a cluster that gives up a design as soon as it ends a worker."""
-    given: dict[str, Any] = {
+    fields: dict[str, Any] = {
         "dashboard_address": None,
         "silence_logs": logging.ERROR,
         "scheduler_kwargs": {"allowed_failures": 0},
     }
-    with LocalCluster(n_workers=1, threads_per_worker=1, **given) as cluster:
+    with LocalCluster(n_workers=1, threads_per_worker=1, **fields) as cluster:
         yield cluster.scheduler_address
 
 
@@ -49,8 +49,8 @@ def test_a_design_that_kills_workers_of_a_cluster_is_found_alone(
     tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("app.sweeps.run.DEATHS", 1)  # Processes of this machine find it: test_run.py
-    told = {"question": LAND.name, "over": {"x": list(range(6))}, "request": {"deadly": [2.0]}, "shard_size": 2}
-    spec = Spec.of(told, LAND)
+    fields = {"question": LAND.name, "over": {"x": list(range(6))}, "request": {"deadly": [2.0]}, "shard_size": 2}
+    spec = Spec.of(fields, LAND)
     run(spec, tmp_path / "a", question=LAND, engine=lambda: Cluster(address))
     rows = Sweep(tmp_path / "a", spec).table(["x", "error.code"]).to_pylist()
     assert [row["x"] for row in rows] == list(range(6))

@@ -80,9 +80,9 @@ def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], work
     while not (folder.is_dir() and len(parts(folder)) > before) and time.monotonic() < end:
         time.sleep(0.01)
     stop(process)
-    _, said = process.communicate(timeout=PATIENCE)
+    _, output = process.communicate(timeout=PATIENCE)
     assert before < len(parts(folder)) < SHARDS
-    return process.returncode, said
+    return process.returncode, output
 
 
 def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same_bytes(
@@ -98,8 +98,8 @@ def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same
         children.extend(process.children())
         process.kill()
 
-    said = f"Stopped: the same command continues {tmp_path / 'a'}\n"
-    assert stopped(spec, tmp_path / "a", interrupt, 2) == (130, said)
+    text = f"Stopped: the same command continues {tmp_path / 'a'}\n"
+    assert stopped(spec, tmp_path / "a", interrupt, 2) == (130, text)
     assert len(children) == 2
     assert not psutil.wait_procs(children, PATIENCE)[1]
     assert stopped(spec, tmp_path / "a", kill, 1)[0] == -signal.SIGKILL
@@ -126,17 +126,17 @@ def test_a_terminal_shows_a_bar_with_rate_and_time_left(spec: Path, tmp_path: Pa
     command = [f"{bin_folder()}/bench-dragon", "sweep", "run", spec, "--output", tmp_path / "a", "--workers", "1"]
     process = subprocess.Popen(command, stderr=child, env=ENVIRONMENT | {"TERM": "xterm", "COLUMNS": "120"})
     os.close(child)
-    said = b""
+    text = b""
     while True:
         try:
-            said += os.read(parent, 65536)
+            text += os.read(parent, 65536)
         except OSError:  # Nobody holds the other end any more.
             break
     os.close(parent)
     assert process.wait(PATIENCE) == 0
-    assert b"of 200, " in said
-    assert b"/s, 0:00:" in said
-    assert b" left" in said
+    assert b"of 200, " in text
+    assert b"/s, 0:00:" in text
+    assert b" left" in text
 
 
 @pytest.mark.parametrize(

@@ -18,8 +18,8 @@ from core import InvalidValue
 from tests.support.odd_questions import LAND
 
 
-def swept(folder: Path, **told: Any) -> Sweep:
-    spec = Spec.of({"question": LAND.name, "shard_size": 50, **told}, LAND)
+def swept(folder: Path, **fields: Any) -> Sweep:
+    spec = Spec.of({"question": LAND.name, "shard_size": 50, **fields}, LAND)
     begin(folder, spec)
     for shard in range(spec.shards):
         shards.write_part(folder, spec, shard, [shards.ShardPiece.whole(spec, LAND, shard).answer()])
@@ -42,8 +42,8 @@ def test_a_map_of_part_of_a_sweep_leaves_the_rest_blank(tmp_path: Path) -> None:
     sweep = swept(tmp_path, over={"x": [1.0, 2.0, 3.0], "y": [1.0, 2.0]}, shard_size=2)
     (tmp_path / shards.part_name(1)).unlink()
     mesh = next(one for one in value_map(sweep, "height").axes[0].collections if isinstance(one, QuadMesh))
-    found = np.ma.filled(mesh.get_array(), np.nan)
-    np.testing.assert_array_equal(found, [[1.0, np.nan, 3.0], [2.0, np.nan, 6.0]])
+    result = np.ma.filled(mesh.get_array(), np.nan)
+    np.testing.assert_array_equal(result, [[1.0, np.nan, 3.0], [2.0, np.nan, 6.0]])
 
 
 def test_a_map_of_samples_has_a_dot_for_each(tmp_path: Path) -> None:

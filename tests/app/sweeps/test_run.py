@@ -55,20 +55,20 @@ def undisturbed(folder: Path, spec: Spec, question: SweepQuestion) -> bytes:
 
 
 def test_a_run_writes_every_part_and_says_how_far_it_is(shared: Shared, tmp_path: Path) -> None:
-    spec, told = spec_of(LAND), list[Progress]()
-    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=lambda: shared)
+    spec, reports = spec_of(LAND), list[Progress]()
+    run(spec, tmp_path / "a", question=LAND, progress=reports.append, engine=lambda: shared)
     assert sorted(file.name for file in (tmp_path / "a").iterdir()) == [
         *(shards.part_name(shard) for shard in range(10)),
         "sweep.json",
     ]
-    assert (told[0].designs, told[-1].designs, told[-1].total) == (0, 60, 60)
-    assert told[-1].rate > 0.0
-    assert told[-1].words.endswith("0:00:00 left")
+    assert (reports[0].designs, reports[-1].designs, reports[-1].total) == (0, 60, 60)
+    assert reports[-1].rate > 0.0
+    assert reports[-1].words.endswith("0:00:00 left")
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
 
 
 def test_only_what_is_missing_is_answered_again(shared: Shared, tmp_path: Path) -> None:
-    spec, told = spec_of(LAND), list[Progress]()
+    spec, reports = spec_of(LAND), list[Progress]()
     run(spec, tmp_path / "a", question=LAND, engine=lambda: shared)
     removed = [tmp_path / "a" / shards.part_name(shard) for shard in (0, 7)]
     kept = {file: file.stat().st_mtime_ns for file in (tmp_path / "a").glob("part-*") if file not in removed}
@@ -77,10 +77,10 @@ def test_only_what_is_missing_is_answered_again(shared: Shared, tmp_path: Path) 
     assert missing_shards(tmp_path / "a", spec) == [0, 7]
 
     def engine() -> Processes:
-        assert [one.designs for one in told] == [48]  # what is kept is said before the engine starts
+        assert [one.designs for one in reports] == [48]  # what is kept is said before the engine starts
         return shared
 
-    run(spec, tmp_path / "a", question=LAND, progress=told.append, engine=engine)
+    run(spec, tmp_path / "a", question=LAND, progress=reports.append, engine=engine)
     assert kept == {file: file.stat().st_mtime_ns for file in kept}
     assert compacted(tmp_path / "a", spec) == undisturbed(tmp_path / "b", spec, LAND)
 
@@ -132,8 +132,8 @@ def test_designs_that_kill_their_process_are_found_and_the_others_answered(
 ) -> None:
     if question is INTERRUPTED:  # What follows from a death is the same.
         monkeypatch.setattr("app.sweeps.run.DEATHS", 1)
-    told = {"question": question.name, "over": {"x": list(range(12, 18))}, "request": {"y": 2.0, "deadly": [16.0]}}
-    spec = Spec.of(told | {"shard_size": 2}, question)
+    fields = {"question": question.name, "over": {"x": list(range(12, 18))}, "request": {"y": 2.0, "deadly": [16.0]}}
+    spec = Spec.of(fields | {"shard_size": 2}, question)
     run(spec, tmp_path / "a", question=question, engine=lambda: shared)
     rows = Sweep(tmp_path / "a", spec).table().to_pylist()
     assert [row["x"] for row in rows] == list(range(12, 18))

@@ -82,8 +82,8 @@ def test_a_folder_tells_its_sweep(folder: Path) -> None:
 def test_a_folder_without_a_sweep_or_of_another_version_is_refused(folder: Path, tmp_path: Path) -> None:
     with pytest.raises(InvalidValue, match="has no sweep"):
         Sweep.open(tmp_path / "nowhere")
-    told = orjson.loads((folder / "sweep.json").read_bytes())
-    (folder / "sweep.json").write_bytes(orjson.dumps(told | {"version": "0.0.1"}))
+    answer = orjson.loads((folder / "sweep.json").read_bytes())
+    (folder / "sweep.json").write_bytes(orjson.dumps(answer | {"version": "0.0.1"}))
     with pytest.raises(InvalidValue, match=r"must be of this version, .*, got 0\.0\.1"):
         Sweep.open(folder)
 
@@ -97,13 +97,16 @@ def test_a_folder_without_rows_and_a_column_that_is_not_there_are_refused(folder
 
 
 def test_a_spec_of_bodies_comes_back_from_its_folder(tmp_path: Path) -> None:
-    told = {"question": "check", "over": {"path.pitch": [0.5], "dragon.width": {"start": 0.2, "stop": 0.3, "count": 2}}}
-    spec = Spec.of(told | {"request": {"dragon": {"benches": 5}}})
+    fields = {
+        "question": "check",
+        "over": {"path.pitch": [0.5], "dragon.width": {"start": 0.2, "stop": 0.3, "count": 2}},
+    }
+    spec = Spec.of(fields | {"request": {"dragon": {"benches": 5}}})
     begin(tmp_path / "a", spec)
     assert Sweep.open(tmp_path / "a").spec.name == spec.name
 
 
 def test_no_text_of_a_table_is_a_formula_for_a_spreadsheet() -> None:
-    told = without_formulas(pa.table({"x": [-1.0, 2.0], "error.message": ["=1+1", "x must not be 13 m"]}))
-    assert told["x"].to_pylist() == [-1.0, 2.0]
-    assert told["error.message"].to_pylist() == ["'=1+1", "x must not be 13 m"]
+    table = without_formulas(pa.table({"x": [-1.0, 2.0], "error.message": ["=1+1", "x must not be 13 m"]}))
+    assert table["x"].to_pylist() == [-1.0, 2.0]
+    assert table["error.message"].to_pylist() == ["'=1+1", "x must not be 13 m"]

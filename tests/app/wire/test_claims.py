@@ -33,7 +33,7 @@ def on_wire(claim: Any) -> Answer:
 
 
 @pytest.mark.parametrize("name", CLAIMS)
-def test_every_value_of_a_claim_is_told(name: str) -> None:
+def test_every_value_of_a_claim_is_reported(name: str) -> None:
     assert orjson.loads(on_wire(CLAIMS[name]).to_json()) == plain(asdict(CLAIMS[name]))
 
 
@@ -43,8 +43,8 @@ def test_a_claim_stands_beside_its_sentences_in_every_certificate() -> None:
     assert contact.certificate.claim.clear_until == contact.certificate.clear_until
     strays = tolerance(ToleranceQuery(benches=5), Terms())
     assert strays.certificate.claim.stray == strays.stray
-    asked = EnvelopeRequest.model_validate({"dragon": few, "stop": 1.0})
-    ground = envelope(asked, Terms())
+    request = EnvelopeRequest.model_validate({"dragon": few, "stop": 1.0})
+    ground = envelope(request, Terms())
     assert isinstance(ground, Envelope)
     assert ground.certificate.claim.excess == ground.excess
     chances = contact_probability(

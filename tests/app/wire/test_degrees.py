@@ -107,7 +107,7 @@ def test_an_obstacle_far_away_makes_no_square_of_degrees_one_of_metres() -> None
 
 
 @pytest.mark.parametrize("coordinates", [{}, {"coordinates": "metres"}, {"coordinates": "degrees"}])
-def test_latitude_before_longitude_is_told(client: httpx.Client, coordinates: dict[str, Any]) -> None:
+def test_latitude_before_longitude_is_reported(client: httpx.Client, coordinates: dict[str, Any]) -> None:
     ((*corners,),) = around(40.0)["coordinates"]
     swapped = {"type": "Polygon", "coordinates": [[[y, x] for x, y in corners]]}
     answer = client.post("/check", json=DANCE | {"venue": swapped} | coordinates)
@@ -300,8 +300,8 @@ def test_the_command_takes_a_venue_in_degrees(tmp_path: Path) -> None:
     dance = 'stop = 20\nvenue = "square.geojson"\n{}\n[dragon]\nbenches = 20\n[path]\npitch = 1.7\nstart_turns = 6\n'
     file.write_text(dance.format('coordinates = "degrees"'))
     assert json.loads(answer_of("check", str(file), "--json"))["origin"]["longitude"] == pytest.approx(LONGITUDE)
-    said = answer_of("check", str(file))
-    assert "x = y = 0 is longitude 120.155100, latitude 28.970300" in said
+    output = answer_of("check", str(file))
+    assert "x = y = 0 is longitude 120.155100, latitude 28.970300" in output
     file.write_text(dance.format(""))
     done = run("check", str(file))
     assert (done.returncode, done.stdout) == (2, "")

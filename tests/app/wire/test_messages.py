@@ -146,7 +146,7 @@ def test_a_name_has_the_same_unit_in_all_requests() -> None:
             collect(kind)
 
     collect(Wire)
-    assert {name: found for name, found in units.items() if len(found) > 1} == {}
+    assert {name: result for name, result in units.items() if len(result) > 1} == {}
 
 
 @pytest.mark.parametrize("text", ["龙" * 500, "\x01" * 300, '"\\' * 300, "{field}"])

@@ -137,38 +137,38 @@ BODIES = [
 ]  # fmt: skip
 
 
-def named(asked: Wrong) -> str:
-    return f"{asked.call} {asked.name} {asked.words[:30]}"
+def named(request: Wrong) -> str:
+    return f"{request.call} {request.name} {request.words[:30]}"
 
 
-@pytest.mark.parametrize("asked", FLAT + FLAT_GET, ids=named)
-def test_a_query_is_refused_by_its_own_name_and_value(client: httpx.Client, asked: Wrong) -> None:
-    answer = client.get(f"/{asked.call}", params=asked.query)
+@pytest.mark.parametrize("wanted", FLAT + FLAT_GET, ids=named)
+def test_a_query_is_refused_by_its_own_name_and_value(client: httpx.Client, wanted: Wrong) -> None:
+    answer = client.get(f"/{wanted.call}", params=wanted.query)
     assert answer.status_code == 422
     ((item,), detail) = answer.json()["errors"], answer.json()["detail"]
-    assert (item["name"], item["detail"]) == (asked.name, detail)
-    assert asked.words in detail
+    assert (item["name"], item["detail"]) == (wanted.name, detail)
+    assert wanted.words in detail
     assert not INSIDE.search(detail)
     calls = client.get("/openapi.json").json()["paths"]
-    parameters = calls[f"/{asked.call.replace('.svg', '.{format}')}"]["get"]["parameters"]
-    assert asked.name in {parameter["name"] for parameter in parameters}
+    parameters = calls[f"/{wanted.call.replace('.svg', '.{format}')}"]["get"]["parameters"]
+    assert wanted.name in {parameter["name"] for parameter in parameters}
 
 
-@pytest.mark.parametrize("asked", FLAT, ids=named)
-def test_an_option_is_refused_in_the_same_words(client: httpx.Client, asked: Wrong) -> None:
-    options = [f"--{name.replace('_', '-')}={value}" for name, value in asked.query.items()]
-    done = run(asked.call, *options)
+@pytest.mark.parametrize("wanted", FLAT, ids=named)
+def test_an_option_is_refused_in_the_same_words(client: httpx.Client, wanted: Wrong) -> None:
+    options = [f"--{name.replace('_', '-')}={value}" for name, value in wanted.query.items()]
+    done = run(wanted.call, *options)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {client.get(f'/{asked.call}', params=asked.query).json()['detail']}\n"
+    assert done.stderr == f"Error: {client.get(f'/{wanted.call}', params=wanted.query).json()['detail']}\n"
 
 
-@pytest.mark.parametrize("asked", BODIES, ids=named)
-def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, asked: Wrong) -> None:
-    answer = client.post(f"/{asked.call}", json=asked.query)
+@pytest.mark.parametrize("wanted", BODIES, ids=named)
+def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, wanted: Wrong) -> None:
+    answer = client.post(f"/{wanted.call}", json=wanted.query)
     assert answer.status_code == 422
     ((item,), detail) = answer.json()["errors"], answer.json()["detail"]
-    assert (item["pointer"], item["detail"]) == (asked.name, detail)
-    assert asked.words in detail
+    assert (item["pointer"], item["detail"]) == (wanted.name, detail)
+    assert wanted.words in detail
     assert not re.search(r"turning_radius|path\.path", detail)
 
 
@@ -193,13 +193,13 @@ def test_an_instant_is_refused_by_the_option_that_asked_for_it(arguments: list[s
     assert len(done.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize("asked", [one for one in BODIES if one.call == "check"], ids=named)
-def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, asked: Wrong) -> None:
+@pytest.mark.parametrize("wanted", [one for one in BODIES if one.call == "check"], ids=named)
+def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, wanted: Wrong) -> None:
     file = tmp_path / "dance.json"
-    file.write_text(json.dumps(asked.query))
+    file.write_text(json.dumps(wanted.query))
     done = run("check", str(file))
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == f"Error: {client.post('/check', json=asked.query).json()['detail']}\n"
+    assert done.stderr == f"Error: {client.post('/check', json=wanted.query).json()['detail']}\n"
 
 
 def test_the_instant_of_a_drawn_check_is_named(tmp_path: Path) -> None:

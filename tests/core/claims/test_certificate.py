@@ -24,10 +24,10 @@ def test_every_certificate_shows_the_sentences_of_its_claim() -> None:
 
 
 def test_a_probability_has_its_claim_too() -> None:
-    found = core.contact_probability(DANCE, core.Wobble(), 3, 1, stop=10.0)
-    assert found.claim.kind is ClaimKind.CONTACT_PROBABILITY
-    assert found.claim.within == 3 - found.strayed
-    assert found.method == claim_words(found.claim)
+    result = core.contact_probability(DANCE, core.Wobble(), 3, 1, stop=10.0)
+    assert result.claim.kind is ClaimKind.CONTACT_PROBABILITY
+    assert result.claim.within == 3 - result.strayed
+    assert result.method == claim_words(result.claim)
 
 
 def test_a_certificate_has_words_in_two_languages_and_in_no_other_one() -> None:

@@ -55,10 +55,10 @@ def test_a_search_claims_what_it_answers() -> None:
 
 
 def test_a_tolerance_claims_its_stray_and_its_time() -> None:
-    found = tolerance(Dance(Dragon(5), SHORT), start=20.0)
-    claim = found.certificate.claim
-    assert (claim.kind, claim.stray, claim.touches) == (ClaimKind.SAFE_STRAY, found.stray, False)
-    assert (claim.start, claim.stop, claim.venue) == (20.0, found.stop, False)
+    result = tolerance(Dance(Dragon(5), SHORT), start=20.0)
+    claim = result.certificate.claim
+    assert (claim.kind, claim.stray, claim.touches) == (ClaimKind.SAFE_STRAY, result.stray, False)
+    assert (claim.start, claim.stop, claim.venue) == (20.0, result.stop, False)
 
 
 def test_a_claim_is_plain_values_that_another_process_can_have() -> None:

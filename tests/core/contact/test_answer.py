@@ -18,20 +18,20 @@ def axes() -> Axes:
 
 
 def test_first_contact_marks_the_two_benches(axes: Axes) -> None:
-    found = first_contact(Dance(Dragon(), Spiral()))
-    found.plot(axes)
+    contact = first_contact(Dance(Dragon(), Spiral()))
+    contact.plot(axes)
     assert legend(axes) == ["bench 0 (head)", "bench 8"]
     assert axes.get_title() == "First contact: 412.473838 s, head at radius 2.288743 m"
-    assert found.time is not None
-    outlines = bench_outlines(Dragon(), trajectory(Dance(Dragon(), Spiral()), found.time).position)
+    assert contact.time is not None
+    outlines = bench_outlines(Dragon(), trajectory(Dance(Dragon(), Spiral()), contact.time).position)
     marked = [patch.get_xy()[:4] for patch in axes.patches if isinstance(patch, Polygon)]
     assert np.array_equal(marked, outlines[[0, 8]])
 
 
 def test_the_enlarged_view_is_centred_on_the_contact(axes: Axes) -> None:
-    found = first_contact(Dance(Dragon(), Spiral()))
-    found.plot(axes, enlarged=True)
-    assert found.point == pytest.approx((np.mean(axes.get_xlim()), np.mean(axes.get_ylim())))
+    contact = first_contact(Dance(Dragon(), Spiral()))
+    contact.plot(axes, enlarged=True)
+    assert contact.point == pytest.approx((np.mean(axes.get_xlim()), np.mean(axes.get_ylim())))
     assert legend(axes)[2:] == ["inner edge of bench 8", "front-outer corner of bench 0"]
 
 
@@ -47,7 +47,7 @@ def test_without_a_contact_there_is_nothing_to_enlarge(axes: Axes) -> None:
 
 
 @pytest.mark.parametrize(
-    ("spiral", "asked", "title"),
+    ("spiral", "query", "title"),
     [
         (Spiral(0.3), {}, "First contact: already at the start"),
         (Spiral(0.3), {"margin": 0.2}, "Within 0.2 m from the start on"),
@@ -56,6 +56,6 @@ def test_without_a_contact_there_is_nothing_to_enlarge(axes: Axes) -> None:
     ],
     ids=["at the start", "margin at the start", "clear", "margin"],
 )
-def test_the_title_says_how_the_search_ended(axes: Axes, spiral: Spiral, asked: dict[str, float], title: str) -> None:
-    first_contact(Dance(Dragon(), spiral), **asked).plot(axes)
+def test_the_title_says_how_the_search_ended(axes: Axes, spiral: Spiral, query: dict[str, float], title: str) -> None:
+    first_contact(Dance(Dragon(), spiral), **query).plot(axes)
     assert axes.get_title().startswith(title)

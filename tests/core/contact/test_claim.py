@@ -36,7 +36,7 @@ FOLDED = "no two benches that share no handle touch; there a bench folds, and th
 
 
 @pytest.mark.parametrize(
-    ("dragon", "path", "asked", "words"),
+    ("dragon", "path", "query", "words"),
     [
         (Dragon(30), Spiral(0.6, 8.0), {}, TOUCHING),
         (Dragon(30), Spiral(0.6, 8.0), {"margin": 0.05, "head_speed": 0.5, "start": 10.0}, NEAR),
@@ -46,13 +46,13 @@ FOLDED = "no two benches that share no handle touch; there a bench folds, and th
     ids=["contact", "margin", "clear", "fold"],
 )
 def test_the_certificate_names_the_whole_claim_in_a_few_sentences(
-    dragon: Dragon, path: Spiral | Route, asked: dict[str, float], words: str
+    dragon: Dragon, path: Spiral | Route, query: dict[str, float], words: str
 ) -> None:
-    found = first_contact(Dance(dragon, path, asked.pop("head_speed", 1.0)), **asked)
-    claim, proof = found.certificate.method.split(PROVEN)
-    if found.time_bracket is not None:
-        clear, within = found.time_bracket
-        words = words.format(clear=clear, within=within, b=found.benches[1])
+    contact = first_contact(Dance(dragon, path, query.pop("head_speed", 1.0)), **query)
+    claim, proof = contact.certificate.method.split(PROVEN)
+    if contact.time_bracket is not None:
+        clear, within = contact.time_bracket
+        words = words.format(clear=clear, within=within, b=contact.benches[1])
     if isinstance(path, Route):
         words = words.format(begin=path.begin, end=path.end)
     assert claim.endswith(words)

@@ -80,22 +80,22 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons() -> None:
     for _ in range(examples(60, 200)):
         dragon, path = random_dragon(random), Spiral(random.uniform(0.4, 0.7), random.uniform(8, 16))
         margin, head_speed = random.choice([0.0, 0.0, 0.03]), random.choice([0.01, 1.0, 5.0])
-        found = first_contact(Dance(dragon, path, head_speed), margin=margin)
-        check = contact_check(found)
+        contact = first_contact(Dance(dragon, path, head_speed), margin=margin)
+        check = contact_check(contact)
         if check is None:
-            assert found.outcome is Outcome.CLEAR
+            assert contact.outcome is Outcome.CLEAR
             continue
         assert check.judged == tuple(range(dragon.benches))
         assert check.left_out == ((Engine.ANGLE_SUM,) if margin else ())
-        if found.outcome is Outcome.CONTACT_AT_START:
+        if contact.outcome is Outcome.CONTACT_AT_START:
             assert all(check.engines[engine] == Verdict(before=None, after=True) for engine in EXACT)
             continue
-        assert found.time is not None
+        assert contact.time is not None
         assert check.agree, (dragon, path, margin, check)
         step = 2.0 * CHECK_TRAVEL / head_speed
-        before, after = poses_of(dragon, path, [found.time - step, found.time + step], head_speed)
+        before, after = poses_of(dragon, path, [contact.time - step, contact.time + step], head_speed)
         assert unlinked_pairs(before, sizes_of(dragon), margin) == set()
-        assert unlinked_pairs(after, sizes_of(dragon), margin) == {found.benches, *check.together}
+        assert unlinked_pairs(after, sizes_of(dragon), margin) == {contact.benches, *check.together}
         checked += 1
     assert checked > examples(18, 60)
 
@@ -103,9 +103,9 @@ def test_the_whole_dragon_is_as_reported_on_random_dragons() -> None:
 @pytest.mark.parametrize("whole", [True, False], ids=["dragon", "pair"])
 def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whole: bool) -> None:
     dragon, path = Dragon(60), Spiral(0.25, 8.0)
-    found = first_contact(Dance(dragon, path))
-    assert (found.outcome, found.time) == (Outcome.CONTACT_AT_START, 0.0)
-    check = contact_check(found, whole=whole)
+    contact = first_contact(Dance(dragon, path))
+    assert (contact.outcome, contact.time) == (Outcome.CONTACT_AT_START, 0.0)
+    check = contact_check(contact, whole=whole)
     assert check is not None
     assert check.agree
     assert check.engines == dict.fromkeys(Engine, Verdict(before=None, after=True))
@@ -115,13 +115,13 @@ def test_a_contact_at_the_start_has_no_before_and_may_have_others_beside_it(whol
 
 def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact: FirstContact) -> None:
     assert contact.time is not None
-    found = first_contact(Dance(DRAGON, SPIRAL), start=contact.time + 0.5)
-    assert found.outcome is Outcome.CONTACT_AT_START
-    check = contact_check(found)
+    result = first_contact(Dance(DRAGON, SPIRAL), start=contact.time + 0.5)
+    assert result.outcome is Outcome.CONTACT_AT_START
+    check = contact_check(result)
     assert check is not None
     assert check.agree
     # that is no first contact of the whole dance, which a different claim shows
-    forged = contact_check(replace(found, outcome=Outcome.CONTACT))
+    forged = contact_check(replace(result, outcome=Outcome.CONTACT))
     assert forged is not None
     assert all(verdict.before for verdict in forged.engines.values())
     assert not forged.agree
@@ -134,13 +134,13 @@ def test_two_benches_of_a_straight_row_that_are_met_at_once_stand_together() -> 
     met = []
     for overhang in (0.1, 0.2, 0.3, 0.4, 0.5):
         dragon = Dragon(40, 2.2, 2.2, 0.3, overhang)
-        found = first_contact(Dance(dragon, path), start=95.0)
-        check = contact_check(found)
+        contact = first_contact(Dance(dragon, path), start=95.0)
+        check = contact_check(contact)
         assert check is not None
-        assert found.benches is not None
+        assert contact.benches is not None
         assert check.agree
-        assert all(pair[0] == found.benches[0] for pair in check.together)
-        assert {abs(pair[1] - found.benches[1]) for pair in check.together} <= {1}
+        assert all(pair[0] == contact.benches[0] for pair in check.together)
+        assert {abs(pair[1] - contact.benches[1]) for pair in check.together} <= {1}
         met.append(len(check.together))
     assert {0, 1} <= set(met)
 
@@ -183,19 +183,19 @@ def test_a_wrong_time_is_noticed_by_every_engine(
 @pytest.mark.parametrize("when", ["before", "after", "both"])
 @pytest.mark.parametrize("margin", [0.0, 0.02])
 def test_a_third_bench_is_noticed_by_every_engine_but_not_by_the_pair_alone(when: str, margin: float) -> None:
-    found = first_contact(Dance(DRAGON, SPIRAL), margin=margin)
-    assert found.time is not None
-    assert found.benches is not None
-    poses = poses_of(DRAGON, SPIRAL, [found.time - CHECK_TRAVEL, found.time + CHECK_TRAVEL])
+    contact = first_contact(Dance(DRAGON, SPIRAL), margin=margin)
+    assert contact.time is not None
+    assert contact.benches is not None
+    poses = poses_of(DRAGON, SPIRAL, [contact.time - CHECK_TRAVEL, contact.time + CHECK_TRAVEL])
     moved = {"before": [0], "after": [1], "both": [0, 1]}[when]
     poses[moved, 100] = poses[moved, 150] + [0.4, 0.05, 0.3]
-    check = judged_contact(poses, sizes_of(DRAGON), found.benches, margin=margin)
+    check = judged_contact(poses, sizes_of(DRAGON), contact.benches, margin=margin)
     assert not check.agree
     assert check.together == ()
     wanted = Verdict(before=when != "after", after=when == "before")
     assert set(check.engines.values()) == {wanted}
     assert len(check.engines) == (3 if margin else 4)
-    assert judged_contact(poses, sizes_of(DRAGON), found.benches, margin=margin, whole=False).agree
+    assert judged_contact(poses, sizes_of(DRAGON), contact.benches, margin=margin, whole=False).agree
 
 
 @pytest.mark.parametrize(("deep", "together"), [(0.5, True), (2.0, False)], ids=["hardly", "deep"])
@@ -281,19 +281,19 @@ def test_the_angle_sum_is_left_out_where_benches_cross_at_the_start_with_no_corn
 @pytest.mark.parametrize(("stray", "margin", "wrong"), [(0.02, 0.0, WRONG), (0.05, 0.03, 0.2)])
 def test_with_a_stray_the_grounds_of_all_benches_are_judged(stray: float, margin: float, wrong: float) -> None:
     dance = Dance(DRAGON, SPIRAL)
-    found = first_contact(dance, margin=margin, stray=stray)
-    check = contact_check(found)
+    contact = first_contact(dance, margin=margin, stray=stray)
+    check = contact_check(contact)
     assert check is not None
     assert check.agree
     assert len(check.judged) == DRAGON.benches
     assert set(check.engines.values()) == {AS_REPORTED}
-    assert found.time_bracket is not None
+    assert contact.time_bracket is not None
     for shift in (-wrong, wrong):
-        bracket = (found.time_bracket[0] + shift, found.time_bracket[1] + shift)
-        forged = contact_check(replace(found, time_bracket=bracket))
+        bracket = (contact.time_bracket[0] + shift, contact.time_bracket[1] + shift)
+        forged = contact_check(replace(contact, time_bracket=bracket))
         assert forged is not None
         assert forged.engines[Engine.SHAPELY] == Verdict(before=shift > 0.0, after=shift > 0.0)
         assert not forged.agree
-    assert found.benches is not None
-    other = (found.benches[0], found.benches[1] + 1)
-    assert not contact_check(replace(found, benches=other)).agree
+    assert contact.benches is not None
+    other = (contact.benches[0], contact.benches[1] + 1)
+    assert not contact_check(replace(contact, benches=other)).agree

@@ -17,16 +17,16 @@ EIGHT = Route([Waypoints((*STRAIGHT, *LOOP))])
 
 def test_the_head_of_a_long_dragon_meets_its_body_on_the_crossing() -> None:
     dance = Dance(Dragon(30), EIGHT)
-    found = first_contact(dance, start=dance.begin)
-    assert found.outcome is Outcome.CONTACT
-    assert found.benches == (0, 21)
-    assert found.head is not None
-    assert found.head.radius < 1.0  # the crossing is at the origin
-    judged = contact_check(found)
+    contact = first_contact(dance, start=dance.begin)
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.benches == (0, 21)
+    assert contact.head is not None
+    assert contact.head.radius < 1.0  # the crossing is at the origin
+    judged = contact_check(contact)
     assert judged is not None
     assert judged.agree
-    assert found.time is not None
-    times = np.append(np.arange(dance.begin, found.time, 0.25), [found.time - 1e-6, found.time + 1e-6])
+    assert contact.time is not None
+    times = np.append(np.arange(dance.begin, contact.time, 0.25), [contact.time - 1e-6, contact.time + 1e-6])
     sizes = dance.dragon.lengths, dance.dragon.widths
     met = [overlaps(poses, *sizes).pairs.tolist() for poses in bench_poses(trajectory(dance, times).position)]
     assert met == [[]] * (times.size - 1) + [[[0, 21]]]

@@ -35,8 +35,8 @@ def test_rectangles_are_as_far_apart_as_in_doubles(a: tuple[float, ...], b: tupl
 
     first, second = bench(*a), bench(*b)
     distance, axis = precise_separation(first, second)
-    found = separation(a[:3], a[3:], b[:3], b[3:]).separation
-    assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
+    result = separation(a[:3], a[3:], b[:3], b[3:]).separation
+    assert float(distance) == pytest.approx(float(result), rel=0, abs=DOUBLE)
     assert float(exact_gap(first, second, axis)) == pytest.approx(float(distance), rel=0, abs=DOUBLE)
 
 

@@ -50,25 +50,25 @@ AROUND = 0.1
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
 def test_every_case_of_the_reference_is_met(case: dict[str, Any]) -> None:
-    found = first_contact(
+    contact = first_contact(
         Dance(Dragon(**case["dragon"]), Spiral(case["pitch"], case["start_turns"]), case["head_speed"])
     )
-    assert found.outcome == case["outcome"]
-    if found.outcome is Outcome.CONTACT:
-        assert found.time == pytest.approx(case["time"], rel=0, abs=ACCURACY)
-        assert found.head is not None
-        assert found.head.theta == pytest.approx(case["head_theta"], rel=0, abs=ACCURACY)
-        assert found.head.radius == pytest.approx(case["head_radius"], rel=0, abs=ACCURACY)
-        assert list(found.benches) == case["benches"]
-        assert (found.corner.bench, found.corner.name) == tuple(case["corner"].values())
-        assert (found.edge.bench, found.edge.name) == tuple(case["edge"].values())
-        np.testing.assert_allclose(found.point, case["point"], rtol=0, atol=ACCURACY)
-        assert found.time_bracket[1] - found.time_bracket[0] <= ACCURACY
-        assert found.time_bracket[0] <= found.time <= found.time_bracket[1]
-        assert found.end is None
-    elif found.outcome is Outcome.CLEAR:
-        assert (found.time, found.time_bracket, found.benches) == (None, None, None)
-        assert found.certificate.clear_until == found.end.time
+    assert contact.outcome == case["outcome"]
+    if contact.outcome is Outcome.CONTACT:
+        assert contact.time == pytest.approx(case["time"], rel=0, abs=ACCURACY)
+        assert contact.head is not None
+        assert contact.head.theta == pytest.approx(case["head_theta"], rel=0, abs=ACCURACY)
+        assert contact.head.radius == pytest.approx(case["head_radius"], rel=0, abs=ACCURACY)
+        assert list(contact.benches) == case["benches"]
+        assert (contact.corner.bench, contact.corner.name) == tuple(case["corner"].values())
+        assert (contact.edge.bench, contact.edge.name) == tuple(case["edge"].values())
+        np.testing.assert_allclose(contact.point, case["point"], rtol=0, atol=ACCURACY)
+        assert contact.time_bracket[1] - contact.time_bracket[0] <= ACCURACY
+        assert contact.time_bracket[0] <= contact.time <= contact.time_bracket[1]
+        assert contact.end is None
+    elif contact.outcome is Outcome.CLEAR:
+        assert (contact.time, contact.time_bracket, contact.benches) == (None, None, None)
+        assert contact.certificate.clear_until == contact.end.time
 
 
 def random_dragon(rng: np.random.Generator, bench_by_bench: bool) -> Dragon:
@@ -99,20 +99,20 @@ def random_dance(seed: int, bench_by_bench: bool) -> tuple[Dragon, Spiral]:
 
 
 def assert_as_slow_search(dragon: Dragon, spiral: Spiral, margin: float) -> None:
-    found = first_contact(Dance(dragon, spiral), margin=margin)
+    contact = first_contact(Dance(dragon, spiral), margin=margin)
     slow = SlowDance.of(dragon, spiral)
     touch = slow.first_touch(margin)
     if touch is None:
-        assert found.outcome is Outcome.CLEAR
+        assert contact.outcome is Outcome.CLEAR
         return
     time, pair = touch
     if time == 0.0:
-        assert found.outcome is Outcome.CONTACT_AT_START
+        assert contact.outcome is Outcome.CONTACT_AT_START
         return
-    assert found.outcome is Outcome.CONTACT
-    assert found.time == pytest.approx(time, rel=0, abs=ACCURACY)
-    if found.benches != pair:  # two pairs at once
-        assert slow.pair_gap(time, found.benches) == pytest.approx(margin, abs=TIED)
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.time == pytest.approx(time, rel=0, abs=ACCURACY)
+    if contact.benches != pair:  # two pairs at once
+        assert slow.pair_gap(time, contact.benches) == pytest.approx(margin, abs=TIED)
 
 
 @pytest.mark.parametrize("seed", some(range(14), 7))
@@ -156,10 +156,10 @@ def test_the_last_bench_that_matters_is_found_among_three_hundred() -> None:
     """Short benches on tight spirals, where neighbouring rings meet; a slow search of 60 benches finds the same."""
     benches = 300
     assert_as_slow_search(Dragon(benches, 0.7, 0.7, 0.2, 0.1), Spiral(0.2055, 5.5), margin=0.0)  # at the start
-    found = first_contact(Dance(Dragon(benches, 0.7, 0.7, 0.2, 0.1), Spiral(0.2232, 12.0)))
+    contact = first_contact(Dance(Dragon(benches, 0.7, 0.7, 0.2, 0.1), Spiral(0.2232, 12.0)))
     time, pair = SlowDance.of(Dragon(60, 0.7, 0.7, 0.2, 0.1), Spiral(0.2232, 12.0)).first_touch()
-    assert found.benches == pair == (0, 31)
-    assert found.time == pytest.approx(time, rel=0, abs=ACCURACY)
+    assert contact.benches == pair == (0, 31)
+    assert contact.time == pytest.approx(time, rel=0, abs=ACCURACY)
 
 
 # Start inside the region in which rings can touch: pairs far down the body are met before the body repeats itself.
@@ -178,16 +178,16 @@ def test_a_start_near_the_centre_is_searched_with_all_pairs(dragon: Dragon, spir
 
 
 def test_contact_at_the_start_names_a_touching_pair() -> None:
-    found = first_contact(Dance(Dragon(), Spiral(0.35)))
-    assert (found.outcome, found.time, found.time_bracket) == (Outcome.CONTACT_AT_START, 0.0, None)
-    assert SlowDance.of(Dragon(), Spiral(0.35)).pair_gap(0.0, found.benches) <= 0.0
+    contact = first_contact(Dance(Dragon(), Spiral(0.35)))
+    assert (contact.outcome, contact.time, contact.time_bracket) == (Outcome.CONTACT_AT_START, 0.0, None)
+    assert SlowDance.of(Dragon(), Spiral(0.35)).pair_gap(0.0, contact.benches) <= 0.0
 
 
 @pytest.mark.parametrize("benches", [1, 2])
 def test_two_benches_share_a_handle_and_are_always_clear(benches: int) -> None:
-    found = first_contact(Dance(Dragon(benches), Spiral(0.1, 40.0)))
-    assert found.outcome is Outcome.CLEAR
-    assert found.end == Dance(Dragon(benches), Spiral(0.1, 40.0)).end
+    contact = first_contact(Dance(Dragon(benches), Spiral(0.1, 40.0)))
+    assert contact.outcome is Outcome.CLEAR
+    assert contact.end == Dance(Dragon(benches), Spiral(0.1, 40.0)).end
 
 
 def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start() -> None:
@@ -195,9 +195,9 @@ def test_overhangs_that_cross_over_a_short_bench_touch_at_the_start() -> None:
 
 
 def test_a_wide_spiral_is_clear_to_its_centre() -> None:
-    found = first_contact(Dance(Dragon(12, 1.0, 1.0, 0.05, 0.0), Spiral(3.0, 4.0)))
-    assert found.outcome is Outcome.CLEAR
-    assert found.end.reason is EndReason.CENTRE
+    contact = first_contact(Dance(Dragon(12, 1.0, 1.0, 0.05, 0.0), Spiral(3.0, 4.0)))
+    assert contact.outcome is Outcome.CLEAR
+    assert contact.end.reason is EndReason.CENTRE
 
 
 @pytest.mark.parametrize("pitch", [0.8, 1.2, 1.5])
@@ -226,8 +226,8 @@ def jump_between(dragon: Dragon, turns: float, low: float, high: float, margin: 
     """Pitches on both sides of the largest jump of the head's radius at first contact, 1e-12 m apart."""
 
     def radius(pitch: float) -> float:
-        found = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
-        return found.head.radius if found.head else 0.0
+        contact = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
+        return contact.head.radius if contact.head else 0.0
 
     below, above = radius(low), radius(high)
     while high - low > 1e-12:
@@ -271,9 +271,9 @@ def test_a_graze_is_met_just_below_a_jump_and_passed_just_above(
 def test_a_graze_at_the_margin_is_undecided_up_to_the_next_certain_contact() -> None:
     free = minimum_pitch(Dragon(60)).pitch_bracket[1]
     pitch = free - BORDER_WIDTH
-    found = first_contact(Dance(Dragon(60), Spiral(pitch)))
-    assert found.outcome is Outcome.UNDECIDED
-    clear, within = found.time_bracket
+    contact = first_contact(Dance(Dragon(60), Spiral(pitch)))
+    assert contact.outcome is Outcome.UNDECIDED
+    clear, within = contact.time_bracket
     bottom, least = SlowDance.of(Dragon(60), Spiral(pitch)).dip(clear - AROUND, clear + AROUND, (0, 19))
     assert clear <= bottom
     assert abs(least) <= ROUNDING
@@ -288,14 +288,14 @@ def test_a_slow_contact_before_time_zero_is_decided_as_the_same_one_after_it(sta
     """On the way in a turn is the spiral from the same turns; the benches close by 4 mm per metre."""
     turn, spiral = Dance(SLOW, Turn(1.0, 1.5, start_turns=8.0)), Dance(SLOW, Spiral(1.0, 8.0))
     later = first_contact(spiral)
-    found = first_contact(turn, start=start)
-    assert (later.outcome, found.outcome) == (Outcome.CONTACT, Outcome.CONTACT)
-    assert found.benches == later.benches
-    assert found.time == pytest.approx(later.time + turn.begin, rel=0, abs=ACCURACY)
-    assert found.time_bracket[0] <= found.time <= found.time_bracket[1] <= found.time_bracket[0] + ACCURACY
+    contact = first_contact(turn, start=start)
+    assert (later.outcome, contact.outcome) == (Outcome.CONTACT, Outcome.CONTACT)
+    assert contact.benches == later.benches
+    assert contact.time == pytest.approx(later.time + turn.begin, rel=0, abs=ACCURACY)
+    assert contact.time_bracket[0] <= contact.time <= contact.time_bracket[1] <= contact.time_bracket[0] + ACCURACY
     least = least_clearance(turn, start=start)
-    assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, found.benches)
-    assert least.time == pytest.approx(found.time, rel=0, abs=ACCURACY)
+    assert (least.distance, least.at_least, least.benches) == (0.0, 0.0, contact.benches)
+    assert least.time == pytest.approx(contact.time, rel=0, abs=ACCURACY)
     assert check(turn, start=start).verdict is Judgement.FAILS
 
 
@@ -306,13 +306,13 @@ def undecided_dance() -> Dance:
 
 def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no_bound() -> None:
     dance = undecided_dance()
-    found, least = first_contact(dance), least_clearance(dance)
-    assert (found.outcome, found.time, found.benches) == (Outcome.UNDECIDED, None, None)
-    assert found.overlapping is not None
+    contact, least = first_contact(dance), least_clearance(dance)
+    assert (contact.outcome, contact.time, contact.benches) == (Outcome.UNDECIDED, None, None)
+    assert contact.overlapping is not None
     slow = SlowDance.of(dance.dragon, dance.path)
-    gaps, pairs = slow.clearance([found.time_bracket[1] + 1e-6])
+    gaps, pairs = slow.clearance([contact.time_bracket[1] + 1e-6])
     assert gaps[0] < 0.0
-    assert tuple(pairs[0]) == found.overlapping
+    assert tuple(pairs[0]) == contact.overlapping
     assert (least.distance, least.at_least) == (0.0, None)
     assert slow.pair_gap(least.time + 1e-6, least.benches) < 0.0
 
@@ -320,11 +320,11 @@ def test_an_undecided_contact_names_the_pair_that_surely_overlaps_and_carries_no
 @pytest.mark.parametrize("judge", [check, quick_check])
 def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge: Callable[..., Report]) -> None:
     dance = undecided_dance()
-    found, report = first_contact(dance, start=dance.begin), judge(dance)
+    contact, report = first_contact(dance, start=dance.begin), judge(dance)
     failure = report.failures[0]
     assert report.verdict is Judgement.FAILS
-    assert (failure.kind, failure.benches) == (FailureKind.CONTACT, found.overlapping)
-    assert (failure.time, failure.time_bracket) == (found.time_bracket[1], found.time_bracket)
+    assert (failure.kind, failure.benches) == (FailureKind.CONTACT, contact.overlapping)
+    assert (failure.time, failure.time_bracket) == (contact.time_bracket[1], contact.time_bracket)
     assert report.stop == pytest.approx(failure.time, rel=0, abs=ACCURACY)
     assert "at the latest; up to 216." in failure.message
 
@@ -332,8 +332,8 @@ def test_a_contact_that_is_certain_but_perhaps_not_the_first_fails(judge: Callab
 def test_without_a_certain_contact_an_undecided_search_stays_undecided() -> None:
     dance = undecided_dance()
     stop = first_contact(dance).time_bracket[0] + 1.0
-    found, report = first_contact(dance, stop=stop), check(dance, stop=stop)
-    assert (found.outcome, found.overlapping, found.time_bracket[1]) == (Outcome.UNDECIDED, None, stop)
+    contact, report = first_contact(dance, stop=stop), check(dance, stop=stop)
+    assert (contact.outcome, contact.overlapping, contact.time_bracket[1]) == (Outcome.UNDECIDED, None, stop)
     assert report.verdict is Judgement.UNDECIDED
     assert [failure.kind for failure in report.failures] == [FailureKind.UNDECIDED]
     assert report.least_clearance.at_least is None
@@ -343,9 +343,9 @@ def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
     graze = first_contact(Dance(Dragon(), Spiral(0.4504))).certificate.least_clearance
     assert graze is not None
     for factor, near in ((1.001, True), (0.999, False)):
-        found = first_contact(Dance(Dragon(), Spiral(0.4504)), margin=graze.clearance * factor)
-        assert found.outcome is Outcome.CONTACT
-        assert (abs(found.time - graze.time) < AROUND) is near
+        contact = first_contact(Dance(Dragon(), Spiral(0.4504)), margin=graze.clearance * factor)
+        assert contact.outcome is Outcome.CONTACT
+        assert (abs(contact.time - graze.time) < AROUND) is near
 
 
 # -- margin ------------------------------------------------------------------------------------------
@@ -354,14 +354,14 @@ def test_a_margin_between_a_graze_and_zero_is_met_at_the_graze() -> None:
 @pytest.mark.parametrize("pitch", [0.52, 0.55, 0.62])
 @pytest.mark.parametrize("margin", [1e-6, 0.05, 0.12])
 def test_at_first_contact_with_a_margin_shapely_measures_the_margin(pitch: float, margin: float) -> None:
-    found = first_contact(Dance(Dragon(40), Spiral(pitch, 10.0)), margin=margin)
+    contact = first_contact(Dance(Dragon(40), Spiral(pitch, 10.0)), margin=margin)
     slow = SlowDance.of(Dragon(40), Spiral(pitch, 10.0))
-    if found.outcome is Outcome.CONTACT_AT_START:
+    if contact.outcome is Outcome.CONTACT_AT_START:
         assert slow.clearance([0.0])[0][0] <= margin
         return
-    assert found.outcome is Outcome.CONTACT
-    assert slow.pair_gap(found.time, found.benches) == pytest.approx(margin, rel=0, abs=1e-9)
-    proven, overlapping = found.time_bracket
+    assert contact.outcome is Outcome.CONTACT
+    assert slow.pair_gap(contact.time, contact.benches) == pytest.approx(margin, rel=0, abs=1e-9)
+    proven, overlapping = contact.time_bracket
     assert slow.clearance([proven])[0][0] >= margin - ROUNDING
     assert slow.clearance([overlapping])[0][0] <= margin + ROUNDING
 
@@ -386,35 +386,35 @@ DANCES = st.integers(0, 10_000).map(lambda seed: random_dance(seed, seed % 3 == 
 @given(DANCES)
 def test_all_is_clear_just_before_first_contact_and_not_just_after(dance: tuple[Dragon, Spiral]) -> None:
     dragon, spiral = dance
-    found = first_contact(Dance(dragon, spiral))
-    assume(found.outcome is Outcome.CONTACT)
+    contact = first_contact(Dance(dragon, spiral))
+    assume(contact.outcome is Outcome.CONTACT)
     slow = SlowDance.of(dragon, spiral)
-    before = found.time_bracket[0] * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))
+    before = contact.time_bracket[0] * (1.0 - np.array([0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 0.5]))
     assert slow.clearance(before)[0].min() > -ROUNDING
-    assert slow.clearance([found.time_bracket[1]])[0][0] <= ROUNDING
+    assert slow.clearance([contact.time_bracket[1]])[0][0] <= ROUNDING
 
 
 @settings(max_examples=25, deadline=None)
 @given(DANCES, st.floats(0.1, 10.0))
 def test_scaling_every_length_scales_the_answer(dance: tuple[Dragon, Spiral], k: float) -> None:
     dragon, spiral = dance
-    found = first_contact(Dance(dragon, spiral))
+    contact = first_contact(Dance(dragon, spiral))
     large = Dragon.of(k * dragon.lengths, k * dragon.widths, k * dragon.overhangs)
     scaled = first_contact(Dance(large, Spiral(k * spiral.pitch, spiral.start_turns)))
-    assert scaled.outcome is found.outcome
-    if found.outcome is Outcome.CONTACT:
-        assert scaled.time == pytest.approx(k * found.time, rel=1e-9, abs=ACCURACY)
-        np.testing.assert_allclose(scaled.point, k * np.array(found.point), atol=1e-8 * max(1.0, k))
+    assert scaled.outcome is contact.outcome
+    if contact.outcome is Outcome.CONTACT:
+        assert scaled.time == pytest.approx(k * contact.time, rel=1e-9, abs=ACCURACY)
+        np.testing.assert_allclose(scaled.point, k * np.array(contact.point), atol=1e-8 * max(1.0, k))
 
 
 @settings(max_examples=15, deadline=None)
 @given(DANCES, st.floats(0.1, 10.0))
 def test_a_faster_head_meets_the_same_contact_sooner(dance: tuple[Dragon, Spiral], head_speed: float) -> None:
-    found, faster = (first_contact(Dance(*dance, speed)) for speed in (1.0, head_speed))
-    assert faster.outcome is found.outcome
-    if found.time is not None:
-        assert faster.time * head_speed == pytest.approx(found.time, rel=0, abs=ACCURACY * max(1.0, head_speed))
-        assert faster.head.radius == pytest.approx(found.head.radius, abs=ACCURACY * max(1.0, head_speed))
+    result, faster = (first_contact(Dance(*dance, speed)) for speed in (1.0, head_speed))
+    assert faster.outcome is result.outcome
+    if result.time is not None:
+        assert faster.time * head_speed == pytest.approx(result.time, rel=0, abs=ACCURACY * max(1.0, head_speed))
+        assert faster.head.radius == pytest.approx(result.head.radius, abs=ACCURACY * max(1.0, head_speed))
 
 
 def test_the_bracket_is_as_narrow_as_promised() -> None:
@@ -439,9 +439,9 @@ def test_a_margin_beyond_its_limits_is_refused(margin: object) -> None:
 
 def test_the_gap_of_a_contact_is_the_margin_and_at_the_start_what_there_is() -> None:
     for margin in (0.0, 0.05, 0.15):
-        found = first_contact(Dance(Dragon(), Spiral()), margin=margin)
-        assert found.outcome is Outcome.CONTACT
-        assert found.gap == pytest.approx(margin, abs=ACCURACY)
+        contact = first_contact(Dance(Dragon(), Spiral()), margin=margin)
+        assert contact.outcome is Outcome.CONTACT
+        assert contact.gap == pytest.approx(margin, abs=ACCURACY)
     at_start = first_contact(Dance(Dragon(), Spiral()), margin=0.2)
     assert at_start.outcome is Outcome.CONTACT_AT_START
     assert at_start.benches is not None

@@ -33,10 +33,10 @@ TO_THE_FOLD = {
 
 @pytest.mark.parametrize(("dragon", "spiral"), TO_THE_FOLD.values(), ids=TO_THE_FOLD)
 def test_the_last_instants_before_a_fold_are_decided(dragon: Dragon, spiral: Spiral) -> None:
-    found = first_contact(Dance(dragon, spiral))
-    assert (found.outcome, found.end) == (Outcome.CLEAR, Dance(dragon, spiral).end)
-    left = found.end.time * 1e-9 * np.linspace(1.0, 0.0, 40) ** 2
-    assert SlowDance.of(dragon, spiral).clearance(found.end.time - left[:-1])[0].min() > 0.0
+    contact = first_contact(Dance(dragon, spiral))
+    assert (contact.outcome, contact.end) == (Outcome.CLEAR, Dance(dragon, spiral).end)
+    left = contact.end.time * 1e-9 * np.linspace(1.0, 0.0, 40) ** 2
+    assert SlowDance.of(dragon, spiral).clearance(contact.end.time - left[:-1])[0].min() > 0.0
 
 
 # Parts of the travel that are left where the bound is tried [1].

@@ -69,8 +69,8 @@ def test_benches_stand_where_the_kernels_put_them(path: Spiral | Route, travel: 
     rows, sizes = model.search.placed[list(pair)], model.search.sizes[list(pair)]
     poses = np.column_stack([rows[:, [MX, MY]], np.arctan2(rows[:, UY], rows[:, UX])])
     size = 2.0 * sizes[:, [HALF_LENGTH, HALF_WIDTH]]
-    found = separation(poses[0], size[0], poses[1], size[1]).separation
-    assert float(distance) == pytest.approx(float(found), rel=0, abs=DOUBLE)
+    result = separation(poses[0], size[0], poses[1], size[1]).separation
+    assert float(distance) == pytest.approx(float(result), rel=0, abs=DOUBLE)
 
 
 @pytest.mark.parametrize(
@@ -96,12 +96,12 @@ def test_far_from_a_centre_a_link_is_as_exact_as_near_to_it(path: Spiral | Route
 @pytest.mark.parametrize("head_speed", [0.01, 1.0, 2.0])
 def test_within_a_nanometre_of_a_graze_the_bracket_is_narrow(margin: float, below: float, head_speed: float) -> None:
     spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
-    found = first_contact(Dance(Dragon(60), spiral, head_speed), margin=margin)
-    assert found.outcome is Outcome.CONTACT
-    assert found.time_bracket is not None
-    clear, within = found.time_bracket
-    assert clear < found.time < within <= clear + BRACKET
-    model = pair_of(spiral, found.benches)
+    contact = first_contact(Dance(Dragon(60), spiral, head_speed), margin=margin)
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.time_bracket is not None
+    clear, within = contact.time_bracket
+    assert clear < contact.time < within <= clear + BRACKET
+    model = pair_of(spiral, contact.benches)
     with localcontext() as context:
         context.prec = DIGITS
         at = [
@@ -117,63 +117,63 @@ def test_with_passages_the_bracket_of_a_near_graze_is_as_narrow(margin: float, b
     spiral = Spiral(minimum_pitch(Dragon(60), margin=margin).pitch_bracket[0] - below)
     steady = first_contact(Dance(Dragon(60), spiral), margin=margin)
     passages = [Passage(1.5, until_s=30.0), Passage(0.0, until_time=50.0), Passage(1.0, until_s=100.0)]
-    found = first_contact(Dance(Dragon(60), spiral, 1.0, passages), margin=margin)
-    assert (found.outcome, found.benches) == (Outcome.CONTACT, steady.benches)
-    clear, within = found.time_bracket
-    assert clear < found.time < within <= clear + BRACKET
-    assert found.time == pytest.approx(steady.time + 20.0, rel=0, abs=BRACKET)  # 30 m in 50 s instead of 30 s
+    contact = first_contact(Dance(Dragon(60), spiral, 1.0, passages), margin=margin)
+    assert (contact.outcome, contact.benches) == (Outcome.CONTACT, steady.benches)
+    clear, within = contact.time_bracket
+    assert clear < contact.time < within <= clear + BRACKET
+    assert contact.time == pytest.approx(steady.time + 20.0, rel=0, abs=BRACKET)  # 30 m in 50 s instead of 30 s
 
 
 def grazing() -> tuple[ContactSearch, Marched]:
     """A search on a spiral a nanometre of pitch below the least one, and its contact: a graze 2 mm of travel long."""
     search = ContactSearch(Dragon(60), Spiral(minimum_pitch(Dragon(60)).pitch_bracket[0] - 1e-9), 0.0)
-    state, found, half = search.approach(0.0, 300.0, 1.0)
+    state, result, half = search.approach(0.0, 300.0, 1.0)
     assert (state, half > 0.5 * BRACKET) == (Ended.TOUCHED, True)
-    return search, found
+    return search, result
 
 
 def test_where_a_second_pair_is_as_near_the_bracket_stays() -> None:
-    search, found = grazing()
-    assert narrow_bracket(search, found, 0.4 * BRACKET) is not None
-    assert narrow_bracket(search, found._replace(benches=(0, 18)), 0.4 * BRACKET) is None
+    search, result = grazing()
+    assert narrow_bracket(search, result, 0.4 * BRACKET) is not None
+    assert narrow_bracket(search, result._replace(benches=(0, 18)), 0.4 * BRACKET) is None
 
 
 @pytest.mark.parametrize(("margin", "alone"), [(0.0, True), (1e-3, False)])
 def test_where_another_pair_was_within_the_margin_earlier_the_bracket_stays(margin: float, alone: bool) -> None:
     """Benches 0 and 11 pass each other 0.9 mm apart, 2.6 m of travel before benches 0 and 8 touch."""
     search = ContactSearch(Dragon(60), Spiral(), margin)
-    found = Marched(409.0, 412.48, (0, 8))
-    assert (narrow_bracket(search, found, BRACKET) is not None) == alone
+    result = Marched(409.0, 412.48, (0, 8))
+    assert (narrow_bracket(search, result, BRACKET) is not None) == alone
 
 
 def test_benches_that_graze_between_two_instants_are_not_proven_apart_by_the_gaps_at_both() -> None:
-    search, found = grazing()
-    pair, (before, after) = ExactPair(search, found.benches), (found.proven - 0.01, found.proven + 0.01)
+    search, result = grazing()
+    pair, (before, after) = ExactPair(search, result.benches), (result.proven - 0.01, result.proven + 0.01)
     with localcontext() as context:
         context.prec = DIGITS
         assert min(pair.gap(Decimal(before)), pair.gap(Decimal(after))) > 0
         assert not pair.stays_apart(before, after)
-        assert pair.stays_apart(before, found.proven - 0.005)
+        assert pair.stays_apart(before, result.proven - 0.005)
 
 
 def test_where_the_way_before_a_contact_takes_too_many_intervals_the_bracket_stays(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    search, found = grazing()
+    search, result = grazing()
     monkeypatch.setattr(core.contact.near_graze, "INTERVALS_MAX", 2)
-    assert narrow_bracket(search, found._replace(proven=found.proven - 1.0), 0.4 * BRACKET) is None
+    assert narrow_bracket(search, result._replace(proven=result.proven - 1.0), 0.4 * BRACKET) is None
 
 
 def test_where_a_link_is_not_solved_the_bracket_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    search, found = grazing()
+    search, result = grazing()
     monkeypatch.setattr(core.contact.near_graze, "LINK_STEPS", 2)
-    assert narrow_bracket(search, found, 0.4 * BRACKET) is None
+    assert narrow_bracket(search, result, 0.4 * BRACKET) is None
 
 
 @pytest.mark.parametrize(("half", "within"), [(1e-3, True), (1e-2, False)])
 def test_no_bracket_ends_where_the_benches_are_apart_again(half: float, within: bool) -> None:
-    search, found = grazing()
-    assert (narrow_bracket(search, found, half) is not None) == within
+    search, result = grazing()
+    assert (narrow_bracket(search, result, half) is not None) == within
 
 
 def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
@@ -184,13 +184,13 @@ def test_a_curve_through_waypoints_is_followed_in_doubles_alone() -> None:
 def test_benches_far_behind_are_followed_in_doubles_alone() -> None:
     assert pair_of(Spiral(), (0, LAST_BENCH)).can_follow
     assert not pair_of(Spiral(), (0, LAST_BENCH + 1)).can_follow
-    found = first_contact(Dance(Dragon(2_000, width=0.54), Spiral(start_turns=1_000)))
-    assert found.outcome is Outcome.CONTACT
-    assert found.benches[1] > LAST_BENCH
+    contact = first_contact(Dance(Dragon(2_000, width=0.54), Spiral(start_turns=1_000)))
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.benches[1] > LAST_BENCH
 
 
 def test_where_a_travel_is_rounded_to_more_than_the_bracket_decimals_are_not_asked() -> None:
-    found = first_contact(Dance(Dragon(20), Spiral(0.3, 1_500), 0.01))
-    assert found.outcome is Outcome.CONTACT
-    assert found.time_bracket is not None
-    assert found.time_bracket[1] - found.time_bracket[0] > BRACKET
+    contact = first_contact(Dance(Dragon(20), Spiral(0.3, 1_500), 0.01))
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.time_bracket is not None
+    assert contact.time_bracket[1] - contact.time_bracket[0] > BRACKET

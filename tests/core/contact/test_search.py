@@ -54,20 +54,20 @@ def test_all_pairs_but_the_touching_one_are_clear_and_it_is_followed_again_after
     search, stop = ContactSearch(DRAGON, SPIRAL, 0.0), CONTACT + 1e-3
     assert not others_clear(search, GRAZING, 400.0, stop)
     assert others_clear(search, PAIR, 400.0, stop)
-    state, found = search.march(stop, 1e-10, start=400.0)
-    assert (state, found.benches) == (Ended.TOUCHED, PAIR)
-    assert found.touching == pytest.approx(CONTACT, abs=1e-9)
-    assert found.graze is not None
-    assert found.graze.benches == GRAZING
+    state, result = search.march(stop, 1e-10, start=400.0)
+    assert (state, result.benches) == (Ended.TOUCHED, PAIR)
+    assert result.touching == pytest.approx(CONTACT, abs=1e-9)
+    assert result.graze is not None
+    assert result.graze.benches == GRAZING
     assert search.surely_within(CONTACT + 1e-9, PAIR)
     assert not search.surely_within(CONTACT - 1e-9, PAIR)
 
 
 def test_a_search_whose_work_is_done_gives_up() -> None:
     search = ContactSearch(Dragon(), Turn(1.7), 0.0, work=2e4)
-    state, found, _ = search.approach(-50.0, 100.0, 1.0)
+    state, result, _ = search.approach(-50.0, 100.0, 1.0)
     assert state is Ended.STUCK
-    assert -50.0 < found.proven < 100.0
+    assert -50.0 < result.proven < 100.0
 
 
 EARLIER = Marched(3.0, None, (0, 0), 5, 0.25, Dip(0.02, 2.0, (0, 9)))

@@ -106,21 +106,21 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
     ring = tuple((x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles)
     post = Area("post", ((*ring, ring[0]),))
     venue = Venue(VENUE.square, (post,))
-    found = venue_clearance(Dance(DRAGON, LAP), venue, margin=margin).areas[1]
+    result = venue_clearance(Dance(DRAGON, LAP), venue, margin=margin).areas[1]
     times = np.linspace(0.0, LAP.end, 1_500)
     slow = shapely_distances(DRAGON, LAP, post, times).min(axis=1)
-    assert found.nearest.at_least is not None
-    assert found.nearest.at_least <= slow.min() + SAME_DISTANCE
-    assert found.nearest.distance <= slow.min() + PROVEN
-    if found.outcome is Outcome.CLEAR:
+    assert result.nearest.at_least is not None
+    assert result.nearest.at_least <= slow.min() + SAME_DISTANCE
+    assert result.nearest.distance <= slow.min() + PROVEN
+    if result.outcome is Outcome.CLEAR:
         assert slow.min() > margin
-        assert found.nearest.distance > margin
-    elif found.outcome is Outcome.CONTACT_AT_START:
+        assert result.nearest.distance > margin
+    elif result.outcome is Outcome.CONTACT_AT_START:
         assert slow[0] <= margin + SAME_DISTANCE
     else:
-        assert found.outcome is Outcome.CONTACT
-        assert found.time_bracket is not None
-        clear, touching = found.time_bracket
+        assert result.outcome is Outcome.CONTACT
+        assert result.time_bracket is not None
+        clear, touching = result.time_bracket
         assert slow[times < clear].min() > margin
         assert shapely_distances(DRAGON, LAP, post, np.array([touching])).min() < margin + AT_MARGIN
 
@@ -128,24 +128,24 @@ def test_any_obstacle_is_met_when_a_slow_search_meets_it(
 def test_a_wall_across_the_way_is_met_where_the_head_reaches_it() -> None:
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
     wall = Venue(boxed("square", -70, -9, 70, 9), (boxed("wall", 20, -1, 21, 1),))
-    found = venue_clearance(Dance(DRAGON, route), wall, margin=0.25).areas[1]
-    assert found.outcome is Outcome.CONTACT
-    assert found.time == pytest.approx(20.0 - 0.275 - 0.25, abs=TIME_ERROR)
-    assert found.bench == 0
-    assert found.point is not None
-    assert found.point[0] == pytest.approx(19.75, abs=AT_MARGIN)
-    assert found.nearest.distance == 0.0
-    assert found.nearest.time == pytest.approx(20.0 - 0.275, abs=TIME_ERROR)
+    result = venue_clearance(Dance(DRAGON, route), wall, margin=0.25).areas[1]
+    assert result.outcome is Outcome.CONTACT
+    assert result.time == pytest.approx(20.0 - 0.275 - 0.25, abs=TIME_ERROR)
+    assert result.bench == 0
+    assert result.point is not None
+    assert result.point[0] == pytest.approx(19.75, abs=AT_MARGIN)
+    assert result.nearest.distance == 0.0
+    assert result.nearest.time == pytest.approx(20.0 - 0.275, abs=TIME_ERROR)
 
 
 def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
     dragon = Dragon.of([2.2] * 6, [0.3, 0.3, 0.3, 0.9, 0.3, 0.3], [0.275] * 6)
     route = Route([Line((-60, 0), (60, 0))], start=60.0)
     square = Venue(boxed("square", -70, -9, 70, 9), (boxed("post", 20, 0.3, 20.5, 1),))
-    found = venue_clearance(Dance(dragon, route), square).areas[1]
-    assert found.bench == 3
-    assert found.time == pytest.approx(20.0 + 3 * 1.65 - 0.275, abs=TIME_ERROR)
-    assert found.nearest.distance == 0.0
+    result = venue_clearance(Dance(dragon, route), square).areas[1]
+    assert result.bench == 3
+    assert result.time == pytest.approx(20.0 + 3 * 1.65 - 0.275, abs=TIME_ERROR)
+    assert result.nearest.distance == 0.0
     clear = venue_clearance(Dance(dragon, route), square, stop=20.0).areas[1]
     assert clear.outcome is Outcome.CLEAR
     assert clear.nearest.distance == pytest.approx(0.15, abs=SAME_DISTANCE)
@@ -154,19 +154,19 @@ def test_a_bench_that_is_not_the_head_may_be_the_first_to_touch() -> None:
 def test_a_spiral_keeps_its_place_in_the_world() -> None:
     dragon = Dragon(40)
     known = shapely_distances(dragon, Spiral(), VENUE_ROUND.square, np.linspace(0.0, 400.0, 1_500))
-    found = venue_clearance(Dance(dragon, Spiral()), VENUE_ROUND, stop=400.0)
-    nearest = found.areas[0].nearest
-    assert found.misplaced is None
+    result = venue_clearance(Dance(dragon, Spiral()), VENUE_ROUND, stop=400.0)
+    nearest = result.areas[0].nearest
+    assert result.misplaced is None
     assert nearest.distance <= known.min() + SAME_DISTANCE
     assert nearest.distance == pytest.approx(known.min(), abs=1e-3)  # the samples are 0.27 s apart
 
 
 @pytest.mark.parametrize(("start", "stop"), [(-60.0, -20.0), (-5.0, 0.0), (0.0, 1e-3)])
 def test_a_spiral_has_its_place_also_before_its_start(start: float, stop: float) -> None:
-    found = venue_clearance(Dance(Dragon(benches=9), Spiral()), VENUE_ROUND, start=start, stop=stop).areas[0].nearest
+    result = venue_clearance(Dance(Dragon(benches=9), Spiral()), VENUE_ROUND, start=start, stop=stop).areas[0].nearest
     known = shapely_distances(Dragon(benches=9), Spiral(), VENUE_ROUND.square, np.linspace(start, stop, 400))
-    assert found.distance <= known.min() + PROVEN
-    assert found.distance == pytest.approx(known.min(), abs=1e-3)
+    assert result.distance <= known.min() + PROVEN
+    assert result.distance == pytest.approx(known.min(), abs=1e-3)
 
 
 TREE = Area("tree", (((0.0, -4.723129), (0.1, -5.723129), (-0.1, -5.723129), (0.0, -4.723129)),))
@@ -198,12 +198,12 @@ def test_a_wall_just_before_the_fold_is_met_when_a_bench_gets_there(before: floa
     corner = np.array([x, y]) - 0.001 * out
     ring = [tuple(corner + 0.5 * out + k * 0.02 * side) for k in (-1, 1)]
     post = Area("post", ((tuple(corner), *ring, tuple(corner)),))
-    found = venue_clearance(dance, Venue(VENUE_ROUND.square, (post,)), start=dance.end.time - 2.0 * before).areas[1]
+    result = venue_clearance(dance, Venue(VENUE_ROUND.square, (post,)), start=dance.end.time - 2.0 * before).areas[1]
     touching = shapely_distances(dance.dragon, dance.path, post, np.array([at])).min()
     assert touching == 0.0
-    assert found.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
-    if found.time_bracket is not None:
-        clear, touch = found.time_bracket
+    assert result.outcome in (Outcome.CONTACT, Outcome.CONTACT_AT_START)
+    if result.time_bracket is not None:
+        clear, touch = result.time_bracket
         assert clear <= at
         assert shapely_distances(dance.dragon, dance.path, post, np.array([touch])).min() < AT_MARGIN
 
@@ -221,10 +221,10 @@ def test_a_wall_is_met_within_a_nanosecond_however_slowly_a_bench_comes_near(slo
         "wall", (((-50.0, height(-50.0)), (55.0, height(55.0)), (55.0, 5.0), (-50.0, 5.0), (-50.0, height(-50.0))),)
     )
     square = Venue(boxed("square", -70, -9, 70, 9), (wall,))
-    found = venue_clearance(Dance(Dragon(5), route, 1.0, passages), square, nearest=False).areas[1]
-    assert found.outcome is Outcome.CONTACT
-    assert found.time_bracket is not None
-    clear, touching = found.time_bracket
+    result = venue_clearance(Dance(Dragon(5), route, 1.0, passages), square, nearest=False).areas[1]
+    assert result.outcome is Outcome.CONTACT
+    assert result.time_bracket is not None
+    clear, touching = result.time_bracket
     assert touching - clear <= 1e-9 * (1.0 + 1e-5)
     at = 29.725 + (3.0 if pause else 0.0)
     rounding = 1e-16 / slope  # of the heights of the wall
@@ -237,16 +237,16 @@ def test_a_wall_that_stays_at_the_margin_is_undecided_until_a_bench_is_surely_ne
     ring = ((-50.0, 0.35), (40.0, 0.35), (40.0, 0.3), (50.0, 0.3), (50.0, 5.0), (-50.0, 5.0), (-50.0, 0.35))
     venue = Venue(boxed("square", -70, -9, 70, 9), (Area("wall", (ring,)),))
     dance = Dance(Dragon(5), route)
-    found = venue_clearance(dance, venue, margin=0.35 - 0.15).areas[1]
-    assert (found.outcome, found.bench, found.time) == (Outcome.UNDECIDED, None, None)
-    assert found.overlapping == 0
-    assert found.time_bracket is not None
-    touching = found.time_bracket[1]
+    result = venue_clearance(dance, venue, margin=0.35 - 0.15).areas[1]
+    assert (result.outcome, result.bench, result.time) == (Outcome.UNDECIDED, None, None)
+    assert result.overlapping == 0
+    assert result.time_bracket is not None
+    touching = result.time_bracket[1]
     assert shapely_distances(dance.dragon, route, venue.obstacles[0], np.array([touching])).min() < 0.2
     failure = next(
         one for one in check(dance, venue=venue, margin=0.35 - 0.15, start=0.0).failures if one.area == "wall"
     )
-    assert (failure.kind, failure.benches, failure.time_bracket) == (FailureKind.VENUE, (0,), found.time_bracket)
+    assert (failure.kind, failure.benches, failure.time_bracket) == (FailureKind.VENUE, (0,), result.time_bracket)
     assert failure.time == touching
     assert "at the latest" in failure.message
 
@@ -257,28 +257,28 @@ def test_a_dragon_inside_the_square_is_not_misplaced() -> None:
 
 def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
     far = Venue(boxed("square", 100, 100, 120, 120))
-    found = venue_clearance(Dance(DRAGON, LAP), far)
-    assert found.misplaced is not None
-    assert (found.misplaced.name, found.misplaced.bench) == ("square", 0)
-    assert found.areas[0].outcome is Outcome.CLEAR
+    result = venue_clearance(Dance(DRAGON, LAP), far)
+    assert result.misplaced is not None
+    assert (result.misplaced.name, result.misplaced.bench) == ("square", 0)
+    assert result.areas[0].outcome is Outcome.CLEAR
 
 
 def test_the_first_bench_outside_is_named_with_its_place() -> None:
     small = Venue(boxed("square", -8, -5, 20, 20))
-    found = venue_clearance(Dance(DRAGON, LAP), small)
+    result = venue_clearance(Dance(DRAGON, LAP), small)
     centres = bench_poses(trajectory(Dance(DRAGON, LAP), [0.0]).position[0])[:, 0]
-    assert found.misplaced is not None
-    assert found.misplaced.bench == int(np.argmax(centres < -8.0))
-    assert found.misplaced.point == pytest.approx((centres[found.misplaced.bench], 0.0), abs=SAME_DISTANCE)
+    assert result.misplaced is not None
+    assert result.misplaced.bench == int(np.argmax(centres < -8.0))
+    assert result.misplaced.point == pytest.approx((centres[result.misplaced.bench], 0.0), abs=SAME_DISTANCE)
 
 
 @pytest.mark.parametrize("hole", [True, False], ids=["hole", "obstacle"])
-def test_a_bench_inside_a_hole_or_an_obstacle_is_told(hole: bool) -> None:
+def test_a_bench_inside_a_hole_or_an_obstacle_is_reported(hole: bool) -> None:
     lake = box(-32, -1, 3, 1)
     square = Area("square", (SQUARE, lake) if hole else (SQUARE,))
-    found = venue_clearance(Dance(DRAGON, LAP), Venue(square, () if hole else (Area("lake", (lake,)),)))
-    assert found.misplaced is not None
-    assert (found.misplaced.name, found.misplaced.bench) == ("square" if hole else "lake", 0)
+    result = venue_clearance(Dance(DRAGON, LAP), Venue(square, () if hole else (Area("lake", (lake,)),)))
+    assert result.misplaced is not None
+    assert (result.misplaced.name, result.misplaced.bench) == ("square" if hole else "lake", 0)
 
 
 def test_head_speed_scales_times_and_nothing_else() -> None:

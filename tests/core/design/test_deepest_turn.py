@@ -55,13 +55,13 @@ BEND: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 
 @cache
 def answer(name: str) -> DeepestTurn:
-    sizes, asked = (CONTACT | BEND)[name]
-    return deepest_turn(Dragon(**sizes), **asked)
+    sizes, request = (CONTACT | BEND)[name]
+    return deepest_turn(Dragon(**sizes), **request)
 
 
-def slow_clearance(dragon: Dragon, found: DeepestTurn, entry: float, start: float, stop: float, step: float) -> float:
+def slow_clearance(dragon: Dragon, result: DeepestTurn, entry: float, start: float, stop: float, step: float) -> float:
     """Least distance of benches that share no handle on the turn with that entry, by shapely; at most NEAR."""
-    danced = Turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, entry_radius=entry)
+    danced = Turn(result.turn.pitch, result.turn.turning_radius, result.turn.ratio, entry_radius=entry)
     sizes = np.stack([dragon.lengths, dragon.widths], axis=-1)
     least = NEAR
     poses = bench_poses(trajectory(Dance(dragon, danced), np.arange(start, stop, step)).position)
@@ -72,52 +72,56 @@ def slow_clearance(dragon: Dragon, found: DeepestTurn, entry: float, start: floa
     return float(least)
 
 
-def whole(dragon: Dragon, found: DeepestTurn) -> tuple[float, float]:
+def whole(dragon: Dragon, result: DeepestTurn) -> tuple[float, float]:
     """From before any bench is in the turn until all are past it [s]."""
     length = float(dragon.chords.sum()) + 15.0
-    return -15.0, found.turn.length + length
+    return -15.0, result.turn.length + length
 
 
 @pytest.mark.parametrize("name", some(list(CONTACT), 2))
 def test_just_deeper_two_benches_come_within_the_margin_and_above_none_do(name: str) -> None:
-    sizes, asked = CONTACT[name]
-    dragon, margin, found = Dragon(**sizes), asked.get("margin", 0.0), answer(name)
-    infeasible, feasible = found.entry_bracket
-    assert found.limited_by is TurnLimit.CONTACT
+    sizes, request = CONTACT[name]
+    dragon, margin, result = Dragon(**sizes), request.get("margin", 0.0), answer(name)
+    infeasible, feasible = result.entry_bracket
+    assert result.limited_by is TurnLimit.CONTACT
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
-    assert found.turn.entry_radius == feasible
-    assert found.benches is not None
-    assert found.time is not None
-    around = (found.time - 0.3, found.time + 0.3, FINE_STEP)
-    assert slow_clearance(dragon, found, infeasible - DEEPER, *around) <= margin
-    assert slow_clearance(dragon, found, feasible + DEEPER, *around) > margin
-    for entry in some((feasible, 0.5 * (feasible + found.turn.turning_radius), found.turn.turning_radius), 2):
-        assert slow_clearance(dragon, found, entry, *whole(dragon, found), STEP) > margin
+    assert result.turn.entry_radius == feasible
+    assert result.benches is not None
+    assert result.time is not None
+    around = (result.time - 0.3, result.time + 0.3, FINE_STEP)
+    assert slow_clearance(dragon, result, infeasible - DEEPER, *around) <= margin
+    assert slow_clearance(dragon, result, feasible + DEEPER, *around) > margin
+    for entry in some((feasible, 0.5 * (feasible + result.turn.turning_radius), result.turn.turning_radius), 2):
+        assert slow_clearance(dragon, result, entry, *whole(dragon, result), STEP) > margin
 
 
 @pytest.mark.parametrize("name", BEND)
 def test_just_deeper_a_bench_cannot_follow_and_above_all_do_without_contact(name: str) -> None:
-    sizes, asked = BEND[name]
-    dragon, found = Dragon(**sizes), answer(name)
-    infeasible, feasible = found.entry_bracket
-    assert (found.limited_by, found.benches, found.time) == (TurnLimit.BEND, None, None)
+    sizes, request = BEND[name]
+    dragon, result = Dragon(**sizes), answer(name)
+    infeasible, feasible = result.entry_bracket
+    assert (result.limited_by, result.benches, result.time) == (TurnLimit.BEND, None, None)
     assert 0.0 < feasible - infeasible <= ENTRY_ERROR
     with pytest.raises(InvalidValue, match="must not bend tighter"):
-        slow_clearance(dragon, found, infeasible - ENTRY_ERROR, 0.0, STEP, STEP)
-    assert slow_clearance(dragon, found, feasible, *whole(dragon, found), STEP) > 0.0
+        slow_clearance(dragon, result, infeasible - ENTRY_ERROR, 0.0, STEP, STEP)
+    assert slow_clearance(dragon, result, feasible, *whole(dragon, result), STEP) > 0.0
     # the sum of both radii is sqrt(entry^2 + growth^2), and the smaller one just fits the longest chord
     smaller = 0.5 * float(dragon.chords.max()) / core.kernels.ROUTE_SINE_LIMIT
-    total = smaller * (1.0 + asked.get("ratio", 2.0)) / min(1.0, asked.get("ratio", 2.0))
-    assert feasible == pytest.approx(math.sqrt(total**2 - (asked["pitch"] / (2.0 * math.pi)) ** 2), abs=2 * ENTRY_ERROR)
+    total = smaller * (1.0 + request.get("ratio", 2.0)) / min(1.0, request.get("ratio", 2.0))
+    assert feasible == pytest.approx(
+        math.sqrt(total**2 - (request["pitch"] / (2.0 * math.pi)) ** 2), abs=2 * ENTRY_ERROR
+    )
 
 
 @pytest.mark.parametrize("name", [*CONTACT, *BEND])
 def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(name: str) -> None:
-    sizes, asked = (CONTACT | BEND)[name]
-    dragon, margin = Dragon(**{**sizes, "benches": 150}), asked.get("margin", 0.0)
-    found = answer(name)
-    for entry in (found.turn.entry_radius, found.turn.turning_radius):
-        danced = Turn(found.turn.pitch, found.turn.turning_radius, found.turn.ratio, start_turns=30, entry_radius=entry)
+    sizes, request = (CONTACT | BEND)[name]
+    dragon, margin = Dragon(**{**sizes, "benches": 150}), request.get("margin", 0.0)
+    result = answer(name)
+    for entry in (result.turn.entry_radius, result.turn.turning_radius):
+        danced = Turn(
+            result.turn.pitch, result.turn.turning_radius, result.turn.ratio, start_turns=30, entry_radius=entry
+        )
         way, front = core.design.deepest_turn.way_followed(dragon, danced, margin)
         assert front.benches < dragon.benches
         span = 1.6 * float(dragon.chords.sum())
@@ -127,9 +131,9 @@ def test_the_part_that_is_followed_has_the_contacts_of_the_whole_dance(name: str
 
 
 def test_the_answer_does_not_depend_on_how_long_the_dragon_or_the_coil_is() -> None:
-    (sizes, asked), known = CONTACT["margin"], answer("margin")
+    (sizes, request), known = CONTACT["margin"], answer("margin")
     for dragon, start_turns in ((Dragon(**sizes), 80.0), (Dragon(benches=1_000), 3.0)):
-        other = deepest_turn(dragon, **asked, start_turns=start_turns)
+        other = deepest_turn(dragon, **request, start_turns=start_turns)
         assert other.turn.entry_radius == pytest.approx(known.turn.entry_radius, abs=ENTRY_ERROR)
         assert other.benches == known.benches
 
@@ -146,19 +150,19 @@ def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one() -> No
 
 
 def test_nothing_limits_a_tiny_dragon_down_to_the_centre() -> None:
-    found = deepest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7)
+    result = deepest_turn(Dragon(5, 0.1, 0.1, 0.01, 0.01), 1.7)
     step = core.design.deepest_turn.ENTRY_STEP * 4.5
-    assert (found.limited_by, found.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))
-    assert found.scan_step == step
+    assert (result.limited_by, result.entry_bracket) == (TurnLimit.CENTRE, (0.0, step))
+    assert result.scan_step == step
 
 
 def test_one_bench_is_limited_by_the_bend_alone() -> None:
-    found = deepest_turn(Dragon(benches=1), 1.7, margin=1.0)
-    assert found.limited_by is TurnLimit.BEND
+    result = deepest_turn(Dragon(benches=1), 1.7, margin=1.0)
+    assert result.limited_by is TurnLimit.BEND
 
 
 @pytest.mark.parametrize(
-    ("sizes", "asked", "words"),
+    ("sizes", "query", "words"),
     [
         (
             {},
@@ -172,9 +176,9 @@ def test_one_bench_is_limited_by_the_bend_alone() -> None:
     ],
     ids=["bend", "contact", "bend first", "margin", "on the coil"],
 )
-def test_a_turn_that_cannot_be_danced_even_at_the_circle_is_refused(sizes: Any, asked: Any, words: str) -> None:
+def test_a_turn_that_cannot_be_danced_even_at_the_circle_is_refused(sizes: Any, query: Any, words: str) -> None:
     with pytest.raises(InvalidValue, match=words) as e:
-        deepest_turn(Dragon(**sizes), **{"pitch": 1.7, **asked})
+        deepest_turn(Dragon(**sizes), **{"pitch": 1.7, **query})
     assert e.value.field == "turning_radius"
 
 
@@ -187,8 +191,8 @@ def test_an_invalid_margin_is_refused(margin: Any) -> None:
 
 def test_the_turn_of_a_short_head_is_searched_only_until_nothing_can_follow() -> None:
     """The search of the whole dance, 590 m at each entry, was given up near the bend, which was taken for a contact."""
-    found = deepest_turn(Dragon(head_length=1.001), 1.7, ratio=1.0)
-    assert found.limited_by is TurnLimit.BEND
+    result = deepest_turn(Dragon(head_length=1.001), 1.7, ratio=1.0)
+    assert result.limited_by is TurnLimit.BEND
 
 
 def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -199,9 +203,9 @@ def test_work_that_ends_before_the_turn_is_found_is_an_error(monkeypatch: pytest
 
 
 def test_work_that_ends_while_the_turn_is_bisected_leaves_a_wider_bracket(monkeypatch: pytest.MonkeyPatch) -> None:
-    (sizes, asked), whole = CONTACT["margin"], answer("margin")
+    (sizes, request), whole = CONTACT["margin"], answer("margin")
     monkeypatch.setattr(core.design.deepest_turn, "TURN_WORK", 4e5)
-    least = deepest_turn(Dragon(**sizes), **asked)
+    least = deepest_turn(Dragon(**sizes), **request)
     assert least.entry_bracket[0] <= whole.entry_bracket[0]
     assert whole.entry_bracket[1] <= least.entry_bracket[1]
     assert least.evaluations < whole.evaluations
@@ -221,10 +225,10 @@ def test_a_margin_that_an_entry_only_just_keeps_is_limited_by_the_pair_that_meet
 
     least = least_clearance(dance(entry))
     assert least is not None
-    found = deepest_turn(dragon, 1.7, ratio=1.0, margin=least.distance)
-    infeasible, feasible = found.entry_bracket
+    result = deepest_turn(dragon, 1.7, ratio=1.0, margin=least.distance)
+    infeasible, feasible = result.entry_bracket
     assert infeasible < entry <= feasible < infeasible + 20 * ENTRY_ERROR
-    assert (found.limited_by, found.benches) == (TurnLimit.CONTACT, least.benches)
+    assert (result.limited_by, result.benches) == (TurnLimit.CONTACT, least.benches)
     assert first_contact(dance(infeasible), margin=least.distance).benches == least.benches
     assert first_contact(dance(feasible), margin=least.distance).outcome is Outcome.CLEAR
     monkeypatch.setattr(core.design.deepest_turn, "LOOKED_BELOW", 0.0)

@@ -46,22 +46,22 @@ def test_the_pieces_meet_and_have_the_length(sigma: float) -> None:
 @pytest.mark.parametrize("ratio", [1.0, 2.0, 0.5])
 def test_a_straight_piece_makes_no_turn_of_the_contest_shorter(ratio: float) -> None:
     """The shortest one found has nearly none: it is the turn of two arcs as tight as benches can follow."""
-    found, two_arcs = dubins_turn(Dragon(), PITCH, ratio=ratio), shortest_turn(Dragon(), PITCH, ratio=ratio)
-    assert two_arcs.length_bracket[0] <= found.length <= two_arcs.turn.length + (SCANNED if ratio >= 1.0 else 4.0)
-    assert first_contact(Dance(Dragon(), found.path), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
-    joints = found.path.joints
+    result, two_arcs = dubins_turn(Dragon(), PITCH, ratio=ratio), shortest_turn(Dragon(), PITCH, ratio=ratio)
+    assert two_arcs.length_bracket[0] <= result.length <= two_arcs.turn.length + (SCANNED if ratio >= 1.0 else 4.0)
+    assert first_contact(Dance(Dragon(), result.path), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+    joints = result.path.joints
     assert joints[0] == pytest.approx(0.0, abs=1e-9)
-    assert joints[3] == pytest.approx(found.length, abs=1e-9)
-    within = found.path.position(np.linspace(joints[0], joints[3], 2_000))
+    assert joints[3] == pytest.approx(result.length, abs=1e-9)
+    within = result.path.position(np.linspace(joints[0], joints[3], 2_000))
     assert np.linalg.norm(within, axis=-1).max() <= 4.5 + 1e-8
 
 
 def test_in_a_wide_circle_the_arcs_are_tight_and_the_line_is_long() -> None:
     """Two benches never touch, so that only the bends limit the turn."""
-    found = dubins_turn(Dragon(2), PITCH, 4.5, 1.3)
-    assert min(found.radii) == pytest.approx(1.43 / 0.999, rel=1e-9)
-    assert found.radii[0] / found.radii[1] == pytest.approx(1.3)
-    assert found.evaluations >= 1
+    result = dubins_turn(Dragon(2), PITCH, 4.5, 1.3)
+    assert min(result.radii) == pytest.approx(1.43 / 0.999, rel=1e-9)
+    assert result.radii[0] / result.radii[1] == pytest.approx(1.3)
+    assert result.evaluations >= 1
 
 
 def test_a_circle_in_which_nothing_can_be_danced_is_refused() -> None:

@@ -50,12 +50,12 @@ def is_feasible(dragon: Dragon, pitch: float, radius: float, turns: float, margi
     if pitch * turns <= radius:
         return False
     try:
-        found = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
+        contact = first_contact(Dance(dragon, Spiral(pitch, turns)), margin=margin)
     except InvalidValue:  # it folds at the start
         return False
-    if found.outcome is Outcome.CLEAR:
-        return found.end.theta * pitch / (2 * np.pi) <= radius
-    return found.outcome is Outcome.CONTACT and found.head.radius <= radius
+    if contact.outcome is Outcome.CLEAR:
+        return contact.end.theta * pitch / (2 * np.pi) <= radius
+    return contact.outcome is Outcome.CONTACT and contact.head.radius <= radius
 
 
 @pytest.fixture(scope="module")
@@ -74,17 +74,17 @@ def answer(case: dict[str, Any]) -> MinimumPitch:
 
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
 def test_every_case_of_the_reference_is_met(case: dict[str, Any], answers: dict[str, MinimumPitch]) -> None:
-    found = answers[case["name"]]
-    assert found.pitch == pytest.approx(case["pitch"], rel=0, abs=ACCURACY)
-    assert found.limited_by == case["limited_by"]
-    assert found.pitch_bracket[0] <= case["pitch"] + ACCURACY
-    assert found.pitch_bracket[1] - found.pitch_bracket[0] <= ACCURACY
+    result = answers[case["name"]]
+    assert result.pitch == pytest.approx(case["pitch"], rel=0, abs=ACCURACY)
+    assert result.limited_by == case["limited_by"]
+    assert result.pitch_bracket[0] <= case["pitch"] + ACCURACY
+    assert result.pitch_bracket[1] - result.pitch_bracket[0] <= ACCURACY
     if "benches" in case:
-        assert list(found.benches) == case["benches"]
+        assert list(result.benches) == case["benches"]
     if "head_radius" in case:
-        assert found.head_radius == pytest.approx(case["head_radius"], rel=0, abs=1e-6)
-    assert len(found.other_feasible_intervals) == len(case["other_feasible_intervals"])
-    for ours, theirs in zip(found.other_feasible_intervals, case["other_feasible_intervals"], strict=True):
+        assert result.head_radius == pytest.approx(case["head_radius"], rel=0, abs=1e-6)
+    assert len(result.other_feasible_intervals) == len(case["other_feasible_intervals"])
+    for ours, theirs in zip(result.other_feasible_intervals, case["other_feasible_intervals"], strict=True):
         np.testing.assert_allclose(ours, theirs, rtol=0, atol=ACCURACY)
 
 
@@ -92,20 +92,20 @@ def test_every_case_of_the_reference_is_met(case: dict[str, Any], answers: dict[
 def test_random_pitches_above_are_feasible_and_the_one_below_is_not(
     case: dict[str, Any], answers: dict[str, MinimumPitch]
 ) -> None:
-    found = answers[case["name"]]
+    result = answers[case["name"]]
     dragon, radius, turns = Dragon(**case["dragon"]), case["turning_diameter"] / 2, case["start_turns"]
     margin = case.get("margin", 0.0)
-    above = found.pitch + np.geomspace(BESIDE, 5.0, 60) * np.random.default_rng(7).uniform(0.5, 1.0, 60)
+    above = result.pitch + np.geomspace(BESIDE, 5.0, 60) * np.random.default_rng(7).uniform(0.5, 1.0, 60)
     assert [pitch for pitch in above if not is_feasible(dragon, pitch, radius, turns, margin)] == []
-    assert not is_feasible(dragon, found.pitch - BESIDE, radius, turns, margin)
+    assert not is_feasible(dragon, result.pitch - BESIDE, radius, turns, margin)
 
 
 @pytest.mark.parametrize("case", CASES, ids=[case["name"] for case in CASES])
 def test_below_the_answer_only_the_islands_are_feasible(case: dict[str, Any], answers: dict[str, MinimumPitch]) -> None:
-    found = answers[case["name"]]
+    result = answers[case["name"]]
     dragon, radius, turns = Dragon(**case["dragon"]), case["turning_diameter"] / 2, case["start_turns"]
-    islands = found.other_feasible_intervals
-    for pitch in np.random.default_rng(8).uniform(radius / turns, found.pitch, 40):
+    islands = result.other_feasible_intervals
+    for pitch in np.random.default_rng(8).uniform(radius / turns, result.pitch, 40):
         inside = any(low + BESIDE <= pitch <= high - BESIDE for low, high in islands)
         near = any(low - BESIDE <= pitch <= high + BESIDE for low, high in islands)
         feasible = is_feasible(dragon, pitch, radius, turns, case.get("margin", 0.0))
@@ -113,9 +113,9 @@ def test_below_the_answer_only_the_islands_are_feasible(case: dict[str, Any], an
 
 
 def test_an_island_has_both_its_ends_between_pitches_that_touch() -> None:
-    found = minimum_pitch(Dragon(30), turning_radius=6.3)
-    [(low, high)] = found.other_feasible_intervals
-    assert 6.3 / 16.0 < low < high < found.pitch
+    result = minimum_pitch(Dragon(30), turning_radius=6.3)
+    [(low, high)] = result.other_feasible_intervals
+    assert 6.3 / 16.0 < low < high < result.pitch
     for pitch, inside in ((low - CLOSELY, False), (low, True), (high, True), (high + CLOSELY, False)):
         assert is_feasible(Dragon(30), pitch, 6.3, 16.0, 0.0) == inside
 
@@ -124,18 +124,18 @@ def test_an_island_has_both_its_ends_between_pitches_that_touch() -> None:
 @pytest.mark.parametrize("margin", [0.0, 0.05])
 def test_the_least_separation_at_the_answer_is_the_margin(radius: float, margin: float) -> None:
     """Checked with a slow dance near the stated place of the head, and distances by shapely."""
-    found = minimum_pitch(Dragon(60), turning_radius=radius, margin=margin, start_turns=14.0)
-    assert found.head_radius is not None
-    dance = SlowDance.of(Dragon(60), Spiral(found.pitch, 14.0))
-    theta = found.head_radius / dance.growth
+    result = minimum_pitch(Dragon(60), turning_radius=radius, margin=margin, start_turns=14.0)
+    assert result.head_radius is not None
+    dance = SlowDance.of(Dragon(60), Spiral(result.pitch, 14.0))
+    theta = result.head_radius / dance.growth
     there = float(dance.way - dance.growth * 0.5 * (theta * np.sqrt(1 + theta**2) + np.arcsinh(theta)))
-    if found.limited_by is LimitedBy.CIRCLE:
-        assert found.head_radius == pytest.approx(radius, rel=0, abs=ACCURACY)
-        least = dance.pair_gap(there, found.benches)
+    if result.limited_by is LimitedBy.CIRCLE:
+        assert result.head_radius == pytest.approx(radius, rel=0, abs=ACCURACY)
+        least = dance.pair_gap(there, result.benches)
     else:
-        assert found.limited_by is LimitedBy.GRAZE
-        assert found.head_radius > radius
-        least = dance.dip(there - 0.02, there + 0.02, found.benches)[1]
+        assert result.limited_by is LimitedBy.GRAZE
+        assert result.head_radius > radius
+        least = dance.dip(there - 0.02, there + 0.02, result.benches)[1]
     assert least == pytest.approx(margin, rel=0, abs=ACCURACY)
 
 
@@ -143,9 +143,9 @@ def test_the_least_separation_at_the_answer_is_the_margin(radius: float, margin:
 @given(st.floats(2.5, 5.0), st.floats(0.01, 0.3))
 def test_a_margin_or_a_tighter_circle_never_needs_a_smaller_pitch(radius: float, more: float) -> None:
     dragon = Dragon(40)
-    plain = minimum_pitch(dragon, turning_radius=radius, start_turns=14.0).pitch
-    assert minimum_pitch(dragon, turning_radius=radius, start_turns=14.0, margin=more).pitch >= plain - ACCURACY
-    assert minimum_pitch(dragon, turning_radius=radius - more, start_turns=14.0).pitch >= plain - ACCURACY
+    minimum = minimum_pitch(dragon, turning_radius=radius, start_turns=14.0).pitch
+    assert minimum_pitch(dragon, turning_radius=radius, start_turns=14.0, margin=more).pitch >= minimum - ACCURACY
+    assert minimum_pitch(dragon, turning_radius=radius - more, start_turns=14.0).pitch >= minimum - ACCURACY
 
 
 @settings(max_examples=5, deadline=None)
@@ -176,36 +176,36 @@ def test_a_dragon_given_bench_by_bench_has_the_answer_of_the_uniform_one(changed
 def test_a_short_dragon_is_proven_up_from_its_start_whatever_bounds_hold_at_lower_pitches() -> None:
     """It goes around less than once, with benches nearly as wide as the circle, so that no ring bound holds."""
     dragon = Dragon(6, 1.21, 0.93, 0.61, 0.0)
-    found = minimum_pitch(dragon, turning_radius=1.32, start_turns=10.0, margin=0.29)
-    assert found.pitch == 1.32 / 10.0
-    assert (found.limited_by, found.justified_by) == (LimitedBy.START, "bound")
-    assert (found.proven_from, found.proven_up_to) == (found.pitch, None)
-    for pitch in np.geomspace(found.pitch + BESIDE, WIDEST, 20):
+    result = minimum_pitch(dragon, turning_radius=1.32, start_turns=10.0, margin=0.29)
+    assert result.pitch == 1.32 / 10.0
+    assert (result.limited_by, result.justified_by) == (LimitedBy.START, "bound")
+    assert (result.proven_from, result.proven_up_to) == (result.pitch, None)
+    for pitch in np.geomspace(result.pitch + BESIDE, WIDEST, 20):
         assert is_feasible(dragon, pitch, 1.32, 10.0, 0.29)
 
 
 def test_benches_far_across_the_circle_are_proven_by_bands_too() -> None:
-    found = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
-    assert (found.justified_by, found.limited_by, found.scan_step) == ("bound", LimitedBy.CIRCLE, None)
-    assert is_feasible(Dragon(20), found.pitch + BESIDE, 1.5, 12.0, 0.0)
-    assert not is_feasible(Dragon(20), found.pitch - BESIDE, 1.5, 12.0, 0.0)
+    result = minimum_pitch(Dragon(20), turning_radius=1.5, start_turns=12.0)
+    assert (result.justified_by, result.limited_by, result.scan_step) == ("bound", LimitedBy.CIRCLE, None)
+    assert is_feasible(Dragon(20), result.pitch + BESIDE, 1.5, 12.0, 0.0)
+    assert not is_feasible(Dragon(20), result.pitch - BESIDE, 1.5, 12.0, 0.0)
 
 
 def test_where_a_handle_turns_back_a_scan_is_said_with_its_step_and_where_the_proof_begins() -> None:
-    found = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
-    assert (found.justified_by, found.proven_up_to) == ("scan", None)
-    assert found.scan_step is not None
-    assert found.pitch + found.scan_step < found.proven_from < WIDEST
+    result = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
+    assert (result.justified_by, result.proven_up_to) == ("scan", None)
+    assert result.scan_step is not None
+    assert result.pitch + result.scan_step < result.proven_from < WIDEST
 
 
 @pytest.mark.parametrize("turns", [0.2, 0.3, 0.5])
 def test_a_start_less_than_a_turn_out_is_proven_for_every_larger_pitch(turns: float) -> None:
     """The tail stands on the outward extension; the head begins on the circle at the least pitch."""
-    found = minimum_pitch(Dragon(), start_turns=turns)
-    assert found.pitch == 4.5 / turns
-    assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.START, "bound", None)
+    result = minimum_pitch(Dragon(), start_turns=turns)
+    assert result.pitch == 4.5 / turns
+    assert (result.limited_by, result.justified_by, result.proven_up_to) == (LimitedBy.START, "bound", None)
     short = Dragon(40)  # a slow scan of all 223 takes minutes
-    for pitch in np.geomspace(found.pitch, WIDEST, examples(4, 8)):
+    for pitch in np.geomspace(result.pitch, WIDEST, examples(4, 8)):
         assert SlowWay.of(short, pitch, turns, 4.5).least() > 0.0
 
 
@@ -230,22 +230,22 @@ def fold_on_the_circle(chord: float, radius: float, near: tuple[float, float]) -
 
 def test_a_minimum_limited_by_the_fold_is_where_the_head_folds_on_the_circle() -> None:
     """With 40 digits: 0.525552677857343."""
-    found = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
+    result = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
     expected = fold_on_the_circle(FOLDING.chords[0], 0.85, (0.5, 0.6))
     assert expected == pytest.approx(0.525552677857343, rel=0, abs=ACCURACY)
-    assert found.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
-    assert found.pitch_bracket[0] == pytest.approx(expected, rel=0, abs=ACCURACY)
-    assert (found.limited_by, found.benches, found.bench, found.head_radius) == (LimitedBy.FOLD, None, 0, 0.85)
-    assert "limited by fold of bench 0;" in repr(found)
+    assert result.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
+    assert result.pitch_bracket[0] == pytest.approx(expected, rel=0, abs=ACCURACY)
+    assert (result.limited_by, result.benches, result.bench, result.head_radius) == (LimitedBy.FOLD, None, 0, 0.85)
+    assert "limited by fold of bench 0;" in repr(result)
 
 
 def test_a_small_circle_is_reached_at_larger_pitches() -> None:
     """One bench, which folds before the circle at every pitch up to 2.4 m. With 40 digits: 2.434860824509272."""
-    found = minimum_pitch(Dragon(1), turning_radius=0.7535, start_turns=1.605)
+    result = minimum_pitch(Dragon(1), turning_radius=0.7535, start_turns=1.605)
     expected = fold_on_the_circle(Dragon().chords[0], 0.7535, (2.3, 2.6))
     assert expected == pytest.approx(2.434860824509272, rel=0, abs=ACCURACY)
-    assert found.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
-    assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.FOLD, "bound", None)
+    assert result.pitch == pytest.approx(expected, rel=0, abs=ACCURACY)
+    assert (result.limited_by, result.justified_by, result.proven_up_to) == (LimitedBy.FOLD, "bound", None)
 
 
 def listed(overhang: float) -> Dragon:
@@ -297,9 +297,9 @@ def test_benches_that_are_hardly_apart_on_a_straight_line_are_refused_by_what_ke
 def test_benches_nearly_apart_on_a_straight_line_need_a_wide_spiral() -> None:
     """3 mm are left on the line: the corners of benches lean that far inwards up to a pitch of 1,400 m."""
     dragon = Dragon(8, 2.0, 2.0, 0.3, 0.49925)
-    found = minimum_pitch(dragon, turning_radius=2.0, start_turns=3.0)
-    assert (found.limited_by, found.justified_by, found.proven_up_to) == (LimitedBy.CIRCLE, "bound", None)
-    low, high = found.pitch_bracket
+    result = minimum_pitch(dragon, turning_radius=2.0, start_turns=3.0)
+    assert (result.limited_by, result.justified_by, result.proven_up_to) == (LimitedBy.CIRCLE, "bound", None)
+    low, high = result.pitch_bracket
     assert high - low <= WIDE_BRACKET * high
     beside = WIDE_BRACKET * high
     assert SlowWay.of(dragon, low - beside, 3.0, 2.0).least() < 0.0
@@ -324,26 +324,26 @@ def test_a_start_inside_a_graze_passes_it_and_names_the_pair_that_repeats_it() -
     assert (before.benches, inside.benches) == ((0, 9), (1, 10))
     assert inside.pitch == pytest.approx(before.pitch, rel=0, abs=ACCURACY)
     assert inside.head_radius < inside.pitch * 4.06 < before.head_radius
-    for found, turns in ((inside, 4.06), (before, 12.0)):
-        dance = SlowDance.of(dragon, Spiral(found.pitch, turns))
-        theta = found.head_radius / dance.growth
+    for result, turns in ((inside, 4.06), (before, 12.0)):
+        dance = SlowDance.of(dragon, Spiral(result.pitch, turns))
+        theta = result.head_radius / dance.growth
         there = float(dance.way - dance.growth * 0.5 * (theta * np.sqrt(1 + theta**2) + np.arcsinh(theta)))
-        assert dance.pair_gap(there, found.benches) == pytest.approx(margin, rel=0, abs=ACCURACY)
+        assert dance.pair_gap(there, result.benches) == pytest.approx(margin, rel=0, abs=ACCURACY)
 
 
 @pytest.mark.parametrize("radius", [6.8, 7.0, 50.0])
 def test_a_wide_circle_is_limited_by_the_start(radius: float) -> None:
     """There the dance would begin inside the circle before any benches touch."""
-    found = minimum_pitch(Dragon(), turning_radius=radius)
-    assert found.pitch == radius / 16.0
-    assert (found.limited_by, found.benches, found.head_radius) == (LimitedBy.START, None, None)
-    assert found.other_feasible_intervals == ()
+    result = minimum_pitch(Dragon(), turning_radius=radius)
+    assert result.pitch == radius / 16.0
+    assert (result.limited_by, result.benches, result.head_radius) == (LimitedBy.START, None, None)
+    assert result.other_feasible_intervals == ()
 
 
 @pytest.mark.parametrize("benches", [1, 2])
 def test_benches_that_cannot_touch_are_limited_by_the_start(benches: int) -> None:
-    found = minimum_pitch(Dragon(benches), turning_radius=4.5)
-    assert (found.pitch, found.limited_by) == (4.5 / 16.0, LimitedBy.START)
+    result = minimum_pitch(Dragon(benches), turning_radius=4.5)
+    assert (result.pitch, result.limited_by) == (4.5 / 16.0, LimitedBy.START)
 
 
 @pytest.mark.parametrize(
@@ -383,10 +383,10 @@ def test_tiny_benches_on_wide_spirals_are_answered(dragon: Dragon) -> None:
 
     Of benches of 1 mm rounding hides where the contact begins, so there was no answer.
     """
-    found = minimum_pitch(dragon)
-    assert (found.limited_by, found.benches, found.head_radius) == (LimitedBy.CIRCLE, (0, 2), 4.5)
-    assert found.pitch - found.pitch_bracket[0] <= WIDE_BRACKET * found.pitch
-    low, high = (SlowWay.of(dragon, pitch, 16.0, 4.5).least() for pitch in found.pitch_bracket)
+    result = minimum_pitch(dragon)
+    assert (result.limited_by, result.benches, result.head_radius) == (LimitedBy.CIRCLE, (0, 2), 4.5)
+    assert result.pitch - result.pitch_bracket[0] <= WIDE_BRACKET * result.pitch
+    low, high = (SlowWay.of(dragon, pitch, 16.0, 4.5).least() for pitch in result.pitch_bracket)
     assert low < 0.0 < high
 
 
@@ -413,7 +413,7 @@ def test_just_above_the_infeasible_end_of_a_bracket_a_pitch_is_feasible() -> Non
 def test_a_contact_on_the_circle_of_a_wide_spiral_is_said_to_be_there(seed: int) -> None:
     """Rounding hides a contact 1e-11 m of pitch below the border; the pair approaches on the whole way."""
     dragon, radius, turns, margin = random_case(seed)
-    found = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
-    assert (found.limited_by, found.head_radius) == (LimitedBy.CIRCLE, radius)
-    way = SlowWay.of(dragon, found.pitch, turns, radius)
+    result = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
+    assert (result.limited_by, result.head_radius) == (LimitedBy.CIRCLE, radius)
+    way = SlowWay.of(dragon, result.pitch, turns, radius)
     assert way.least() == pytest.approx(margin, abs=ACCURACY)

@@ -110,18 +110,18 @@ NO_BOUND = {17, 29, 33, 47}
 def test_nothing_touches_at_any_pitch_of_what_a_band_proves(seed: int) -> None:
     """At 9 x 30 samples between the two pitches, down to the radius that is reached, often not the circle."""
     bands, low, high = random_bands(seed)
-    state, found = bands.prove(low, high, 3.0 * bands.radius)
-    assert (state is Ended.UNBOUNDED and not found.steps) == (seed in NO_BOUND)
+    state, result = bands.prove(low, high, 3.0 * bands.radius)
+    assert (state is Ended.UNBOUNDED and not result.steps) == (seed in NO_BOUND)
     if seed in NO_BOUND:
         return
-    outer = max(3.0 * bands.radius, found.proven)
+    outer = max(3.0 * bands.radius, result.proven)
     benches = min(bands.search.dragon.benches, bands.search.room)
     for growth in np.linspace(low, high, 9) / (2 * math.pi):
-        for radius in np.linspace(found.proven, outer, 30):
+        for radius in np.linspace(result.proven, outer, 30):
             assert chain(bands.search, growth, radius, benches)[0] > bands.margin
     if state is Ended.TOUCHED:
         growth = low / (2 * math.pi)
-        gap = chain(bands.search, growth, found.touching, benches)[0]
+        gap = chain(bands.search, growth, result.touching, benches)[0]
         assert gap <= bands.margin
 
 

@@ -24,28 +24,28 @@ WRONG = 1e-4
     ids=["default", "6 m", "margin", "8 m"],
 )
 def test_engines_agree_on_the_minimum_pitch(options: dict[str, float], limited_by: LimitedBy, whole: bool) -> None:
-    found = minimum_pitch(DRAGON, **options)
-    check = pitch_check(found, DRAGON, margin=options.get("margin", 0.0), whole=whole)
+    result = minimum_pitch(DRAGON, **options)
+    check = pitch_check(result, DRAGON, margin=options.get("margin", 0.0), whole=whole)
     assert check is not None
-    assert limited_by in (None, found.limited_by)
+    assert limited_by in (None, result.limited_by)
     assert check.agree
-    assert check.judged == (tuple(range(223)) if whole else found.benches)
+    assert check.judged == (tuple(range(223)) if whole else result.benches)
     assert set(check.engines.values()) == {AS_REPORTED}
 
 
 def test_a_wrong_minimum_pitch_is_noticed() -> None:
-    found = minimum_pitch(DRAGON)
-    for pitch, verdict in ((found.pitch - WRONG, Verdict(True, True)), (found.pitch + WRONG, Verdict(False, False))):
-        check = pitch_check(replace(found, pitch=pitch), DRAGON)
+    result = minimum_pitch(DRAGON)
+    for pitch, verdict in ((result.pitch - WRONG, Verdict(True, True)), (result.pitch + WRONG, Verdict(False, False))):
+        check = pitch_check(replace(result, pitch=pitch), DRAGON)
         assert check is not None
         assert not check.agree
         assert set(check.engines.values()) == {verdict}
 
 
 def test_a_minimum_pitch_that_no_pair_limits_is_not_judged() -> None:
-    found = minimum_pitch(Dragon(3), turning_radius=4.5, start_turns=3.0)
-    assert found.benches is None
-    assert pitch_check(found, Dragon(3)) is None
+    result = minimum_pitch(Dragon(3), turning_radius=4.5, start_turns=3.0)
+    assert result.benches is None
+    assert pitch_check(result, Dragon(3)) is None
 
 
 def test_a_minimum_pitch_of_a_longer_dragon_is_refused() -> None:
@@ -73,11 +73,11 @@ def test_a_pitch_limited_at_the_start_is_judged_with_the_head_at_the_start() -> 
 
 
 def test_with_a_stray_the_minimum_pitch_is_that_at_which_grounds_meet() -> None:
-    found = minimum_pitch(DRAGON, stray=0.02, margin=0.01)
-    check = pitch_check(found, DRAGON, stray=0.02, margin=0.01)
+    result = minimum_pitch(DRAGON, stray=0.02, margin=0.01)
+    check = pitch_check(result, DRAGON, stray=0.02, margin=0.01)
     assert check is not None
     assert check.agree
     assert check.engines == {Engine.SHAPELY: AS_REPORTED}
     for shift in (-1e-4, 1e-4):
-        wrong = replace(found, pitch=found.pitch + shift)
+        wrong = replace(result, pitch=result.pitch + shift)
         assert not pitch_check(wrong, DRAGON, stray=0.02, margin=0.01).agree

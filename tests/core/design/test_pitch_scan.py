@@ -127,7 +127,7 @@ def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(
-    ("pitches", "said"),
+    ("pitches", "text"),
     [
         ([0.5, 0.4], "pitches[1] must be at least 0.5 m, the one before it, got 0.4 m"),
         ([0.5, math.nan], "pitches[1] must be a finite number, got nan m"),
@@ -135,10 +135,10 @@ def test_work_that_ends_before_the_scan_does_is_an_error(monkeypatch: pytest.Mon
         ([[0.5]], "pitches must be a list of numbers in metres, ascending, got [[0.5]]"),
     ],
 )
-def test_pitches_that_do_not_ascend_are_refused(pitches: list[float], said: str) -> None:
+def test_pitches_that_do_not_ascend_are_refused(pitches: list[float], text: str) -> None:
     with pytest.raises(InvalidValue) as refused:
         pitch_scan(Dragon(3), pitches)
-    assert refused.value.message == said
+    assert refused.value.message == text
 
 
 def test_a_pitch_given_twice_counts_once() -> None:

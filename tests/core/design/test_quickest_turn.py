@@ -16,10 +16,10 @@ def slow_time(entry: float, leaving: float) -> float | None:
     """Time of a turn of ratio 2 from samples of all speeds; None if it cannot be danced."""
     try:
         turn = Turn(1.7, entry_radius=entry, exit_radius=leaving)
-        found = trajectory(Dance(Dragon(40), turn), np.arange(-5.0, 80.0, 0.01))
+        motion = trajectory(Dance(Dragon(40), turn), np.arange(-5.0, 80.0, 0.01))
     except InvalidValue:
         return None
-    return turn.length * float(found.speed.max()) / LIMIT
+    return turn.length * float(motion.speed.max()) / LIMIT
 
 
 @pytest.mark.parametrize(
@@ -30,28 +30,28 @@ def slow_time(entry: float, leaving: float) -> float | None:
 def test_the_time_of_a_turn_is_its_length_over_the_highest_speed_of_the_head(
     entry: float, leaving: float, length: float, speed: float, time: float
 ) -> None:
-    found = turn_time(Dragon(), Turn(1.7, entry_radius=entry, exit_radius=leaving), LIMIT)
-    assert (found.length, found.head_speed) == (pytest.approx(length, abs=5e-5), pytest.approx(speed, abs=5e-5))
-    assert found.time == pytest.approx(time, abs=5e-3)
-    assert found.time == found.length / found.head_speed
+    result = turn_time(Dragon(), Turn(1.7, entry_radius=entry, exit_radius=leaving), LIMIT)
+    assert (result.length, result.head_speed) == (pytest.approx(length, abs=5e-5), pytest.approx(speed, abs=5e-5))
+    assert result.time == pytest.approx(time, abs=5e-3)
+    assert result.time == result.length / result.head_speed
     slow = slow_time(entry, leaving)
     assert slow is not None
-    assert found.time * (1.0 - SAMPLED) <= slow <= found.time * (1.0 + 1e-9)
+    assert result.time * (1.0 - SAMPLED) <= slow <= result.time * (1.0 + 1e-9)
 
 
 def test_the_quickest_turn_is_quicker_than_its_neighbours_the_shortest_and_the_contests() -> None:
-    found = quickest_turn(Dragon(), 1.7)
-    assert found.time < 10.79
-    entry, leaving = found.turn.entry_radius, found.turn.exit_radius
+    result = quickest_turn(Dragon(), 1.7)
+    assert result.time < 10.79
+    entry, leaving = result.turn.entry_radius, result.turn.exit_radius
     tried = 0
     for angle in np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False):
         beside = (entry + BESIDE * float(np.cos(angle)), leaving + BESIDE * float(np.sin(angle)))
         time = None if max(beside) > 4.5 else slow_time(*beside)
         if time is not None:
             tried += 1
-            assert time >= found.time * (1.0 - SAMPLED)
+            assert time >= result.time * (1.0 - SAMPLED)
     assert tried
-    assert first_contact(Dance(Dragon(), found.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+    assert first_contact(Dance(Dragon(), result.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
 def test_a_lower_limit_takes_as_much_longer() -> None:
@@ -78,7 +78,7 @@ def test_the_table_of_the_contest_has_these_times(
     ratio: float, turn: Turn | None, known: tuple[float, float, float]
 ) -> None:
     """docs/contest.md."""
-    found = quickest_turn(Dragon(), 1.7, ratio=ratio) if turn is None else turn_time(Dragon(), turn)
+    result = quickest_turn(Dragon(), 1.7, ratio=ratio) if turn is None else turn_time(Dragon(), turn)
     length, speed, time = known
-    assert (found.length, found.head_speed) == (pytest.approx(length, abs=5e-5), pytest.approx(speed, abs=5e-5))
-    assert found.time == pytest.approx(time, abs=5e-3)
+    assert (result.length, result.head_speed) == (pytest.approx(length, abs=5e-5), pytest.approx(speed, abs=5e-5))
+    assert result.time == pytest.approx(time, abs=5e-3)

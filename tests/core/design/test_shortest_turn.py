@@ -117,26 +117,26 @@ def test_no_turn_on_a_slow_grid_is_shorter_than_the_bracket(ratio: float) -> Non
 
 @pytest.mark.parametrize("ratio", some(list(FOUND), 2))
 def test_the_shortest_turn_is_danced_by_all_benches_and_shorter_than_any_that_was_found(ratio: float) -> None:
-    found = answer(ratio)
-    assert FOUND[ratio] - GRID_EXCESS < found.turn.length < FOUND[ratio]
-    assert found.turn.length == found.length_bracket[1]
-    again = slow_turn(ratio, found.turn.entry_radius, found.turn.exit_radius)
+    result = answer(ratio)
+    assert FOUND[ratio] - GRID_EXCESS < result.turn.length < FOUND[ratio]
+    assert result.turn.length == result.length_bracket[1]
+    again = slow_turn(ratio, result.turn.entry_radius, result.turn.exit_radius)
     assert again is not None
-    assert again[0] == pytest.approx(found.turn.length, abs=1e-6)
-    assert first_contact(Dance(Dragon(), found.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
-    (entry_low, entry_high), (exit_low, exit_high) = found.entry_bracket, found.exit_bracket
-    assert entry_low <= found.turn.entry_radius <= entry_high
-    assert exit_low <= found.turn.exit_radius <= exit_high
+    assert again[0] == pytest.approx(result.turn.length, abs=1e-6)
+    assert first_contact(Dance(Dragon(), result.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+    (entry_low, entry_high), (exit_low, exit_high) = result.entry_bracket, result.exit_bracket
+    assert entry_low <= result.turn.entry_radius <= entry_high
+    assert exit_low <= result.turn.exit_radius <= exit_high
 
 
 def test_the_contests_turn_is_limited_by_the_bend_and_the_circle() -> None:
     """There both constraints of the closed forms hold: the second arc as tight as the head can follow, the exit on the
     circle."""
-    found = answer(2.0)
-    assert found.limited_by is TurnLimit.BEND
-    assert min(found.turn.radii) == pytest.approx(LEAST, abs=1e-9)
-    assert found.turn.exit_radius == RADIUS
-    assert found.turn.length < deepest_turn(Dragon(), PITCH).turn.length - 1.1
+    result = answer(2.0)
+    assert result.limited_by is TurnLimit.BEND
+    assert min(result.turn.radii) == pytest.approx(LEAST, abs=1e-9)
+    assert result.turn.exit_radius == RADIUS
+    assert result.turn.length < deepest_turn(Dragon(), PITCH).turn.length - 1.1
 
 
 def test_a_free_exit_is_never_longer_than_the_opposite_one() -> None:
@@ -184,9 +184,9 @@ def test_what_no_turn_can_have_is_refused_by_its_name(about: dict, field: str) -
 
 
 def test_one_bench_is_limited_by_the_bend_alone() -> None:
-    found = shortest_turn(Dragon(1), PITCH)
-    assert (found.limited_by, found.overlaps) == (TurnLimit.BEND, 0)
-    assert found.length_bracket == answer(2.0).length_bracket
+    result = shortest_turn(Dragon(1), PITCH)
+    assert (result.limited_by, result.overlaps) == (TurnLimit.BEND, 0)
+    assert result.length_bracket == answer(2.0).length_bracket
 
 
 def test_every_dance_above_is_proven(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -200,10 +200,10 @@ def test_every_dance_above_is_proven(monkeypatch: pytest.MonkeyPatch) -> None:
         return own(budget, dragon, danced, margin, stray)
 
     monkeypatch.setattr(core.design.shortest_turn, "contact_in", contact_in)
-    found = shortest_turn(Dragon(20), PITCH, budget=Budget(1e7))
+    result = shortest_turn(Dragon(20), PITCH, budget=Budget(1e7))
     assert refused
-    assert found.turn.exit_radius <= 4.499 or found.turn.entry_radius >= 4.45
-    assert found.length_bracket[0] <= answer(2.0).length_bracket[1]
+    assert result.turn.exit_radius <= 4.499 or result.turn.entry_radius >= 4.45
+    assert result.length_bracket[0] <= answer(2.0).length_bracket[1]
 
 
 @cache
@@ -214,9 +214,9 @@ def over_all_ratios() -> ShortestTurn:
 def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios() -> None:
     """Every shorter turn among random ones has a contact, and of each known ratio none is; also with work that is spent
     long before the bracket is narrow."""
-    found = over_all_ratios()
-    low, high = found.length_bracket
-    assert 5.0 < low < high == found.turn.length
+    result = over_all_ratios()
+    low, high = result.length_bracket
+    assert 5.0 < low < high == result.turn.length
     assert (high - low <= 1e-6) is DEEP
     rng = np.random.default_rng(3)
     ratios = np.exp(rng.uniform(-0.6, 0.6, 4_000 if DEEP else 400))
@@ -224,7 +224,7 @@ def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios() -> N
     assert longer
     assert shorter or not DEEP
     assert all(answer(ratio).turn.length > low for ratio in some(list(FOUND), 2))
-    assert first_contact(Dance(Dragon(), found.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
+    assert first_contact(Dance(Dragon(), result.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 
 @pytest.mark.deep
@@ -241,6 +241,6 @@ def test_a_turn_danced_backwards_need_not_be_searched() -> None:
     one = shortest_turn(Dragon(20), PITCH, RADIUS, 1.0, budget=Budget(1e9))
     assert both.boxes > 1.5 * one.boxes
     assert both.length_bracket == pytest.approx(one.length_bracket, abs=1e-6)
-    for found in (both, one):
-        assert found.entry_bracket[0] <= 3.94 <= found.entry_bracket[1] <= RADIUS
-        assert found.exit_bracket[0] <= 3.94 <= found.exit_bracket[1] <= RADIUS
+    for result in (both, one):
+        assert result.entry_bracket[0] <= 3.94 <= result.entry_bracket[1] <= RADIUS
+        assert result.exit_bracket[0] <= 3.94 <= result.exit_bracket[1] <= RADIUS

@@ -28,20 +28,20 @@ def test_spans_hold_the_values_and_slopes_of_a_formula(name: str) -> None:
     known, value = FORMULAS[name]
     rng = np.random.default_rng(1)
     centres, halves = rng.uniform(-4.0, 4.0, (2, BOXES)), rng.uniform(0.0, 0.6, (2, BOXES))
-    found = known(*parameters(centres, halves))
-    form = mean_value(value(*centres), found.slopes, halves)
+    result = known(*parameters(centres, halves))
+    form = mean_value(value(*centres), result.slopes, halves)
     widest = 0.0
     for _ in range(PLACES):
         x, y = centres + halves * rng.uniform(-1.0, 1.0, centres.shape)
         at = value(x, y)
-        for span in (found.value, form):
+        for span in (result.value, form):
             assert (span.low - 1e-12 <= at).all()
             assert (at <= span.high + 1e-12).all()
         slopes = (
             (value(x + STEP, y) - value(x - STEP, y)) / (2.0 * STEP),
             (value(x, y + STEP) - value(x, y - STEP)) / (2.0 * STEP),
         )
-        for slope, span in zip(slopes, found.slopes, strict=True):
+        for slope, span in zip(slopes, result.slopes, strict=True):
             assert (span.low - QUOTIENT_ERROR <= slope).all()
             assert (slope <= span.high + QUOTIENT_ERROR).all()
         widest = max(widest, float(((at - form.low) / (form.high - form.low + 1e-12)).max()))

@@ -27,8 +27,8 @@ def boxes(rng: np.random.Generator, largest: float) -> tuple[np.ndarray, np.ndar
 @pytest.mark.parametrize(("ratio", "entry", "leaving"), [(2.0, 4.3, 4.5), (0.8, 4.3, 3.83), (1.3, 2.3, 4.4)])
 def test_the_sizes_are_those_of_the_turn(ratio: float, entry: float, leaving: float) -> None:
     turn = Turn(1.7, 9.0, ratio, entry_radius=entry, exit_radius=leaving)
-    found = sizes_of(GROWTH, *np.array([[entry], [(leaving - entry) / GROWTH], [math.log(ratio)]]))[:, 0]
-    assert found == pytest.approx([*turn.radii, *turn.angles, turn.length, leaving], abs=ROUNDED)
+    result = sizes_of(GROWTH, *np.array([[entry], [(leaving - entry) / GROWTH], [math.log(ratio)]]))[:, 0]
+    assert result == pytest.approx([*turn.radii, *turn.angles, turn.length, leaving], abs=ROUNDED)
 
 
 @pytest.mark.uncompiled

@@ -24,25 +24,25 @@ GAP = 1e-9
 @pytest.mark.parametrize("margin", [0.0, 0.07])
 def test_a_way_is_clear_exactly_if_its_dense_samples_are(margin: float) -> None:
     dragon = Dragon(14)
-    ways, said = Ways(dragon, RADIUS, TURNS, margin, 0.0, None), []
+    ways, verdicts = Ways(dragon, RADIUS, TURNS, margin, 0.0, None), []
     for pitch in np.linspace(0.4, 0.7, 6).tolist():
-        said.append(ways.is_clear(pitch))
-        assert said[-1] == (SlowWay.of(dragon, pitch, TURNS, RADIUS).least() > margin), pitch
-    assert set(said) == {True, False}
+        verdicts.append(ways.is_clear(pitch))
+        assert verdicts[-1] == (SlowWay.of(dragon, pitch, TURNS, RADIUS).least() > margin), pitch
+    assert set(verdicts) == {True, False}
 
 
 def test_where_a_way_ends_the_pair_touches_and_with_a_wider_pitch_it_does_not() -> None:
     ways, pitch = Ways(Dragon(14), RADIUS, TURNS, 0.0, 0.0, None), 0.44
-    state, found = ways.march(pitch, CONTACT_WIDTH)
+    state, result = ways.march(pitch, CONTACT_WIDTH)
     assert state is Ended.TOUCHED
-    assert found.touching is not None
+    assert result.touching is not None
     dance = SlowDance.of(Dragon(14), Spiral(pitch, TURNS))
-    assert dance.pair_gap(found.touching, found.benches) == pytest.approx(0.0, abs=GAP)
-    radius = dance.head(found.touching) * dance.growth
-    assert ways.still_touches(pitch, radius - 1e-6, *found.benches)
-    assert not ways.still_touches(1.1 * pitch, radius, *found.benches)
+    assert dance.pair_gap(result.touching, result.benches) == pytest.approx(0.0, abs=GAP)
+    radius = dance.head(result.touching) * dance.growth
+    assert ways.still_touches(pitch, radius - 1e-6, *result.benches)
+    assert not ways.still_touches(1.1 * pitch, radius, *result.benches)
     later = Ways(Dragon(14), RADIUS, 0.999 * radius / pitch, 0.0, 0.0, None)
-    assert not later.still_touches(pitch, radius - 1e-6, *found.benches)  # its way begins further in
+    assert not later.still_touches(pitch, radius - 1e-6, *result.benches)  # its way begins further in
     assert ways.march(pitch)[0] in TOUCHES
 
 

@@ -28,21 +28,21 @@ TURN = Turn(1.7)
 
 def test_there_is_no_bend_on_a_line() -> None:
     route = Route([Line((0, 0), (60, 0))])
-    found = sharpest_bend(Dance(Dragon(benches=5), route), start=20.0)
-    assert found is not None
-    assert found.angle == 0.0
+    result = sharpest_bend(Dance(Dragon(benches=5), route), start=20.0)
+    assert result is not None
+    assert result.angle == 0.0
 
 
 def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
     route = Route([Line((-60, 0), (0, 0)), Arc((0, 4), 4.0, -0.5 * math.pi, 9.0)], start=60.0)
     dragon = Dragon(benches=8)
-    found = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
-    assert found is not None
+    result = sharpest_bend(Dance(dragon, route), start=0.0, stop=30.0)
+    assert result is not None
     head, body = (math.asin(0.5 * chord / 4.0) for chord in dragon.chords[:2])
-    assert found.angle == pytest.approx(head + body, abs=ANGLE_ERROR)
-    assert found.benches == (0, 1)
+    assert result.angle == pytest.approx(head + body, abs=ANGLE_ERROR)
+    assert result.benches == (0, 1)
     # once all three handles are on it; until then it falls short by the square of the arc left
-    assert found.time == pytest.approx(4.0 * 2.0 * (head + body), abs=ONSET_ERROR)
+    assert result.time == pytest.approx(4.0 * 2.0 * (head + body), abs=ONSET_ERROR)
 
 
 def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.ndarray:
@@ -64,22 +64,22 @@ def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.n
     ids=["turn", "turn behind the head", "a moment", "a short head", "benches of many sizes", "spiral"],
 )
 def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> None:
-    found = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
-    assert found is not None
+    result = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
+    assert result is not None
     dense = dense_bends(dragon, path, np.linspace(start, stop, 2_500))
-    assert found.angle >= dense.max() - ANGLE_ERROR
-    there = dense_bends(dragon, path, np.array([found.time]))[0]
-    assert there[found.benches[0]] == pytest.approx(found.angle, abs=ANGLE_ERROR)
+    assert result.angle >= dense.max() - ANGLE_ERROR
+    there = dense_bends(dragon, path, np.array([result.time]))[0]
+    assert there[result.benches[0]] == pytest.approx(result.angle, abs=ANGLE_ERROR)
 
 
 def test_in_a_dance_with_passages_the_same_bend_comes_at_its_own_time() -> None:
     steady = Dance(Dragon(12), TURN)
     with_passages = Dance(Dragon(12), TURN, passages=[Passage(2.0, until_s=8.0), Passage(0.0, until_time=10.0)])
-    found = sharpest_bend(with_passages, start=0.0, stop=26.0)
+    result = sharpest_bend(with_passages, start=0.0, stop=26.0)
     expected = sharpest_bend(steady, start=0.0, stop=24.0)
-    assert found is not None
+    assert result is not None
     assert expected is not None
-    assert (found.angle, found.benches) == (expected.angle, expected.benches)
+    assert (result.angle, result.benches) == (expected.angle, expected.benches)
     assert expected.time > 8.0
     # 8 m at 2 m/s and the pause are over after 10 s instead of 8 s
-    assert found.time == pytest.approx(expected.time + 2.0, rel=0, abs=ROUNDING)
+    assert result.time == pytest.approx(expected.time + 2.0, rel=0, abs=ROUNDING)

@@ -47,13 +47,13 @@ def sampled(dragon: Dragon, path: Spiral | Route, start: float, stop: float, sam
 
 @pytest.mark.uncompiled
 def test_the_turn_has_the_reference_speed_proven_from_both_sides() -> None:
-    found = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], start=-100.0, stop=100.0)
-    assert found.head_speed == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)
-    assert found.speed_ratio == pytest.approx(SPEED["speed_ratio"], abs=REFERENCE_ERROR)
-    assert found.time_at_unit_head_speed == pytest.approx(SPEED["time_at_unit_head_speed"], abs=REFERENCE_ERROR)
-    assert set(found.handles) == set(SPEED["handles_exactly_tied"])
-    low, high = found.head_speed_bracket
-    assert low <= found.head_speed <= high
+    result = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], start=-100.0, stop=100.0)
+    assert result.head_speed == pytest.approx(SPEED["head_speed"], abs=REFERENCE_ERROR)
+    assert result.speed_ratio == pytest.approx(SPEED["speed_ratio"], abs=REFERENCE_ERROR)
+    assert result.time_at_unit_head_speed == pytest.approx(SPEED["time_at_unit_head_speed"], abs=REFERENCE_ERROR)
+    assert set(result.handles) == set(SPEED["handles_exactly_tied"])
+    low, high = result.head_speed_bracket
+    assert low <= result.head_speed <= high
     assert high - low <= 2.0 * RATE_TOLERANCE
 
 
@@ -72,26 +72,26 @@ def test_no_dense_sample_is_faster(
     dragon = Dragon(benches, head_length=head, body_length=body, overhang=0.0)
     try:
         path = Turn(pitch, radius, ratio)
-        found = highest_speed(Dance(dragon, path), start=-40.0, stop=60.0)
+        result = highest_speed(Dance(dragon, path), start=-40.0, stop=60.0)
     except InvalidValue:
         return  # the smaller arc is too tight for a chord
-    speed, proven = found.speed_bracket
-    assert found.speed == speed
+    speed, proven = result.speed_bracket
+    assert result.speed == speed
     assert sampled(dragon, path, -40.0, 60.0) <= proven * (1.0 + ROUNDING)
-    at_peak = trajectory(Dance(dragon, path), [found.time]).speed[0]
+    at_peak = trajectory(Dance(dragon, path), [result.time]).speed[0]
     assert at_peak.max() == pytest.approx(speed, rel=ROUNDING)
-    assert at_peak[list(found.handles)] == pytest.approx(speed, rel=ROUNDING)
+    assert at_peak[list(result.handles)] == pytest.approx(speed, rel=ROUNDING)
 
 
 # 200 handles pass the same kink one after the other, each peak a little higher than the one before it.
 def test_of_many_nearly_equal_peaks_the_highest_is_found() -> None:
     dragon = Dragon(head_length=0.125, overhang=0.0)
-    found = highest_speed(Dance(dragon, TURN))
-    near = found.time + np.linspace(-1.5, 1.5, 6_001)
-    assert trajectory(Dance(dragon, TURN), near).speed.max() <= found.speed_bracket[1] * (1.0 + ROUNDING)
-    assert found.handles == (223,)
-    before = sampled(dragon, TURN, found.time - 30.0, found.time - 3.0)
-    assert found.speed - 1e-3 < before < found.speed
+    result = highest_speed(Dance(dragon, TURN))
+    near = result.time + np.linspace(-1.5, 1.5, 6_001)
+    assert trajectory(Dance(dragon, TURN), near).speed.max() <= result.speed_bracket[1] * (1.0 + ROUNDING)
+    assert result.handles == (223,)
+    before = sampled(dragon, TURN, result.time - 30.0, result.time - 3.0)
+    assert result.speed - 1e-3 < before < result.speed
 
 
 def test_benches_that_follow_calmly_change_nothing() -> None:
@@ -116,20 +116,20 @@ def test_benches_that_follow_calmly_change_nothing() -> None:
 )
 def test_on_every_kind_of_piece_dense_samples_come_up_to_the_highest(path: Route, start: float, stop: float) -> None:
     dragon = Dragon(8)
-    found = highest_speed(Dance(dragon, path), start=start, stop=stop)
+    result = highest_speed(Dance(dragon, path), start=start, stop=stop)
     seen = sampled(dragon, path, start, stop, 20_001)
-    assert seen <= found.speed_bracket[1] * (1.0 + ROUNDING)
-    assert found.speed - seen < 1e-3
-    assert found.speed_bracket[1] - found.speed < 1e-6
+    assert seen <= result.speed_bracket[1] * (1.0 + ROUNDING)
+    assert result.speed - seen < 1e-3
+    assert result.speed_bracket[1] - result.speed < 1e-6
 
 
 @pytest.mark.parametrize("gap", [10.0, 0.1, 1e-3])
 def test_towards_the_fold_of_a_spiral_the_last_instant_is_the_fastest(gap: float) -> None:
     stop = Dance(Dragon(), Spiral()).end.time - gap
-    found = highest_speed(Dance(Dragon(), Spiral()), stop=stop)
+    result = highest_speed(Dance(Dragon(), Spiral()), stop=stop)
     fastest = trajectory(Dance(Dragon(), Spiral()), [stop]).speed.max()
-    assert found.speed == pytest.approx(fastest, rel=ROUNDING)
-    assert found.speed_bracket[1] <= found.speed * (1.0 + 1e-7)
+    assert result.speed == pytest.approx(fastest, rel=ROUNDING)
+    assert result.speed_bracket[1] <= result.speed * (1.0 + 1e-7)
 
 
 # Most intervals in which a peak is proven [1]; most links that a search follows, see LINKS_BUDGET; and the least number
@@ -155,14 +155,14 @@ def test_a_peak_beside_the_centre_is_proven_in_few_intervals(benches: int, pitch
     dragon, spiral = Dragon(benches, 2.2, 2.2, 0.3, 0.0), Spiral(pitch, 5.0)
     end = Dance(dragon, spiral).end
     assert end.reason is EndReason.CENTRE
-    found = highest_speed(Dance(dragon, spiral))
+    result = highest_speed(Dance(dragon, spiral))
     assert intervals_of(dragon, spiral, 0.0, end.time) < FEW
-    speed, proven = found.speed_bracket
+    speed, proven = result.speed_bracket
     assert proven is not None
     assert proven - speed <= 1.1 * RATE_TOLERANCE
     near = end.time - np.concatenate([np.linspace(0.0, 2.0, 20_001), np.geomspace(1e-9, 2.0, 5_001)])
     assert trajectory(Dance(dragon, spiral), near).speed.max() <= proven * (1.0 + ROUNDING)
-    assert trajectory(Dance(dragon, spiral), [found.time]).speed[0, found.handles[0]] == pytest.approx(
+    assert trajectory(Dance(dragon, spiral), [result.time]).speed[0, result.handles[0]] == pytest.approx(
         speed, rel=ROUNDING
     )
 
@@ -175,9 +175,9 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
     spiral = Spiral(10 ** rng.uniform(-0.5, 0.8), 4.0)
     end = Dance(dragon, spiral).end
     stop = end.time * (1.0 - (end.reason is EndReason.FOLD) * 10 ** rng.uniform(-6.0, -2.0))
-    found = highest_speed(Dance(dragon, spiral), stop=stop)
+    result = highest_speed(Dance(dragon, spiral), stop=stop)
     assert INTERVAL_LINKS * intervals_of(dragon, spiral, 0.0, stop) < LINKS_MOST
-    speed, proven = found.speed_bracket
+    speed, proven = result.speed_bracket
     near = stop * (1.0 - np.concatenate([np.linspace(0.0, 1.0, 5_001), np.geomspace(1e-9, 1.0, 2_001)]))
     seen = trajectory(Dance(dragon, spiral), near).speed.max()
     assert proven is None or seen <= proven * (1.0 + ROUNDING)
@@ -187,8 +187,8 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
 def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
     span = {"start": -20.0, "stop": 40.0}
-    found = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], **span)
-    assert found.head_speed_bracket == (None, found.head_speed)
+    result = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], **span)
+    assert result.head_speed_bracket == (None, result.head_speed)
     report = check(Dance(Dragon(), TURN), speed_limit=2.0, **span)
     assert report.highest_speed is not None
     assert report.highest_speed.speed_bracket[1] is None
@@ -203,8 +203,8 @@ def test_a_proof_given_up_before_a_pause_is_unknown_for_the_whole_dance(monkeypa
     """The pause itself is proven: there every speed is 0."""
     monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
     dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(0.0, until_time=30.0)])
-    found = highest_speed(dance, start=0.0, stop=30.0)
-    assert found.speed_bracket == (found.speed, None)
+    result = highest_speed(dance, start=0.0, stop=30.0)
+    assert result.speed_bracket == (result.speed, None)
 
 
 @pytest.mark.parametrize(
@@ -215,11 +215,11 @@ def test_the_bracket_of_an_excess_begins_where_a_proof_was_given_up_and_ends_wit
 ) -> None:
     monkeypatch.setattr(core.extremes.speed, "EXCESS_LINKS", 20)
     dance = Dance(Dragon(10), TURN, passages=[Passage(1.0, until_time=12.0), Passage(then, until_time=15.0)])
-    found = first_excess(dance, 2.0, start=0.0, stop=15.0)
-    assert found is not None
-    proven, until = found.time_bracket
+    result = first_excess(dance, 2.0, start=0.0, stop=15.0)
+    assert result is not None
+    proven, until = result.time_bracket
     assert 0.0 < proven < 12.0
-    assert (found.time, until) == (excess, 15.0 if excess is None else excess)
+    assert (result.time, until) == (excess, 15.0 if excess is None else excess)
 
 
 def test_a_run_to_a_fold_without_a_stop_asks_for_one() -> None:

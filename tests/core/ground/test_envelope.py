@@ -46,8 +46,8 @@ DANCES: dict[str, tuple[Dance, float | None, float | None]] = {
 }
 
 
-def ground(found: Envelope) -> shapely.MultiPolygon:
-    return shapely.MultiPolygon([(rings[0], rings[1:]) for rings in found.polygons])
+def ground(result: Envelope) -> shapely.MultiPolygon:
+    return shapely.MultiPolygon([(rings[0], rings[1:]) for rings in result.polygons])
 
 
 def outlines(dance: Dance, times: np.ndarray) -> np.ndarray:
@@ -58,14 +58,14 @@ def outlines(dance: Dance, times: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("name", DANCES)
 def test_ten_thousand_poses_are_inside_of_valid_polygons(name: str) -> None:
     dance, start, stop = DANCES[name]
-    found = envelope(dance, start=start, stop=stop)
-    polygons = ground(found)
+    result = envelope(dance, start=start, stop=stop)
+    polygons = ground(result)
     assert polygons.is_valid
-    assert polygons.area == pytest.approx(found.area)
-    assert found.excess <= 1e-3
+    assert polygons.area == pytest.approx(result.area)
+    assert result.excess <= 1e-3
     random = np.random.default_rng(15)
     instants = math.ceil(POSES / dance.dragon.benches)
-    times = np.concatenate([[found.start, found.stop], random.uniform(found.start, found.stop, instants)])
+    times = np.concatenate([[result.start, result.stop], random.uniform(result.start, result.stop, instants)])
     corners = outlines(dance, times)
     edges = np.roll(corners, -1, axis=1) - corners
     points = np.concatenate([corners, corners + edges * random.uniform(size=(len(corners), 4, 1))])
@@ -83,22 +83,22 @@ def test_ten_thousand_poses_are_inside_of_valid_polygons(name: str) -> None:
     ],
 )
 def test_no_point_is_further_from_a_bench_than_the_excess(dance: Dance, start: float, stop: float | None) -> None:
-    found = envelope(dance, start=start, stop=stop)
-    times = found.stop - (found.stop - found.start) * np.linspace(1.0, 0.0, 1_501) ** (1.0 if stop else 3.0)
+    result = envelope(dance, start=start, stop=stop)
+    times = result.stop - (result.stop - result.start) * np.linspace(1.0, 0.0, 1_501) ** (1.0 if stop else 3.0)
     benches = shapely.polygons(outlines(dance, times))
-    border = shapely.points(shapely.get_coordinates(shapely.segmentize(ground(found).boundary, 0.1)))
+    border = shapely.points(shapely.get_coordinates(shapely.segmentize(ground(result).boundary, 0.1)))
     _, furthest = shapely.STRtree(benches).query_nearest(border, return_distance=True, all_matches=False)
     assert len(furthest) == len(border)
-    assert 1e-4 < furthest.max() <= found.excess <= 1e-3
+    assert 1e-4 < furthest.max() <= result.excess <= 1e-3
     sampled = shapely.union_all(benches[::20])
-    assert sampled.area < found.area
-    assert ground(found).covers(sampled)
+    assert sampled.area < result.area
+    assert ground(result).covers(sampled)
 
 
 def test_a_round_dance_keeps_its_hole_and_sweeps_the_ring_between_two_circles() -> None:
     dance, _, _ = DANCES["rounds"]
-    found = envelope(dance)
-    ((outer, *holes),) = found.polygons
+    result = envelope(dance)
+    ((outer, *holes),) = result.polygons
     assert len(holes) == 1
     head, width = dance.dragon, 0.15
     inner = min(math.sqrt(RING**2 - 0.25 * chord**2) for chord in head.chords.tolist()) - width
@@ -106,11 +106,11 @@ def test_a_round_dance_keeps_its_hole_and_sweeps_the_ring_between_two_circles() 
     outside = max(math.hypot(y, 0.5 * length) for y, length in zip(middle, head.lengths.tolist(), strict=True))
     radii = np.linalg.norm(outer, axis=1), np.linalg.norm(holes[0], axis=1)
     assert outside <= radii[0].min()
-    assert radii[0].max() <= outside + found.excess
-    assert inner - found.excess <= radii[1].min()
+    assert radii[0].max() <= outside + result.excess
+    assert inner - result.excess <= radii[1].min()
     assert radii[1].max() <= inner
     area = math.pi * (outside**2 - inner**2)
-    assert area < found.area < area + 2.0 * math.pi * (outside + inner) * found.excess
+    assert area < result.area < area + 2.0 * math.pi * (outside + inner) * result.excess
 
 
 def test_what_a_span_sweeps_is_part_of_what_the_whole_dance_sweeps() -> None:
@@ -142,20 +142,20 @@ def test_a_larger_excess_costs_less() -> None:
 
 def test_the_distance_of_spectators_from_a_straight_dance() -> None:
     dance = Dance(Dragon(3), Route([Line((0.0, 0.0), (50.0, 0.0))], start=9.0))
-    found = envelope(dance)
+    result = envelope(dance)
     for line in ([(0.0, 2.0), (30.0, 2.0)], [(20.0, 2.0)], [(-9.0, 5.0), (25.0, 2.0), (60.0, 7.0)]):
-        assert 2.0 - 0.15 - found.excess < found.distance(line) < 2.0 - 0.15
-    assert found.distance([(10.0, -3.0), (11.0, 3.0)]) == 0.0
-    assert found.distance([(10.0, 0.1)]) == 0.0
+        assert 2.0 - 0.15 - result.excess < result.distance(line) < 2.0 - 0.15
+    assert result.distance([(10.0, -3.0), (11.0, 3.0)]) == 0.0
+    assert result.distance([(10.0, 0.1)]) == 0.0
 
 
 @pytest.mark.parametrize(
-    ("given", "field"),
+    ("arguments", "field"),
     [({"excess": 0.0}, "excess"), ({"excess": 2.0}, "excess"), ({"start": 5.0, "stop": 4.0}, "stop")],
 )
-def test_what_cannot_be_is_refused_by_its_field(given: dict[str, float], field: str) -> None:
+def test_what_cannot_be_is_refused_by_its_field(arguments: dict[str, float], field: str) -> None:
     with pytest.raises(InvalidValue, match=f"^{field} must be") as caught:
-        envelope(Dance(Dragon(3), Spiral()), **given)
+        envelope(Dance(Dragon(3), Spiral()), **arguments)
     assert caught.value.field == field
 
 
@@ -166,9 +166,9 @@ def test_a_time_after_the_run_is_refused() -> None:
 
 @pytest.mark.parametrize("line", [[], [(1.0,)], 3.0, [(1.0, math.nan)]])
 def test_a_line_without_points_is_refused(line: object) -> None:
-    found = envelope(Dance(Dragon(1), Spiral()), stop=1.0, excess=0.01)
+    result = envelope(Dance(Dragon(1), Spiral()), stop=1.0, excess=0.01)
     with pytest.raises(InvalidValue, match=r"^line") as caught:
-        found.distance(line)
+        result.distance(line)
     assert caught.value.field.startswith("line")
 
 

@@ -37,10 +37,10 @@ def test_on_a_short_way_every_bench_has_a_stretch_of_its_own() -> None:
 @pytest.mark.parametrize(("way", "stretches", "length"), [(5.0, 1, 13.2), (2.0, 3, 6.0)])
 def test_benches_given_one_by_one_share_tracks_by_their_sizes(way: float, stretches: int, length: float) -> None:
     dragon = Dragon.of([2.2, 3.0] * 3, [0.3] * 6, [0.275] * 6)  # benches of a size are 4.1 m apart
-    found = tracks(Dance(dragon, Route([Line((0.0, 0.0), (90.0, 0.0))], start=40.0)), 0.0, way)
-    assert sorted(track.bench for track in found) == [0, 1]
-    assert [len(track.stretches) for track in found] == [stretches] * 2
-    assert [track.length for track in found] == pytest.approx([length] * 2, abs=1e-7)
+    result = tracks(Dance(dragon, Route([Line((0.0, 0.0), (90.0, 0.0))], start=40.0)), 0.0, way)
+    assert sorted(track.bench for track in result) == [0, 1]
+    assert [len(track.stretches) for track in result] == [stretches] * 2
+    assert [track.length for track in result] == pytest.approx([length] * 2, abs=1e-7)
 
 
 @pytest.mark.parametrize(

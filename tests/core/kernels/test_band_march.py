@@ -31,10 +31,10 @@ def test_a_band_that_reaches_the_circle_is_clear_at_samples() -> None:
 def test_a_band_too_narrow_for_its_benches_touches() -> None:
     search, band = band_march_of(0.42)
     assert band.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK) is kernels.Ended.TOUCHED
-    found = band.result()
-    assert found.touching is not None
-    travel = search.travel_at(found.touching / search.growth)
-    assert kernels.gap_at(search.scene, search.place - travel, *found.benches, search.placed) <= 0.0
+    result = band.result()
+    assert result.touching is not None
+    travel = search.travel_at(result.touching / search.growth)
+    assert kernels.gap_at(search.scene, search.place - travel, *result.benches, search.placed) <= 0.0
 
 
 def test_without_work_a_band_is_stuck_and_more_leaders_than_rows_do_not_fit() -> None:

@@ -18,9 +18,9 @@ def test_exact_pairs_are_those_of_all_whose_gap_is_within_the_margin(count: int,
     a, b = np.triu_indices(count, 2 if chained else 1)
     kernels.pair_gaps(rectangles[a], rectangles[b], kernels.NO_LIMIT, gaps := np.empty(len(a)))
     near = {(int(i), int(j)) for i, j, gap in zip(a, b, gaps, strict=True) if gap <= margin}
-    found = meeting_pairs(rectangles, margin, chained, exact=True).tolist()
-    assert len(found) == len(near)
-    assert set(map(tuple, found)) == near
+    result = meeting_pairs(rectangles, margin, chained, exact=True).tolist()
+    assert len(result) == len(near)
+    assert set(map(tuple, result)) == near
 
 
 def test_the_search_stops_soon_after_it_found_more_than_asked() -> None:

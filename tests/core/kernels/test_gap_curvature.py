@@ -61,8 +61,8 @@ def test_gaps_along_body_axes_bend_no_more_than_their_bound(seed: int) -> None:
     for a, b in checked_pairs(len(at.half)):
         for i, j in ((a, b), (b, a)):
             bound = kernels.axis_curvature(at.scene.curve.growth, i, j, at.distance(a, b), at.sizes, at.motion)
-            found = bend(at.centres, at.along, at.half, (i, j), APART)
-            assert found <= bound * at.apart**2 + 4.0 * at.rounding
+            result = bend(at.centres, at.along, at.half, (i, j), APART)
+            assert result <= bound * at.apart**2 + 4.0 * at.rounding
 
 
 @pytest.mark.parametrize("seed", range(100, 130))
@@ -78,8 +78,8 @@ def test_gaps_along_body_axes_on_a_route_bend_no_more_than_their_bound(seed: int
         for i, j in ((a, b), (b, a)):
             distance = np.linalg.norm(centres[0, j] - centres[0, i]) + h * motion[[i, j], CENTRE_SPEED].sum()
             bound = kernels.axis_curvature(1.0, i, j, float(distance), sizes, motion)
-            found = bend(centres, along, sizes[:, HALF_LENGTH:RADIUS], (i, j), route.APART)
-            assert found <= bound * apart**2 + rounding
+            result = bend(centres, along, sizes[:, HALF_LENGTH:RADIUS], (i, j), route.APART)
+            assert result <= bound * apart**2 + rounding
 
 
 def worst_bend(turn: float, speed: float, pull: float, reach: float, step: float = 1e-3) -> float:
@@ -147,10 +147,10 @@ def test_a_bound_has_every_term_of_its_derivation(seed: int) -> None:
 def test_bounds_on_a_pair_reach_as_far_as_its_centres_may_move() -> None:
     search = ContactSearch(Dragon(12), Spiral(), 0.0)
     place, h, (a, b) = search.place - 400.0, 0.25, (0, 9)
-    found = kernels.pair_curvatures(search.scene, search.probe, place, h, a, b)
+    result = kernels.pair_curvatures(search.scene, search.probe, place, h, a, b)
     centres, motion = search.probed[:, [MX, MY]], search.motion
     distance = np.linalg.norm(centres[b] - centres[a]) + h * motion[[a, b], CENTRE_SPEED].sum()
-    for pair, bound in zip(((a, b), (b, a)), found, strict=True):
+    for pair, bound in zip(((a, b), (b, a)), result, strict=True):
         assert bound == pytest.approx(
             kernels.axis_curvature(search.growth, *pair, float(distance), search.sizes, motion), rel=1e-12
         )

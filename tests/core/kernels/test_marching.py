@@ -36,25 +36,25 @@ def test_a_contact_is_bracketed_by_a_clear_and_a_touching_instant() -> None:
     search = ContactSearch(DRAGON, SPIRAL, 0.0)
     march = march_of(search)
     assert ended(march, 380.0, 420.0) is Ended.TOUCHED
-    found = march.result()
-    assert found.touching is not None
-    assert found.proven <= CONTACT <= found.touching <= found.proven + 3.0 * HALF_BRACKET
-    assert found.benches == (0, 8)
-    place = search.place - found.proven + 1e-6
+    result = march.result()
+    assert result.touching is not None
+    assert result.proven <= CONTACT <= result.touching <= result.proven + 3.0 * HALF_BRACKET
+    assert result.benches == (0, 8)
+    place = search.place - result.proven + 1e-6
     assert kernels.gap_at(search.scene, place, 0, 8, search.probed) > 0.0
-    assert kernels.gap_at(search.scene, search.place - found.touching, 0, 8, search.probed) <= 0.0
+    assert kernels.gap_at(search.scene, search.place - result.touching, 0, 8, search.probed) <= 0.0
     # the dip before it, seen on the way
-    assert found.graze is not None
-    assert 0.0 < found.graze.gap < 0.001
-    assert found.graze.benches == (0, 11)
+    assert result.graze is not None
+    assert 0.0 < result.graze.gap < 0.001
+    assert result.graze.benches == (0, 11)
 
 
 def test_a_march_from_within_a_contact_ends_where_it_starts() -> None:
     march = march_of(ContactSearch(DRAGON, SPIRAL, 0.0))
     assert ended(march, 413.0, 420.0) is Ended.TOUCHED_AT_START
-    found = march.result()
-    assert found.proven == found.touching == 413.0
-    assert found.steps == 0
+    result = march.result()
+    assert result.proven == result.touching == 413.0
+    assert result.steps == 0
 
 
 def test_without_work_a_march_is_stuck_and_keeps_what_it_has_proven() -> None:
@@ -75,7 +75,7 @@ def test_a_pair_that_is_left_out_is_not_found() -> None:
     search.scene.left_out, search.scene.left_out_too = 0, 8
     march = march_of(search)
     assert ended(march, 380.0, 420.0) is Ended.TOUCHED
-    found = march.result()
-    assert found.benches != (0, 8)
-    assert found.touching is not None
-    assert found.touching > CONTACT
+    result = march.result()
+    assert result.benches != (0, 8)
+    assert result.touching is not None
+    assert result.touching > CONTACT

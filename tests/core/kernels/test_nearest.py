@@ -60,9 +60,9 @@ def test_with_too_few_rows_for_the_benches_in_reach_a_march_ends_at_capacity_and
         search.resize(rows)
         march = kernels.March(search.interval, search.probe, search.opening)
         ended.add(march.run(380.0, 420.0, 2, True, 1e-10, False, 1e-12, 1e7))
-        found = march.result()
-        assert found.proven < CONTACT
-        assert found.touching is None or found.benches == (0, 8)
+        result = march.result()
+        assert result.proven < CONTACT
+        assert result.touching is None or result.benches == (0, 8)
     assert ended == {Ended.CAPACITY, Ended.TOUCHED}
 
 

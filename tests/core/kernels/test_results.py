@@ -17,14 +17,14 @@ def test_a_march_hands_over_numbers_of_python() -> None:
     search = ContactSearch(Dragon(40), Spiral(), 0.0)
     march = march_of(search)
     ended(march, 380.0, 420.0)
-    found = march.result()
-    assert isinstance(found, Marched)
-    assert [type(value) for value in found] == [float, float, tuple, int, float, Dip]
-    assert [type(bench) for bench in found.benches] == [int, int]
-    assert found.graze is not None
-    assert [type(value) for value in found.graze] == [float, float, tuple]
-    assert found.steps > 0
-    assert found.gap_curvature > 0.0
+    result = march.result()
+    assert isinstance(result, Marched)
+    assert [type(value) for value in result] == [float, float, tuple, int, float, Dip]
+    assert [type(bench) for bench in result.benches] == [int, int]
+    assert result.graze is not None
+    assert [type(value) for value in result.graze] == [float, float, tuple]
+    assert result.steps > 0
+    assert result.gap_curvature > 0.0
 
 
 def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
@@ -44,9 +44,9 @@ def test_the_graze_of_a_march_has_the_gap_of_its_pair_there() -> None:
 def test_a_band_hands_over_a_radius_and_no_graze() -> None:
     _, band = band_march_of(0.42)
     band.run(6.0, CIRCLE, 2, 1e-12, 1e-9, WORK)
-    found = band.result()
-    assert isinstance(found, Marched)
-    assert [type(value) for value in found[:2]] == [float, float]
-    assert found.touching is not None
-    assert CIRCLE <= found.touching <= found.proven <= 6.0
-    assert found.graze is None
+    result = band.result()
+    assert isinstance(result, Marched)
+    assert [type(value) for value in result[:2]] == [float, float]
+    assert result.touching is not None
+    assert CIRCLE <= result.touching <= result.proven <= 6.0
+    assert result.graze is None

@@ -87,9 +87,9 @@ def test_the_first_overlap_is_found_and_safe_strays_change_nothing() -> None:
     made.measure(MOST, gains(DRAGON), PLACES, safe)
     for _ in range(40):
         numbers, answers = rng.standard_normal((20, 21, 2)), []
-        for given in (safe, NOT_SAFE):
+        for stray in (safe, NOT_SAFE):
             memory, state = np.full(20, MEMORY), np.zeros((21, 2))
-            instants = made.dance(memory, numbers, NO_PLAY, PLACES, TANGENTS, given, state)
+            instants = made.dance(memory, numbers, NO_PLAY, PLACES, TANGENTS, stray, state)
             answers.append((instants, (made.first, made.second) if instants < 20 else None))
         assert answers[0] == answers[1]
         instants, pair = answers[0]
@@ -100,8 +100,8 @@ def test_the_first_overlap_is_found_and_safe_strays_change_nothing() -> None:
             part = [numbers[rows], NO_PLAY, PLACES[rows], TANGENTS[rows], safe[rows], state]
             made.dance(np.full(last - rows.start, MEMORY), *part)
             if last:
-                found = overlapping(made.chain)
-                assert (pair in found) if last == instants + 1 else not found
+                result = overlapping(made.chain)
+                assert (pair in result) if last == instants + 1 else not result
         clear.append(instants)
     assert 5 < sum(instants == 20 for instants in clear) < 35
 

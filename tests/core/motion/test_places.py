@@ -22,7 +22,7 @@ DANCES = {
 
 
 @pytest.mark.parametrize("ask", [partial(handle_places, times=[0.0, 1.0]), partial(Passing, start=0.0, stop=9.0)])
-def test_the_end_of_the_budget_is_told(ask: Callable[..., object]) -> None:
+def test_the_end_of_the_budget_is_reported(ask: Callable[..., object]) -> None:
     with pytest.raises(TooMuchWork, match="the places of the handles were not found within 1 steps of work"):
         ask(DANCES["turn"], budget=Budget(1.0))
 
@@ -30,8 +30,8 @@ def test_the_end_of_the_budget_is_told(ask: Callable[..., object]) -> None:
 @pytest.mark.parametrize("dance", DANCES.values(), ids=DANCES)
 def test_handles_are_at_their_places_on_the_path(dance: Dance) -> None:
     times = np.array([0.0, 7.5, 30.0])
-    found = dance.path.position(handle_places(dance, times))
-    assert np.abs(found - trajectory(dance, times).position).max() < PLACE_ROUNDING
+    result = dance.path.position(handle_places(dance, times))
+    assert np.abs(result - trajectory(dance, times).position).max() < PLACE_ROUNDING
 
 
 def test_a_handle_is_where_it_is_said_to_pass_and_waits_through_a_pause() -> None:

@@ -195,8 +195,8 @@ def test_the_first_row_that_folds_is_found_wherever_it_stands_in_its_block(row: 
     assert standing == 1
     for first, later in ((HALF_FOLDED, FOLDED), (FOLDED, HALF_FOLDED), (FOLDED, STANDING), (HALF_FOLDED, STANDING)):
         heads = [STANDING] * row + [first] + [later] * (2 * LANES_PER_BLOCK - row)
-        found, position = first_folded_row(heads, FOLDING_CHORDS)
-        assert found == row
+        result, position = first_folded_row(heads, FOLDING_CHORDS)
+        assert result == row
         assert (position[:row] == whole[0]).all()
 
 

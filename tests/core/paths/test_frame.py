@@ -124,11 +124,11 @@ def test_the_ground_and_the_pose_that_shows_a_contact_lie_where_the_dance_is(two
         for ring, other in zip(rings, others, strict=True):
             flip = 1 if elsewhere.path.frame.clockwise else -1
             np.testing.assert_allclose(other[::flip], move(ring), rtol=0, atol=ROUNDING)
-    found = tolerance(elsewhere, **span)
-    assert found.exhibit is not None
-    assert found.stray == tolerance(standard, **span).stray
-    strays = found.exhibit.handles - trajectory(elsewhere, found.exhibit.time).position
-    assert np.hypot(*strays.T).max() == pytest.approx(found.exhibit.stray, abs=1e-9)
+    result = tolerance(elsewhere, **span)
+    assert result.exhibit is not None
+    assert result.stray == tolerance(standard, **span).stray
+    strays = result.exhibit.handles - trajectory(elsewhere, result.exhibit.time).position
+    assert np.hypot(*strays.T).max() == pytest.approx(result.exhibit.stray, abs=1e-9)
 
 
 def test_a_spiral_lies_as_a_coil_does() -> None:
@@ -140,11 +140,11 @@ def test_a_spiral_lies_as_a_coil_does() -> None:
 
 
 @pytest.mark.parametrize(
-    ("field", "given"),
+    ("field", "place"),
     [("path.centre", {"centre": (0.0,)}), ("path.centre.1", {"centre": (0.0, 1e9)}),
      ("path.rotation", {"rotation": float("nan")}), ("path.clockwise", {"clockwise": 1})],
 )  # fmt: skip
-def test_an_invalid_place_is_refused_by_name(field: str, given: dict[str, object]) -> None:
+def test_an_invalid_place_is_refused_by_name(field: str, place: dict[str, object]) -> None:
     with pytest.raises(InvalidValue) as refused:
-        Spiral(**given)  # type: ignore[arg-type]
+        Spiral(**place)  # type: ignore[arg-type]
     assert refused.value.field == field

@@ -73,10 +73,10 @@ def test_a_chain_follows_the_head_along_the_path_with_its_chords(path: Path) -> 
     sizes, chain = np.zeros((4, kernels.SIZE_COLUMNS)), np.zeros((4, kernels.CHAIN_COLUMNS))
     sizes[:, kernels.CHORD] = 2.86, 1.65, 1.65, 0.0
     s = np.array([path.begin + 9.0, path.begin + 11.0])
-    for lag, asked in zip(path.lags(s, 0.0).tolist(), s.tolist(), strict=True):
+    for lag, request in zip(path.lags(s, 0.0).tolist(), s.tolist(), strict=True):
         path.follow(lag, 3, sizes, chain)
         handles = path.along(chain[:, kernels.LAG])
-        assert handles[0] == pytest.approx(asked, abs=ON_PATH)
+        assert handles[0] == pytest.approx(request, abs=ON_PATH)
         assert (np.diff(handles) < 0.0).all()
         chords = np.linalg.norm(np.diff(path.position(handles), axis=0), axis=-1)
         np.testing.assert_allclose(chords, sizes[:3, kernels.CHORD], rtol=0, atol=ON_PATH)

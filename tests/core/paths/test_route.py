@@ -255,12 +255,12 @@ def test_chords_keep_their_length_on_any_route(route: Route) -> None:
 @given(routes())
 def test_velocities_are_difference_quotients_on_any_route(route: Route) -> None:
     times = instants(route, 15)
-    found = trajectory(Dance(DRAGON, route), times)
+    motion = trajectory(Dance(DRAGON, route), times)
     before, after = (
         trajectory(Dance(DRAGON, route), times + step).position for step in (-QUOTIENT_STEP, QUOTIENT_STEP)
     )
-    assert np.abs((after - before) / (2.0 * QUOTIENT_STEP) - found.velocity).max() < QUOTIENT_ERROR
-    assert np.abs(np.linalg.norm(found.velocity, axis=-1) - found.speed).max() < CHORD_ERROR
+    assert np.abs((after - before) / (2.0 * QUOTIENT_STEP) - motion.velocity).max() < QUOTIENT_ERROR
+    assert np.abs(np.linalg.norm(motion.velocity, axis=-1) - motion.speed).max() < CHORD_ERROR
 
 
 def first_behind(route: Route, s: float, chord: float) -> float:
@@ -279,8 +279,8 @@ def first_behind(route: Route, s: float, chord: float) -> float:
 @given(routes())
 def test_the_next_handle_is_the_first_point_behind_at_chord_distance(route: Route) -> None:
     times = instants(route, 4)
-    found = trajectory(Dance(DRAGON, route), times).position
-    for handles, time in zip(found, times, strict=True):
+    motion = trajectory(Dance(DRAGON, route), times).position
+    for handles, time in zip(motion, times, strict=True):
         s = float(time)
         for k, chord in enumerate(DRAGON.chords.tolist()):
             assert np.abs(route.position(s) - handles[k]).max() < PLACE_ERROR
@@ -319,13 +319,13 @@ def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
 def test_first_contact_on_any_route_is_that_of_a_slow_search(route: Route) -> None:
     times = np.linspace(float(instants(route, 2)[0]), route.end, 2_000)
     slow = slow_clearance(route, times)
-    found = first_contact(Dance(DRAGON, route), start=float(times[0]))
-    if found.outcome is Outcome.CLEAR:
+    contact = first_contact(Dance(DRAGON, route), start=float(times[0]))
+    if contact.outcome is Outcome.CLEAR:
         assert slow.min() > 0.0
         return
-    assert found.outcome is Outcome.CONTACT
-    assert found.time_bracket is not None
-    clear, touching = found.time_bracket
+    assert contact.outcome is Outcome.CONTACT
+    assert contact.time_bracket is not None
+    clear, touching = contact.time_bracket
     assert touching - clear < 1.1e-9
     assert slow[times < clear].min() > 0.0
     assert slow_clearance(route, np.array([touching]))[0] < TOUCHING
@@ -336,8 +336,8 @@ def test_random_routes_do_meet_themselves() -> None:
     pen.line(18.0)
     pen.arc(1.0, 5.5)
     pen.line(6.0)
-    found = first_contact(Dance(DRAGON, Route(pen.pieces)), start=17.0)
-    assert found.outcome is Outcome.CONTACT
+    contact = first_contact(Dance(DRAGON, Route(pen.pieces)), start=17.0)
+    assert contact.outcome is Outcome.CONTACT
 
 
 # -- waypoints -----------------------------------------------------------------------------------------------

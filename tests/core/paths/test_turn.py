@@ -31,7 +31,7 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference value
 
 
 @pytest.mark.parametrize(
-    ("asked", "field", "got"),
+    ("query", "field", "got"),
     [
         ({"pitch": 1.7, "start_turns": 2.0}, "start_turns", 2.0),
         ({"pitch": 1.7, "turning_radius": 4.5, "start_turns": BARELY_OUTSIDE}, "start_turns", None),
@@ -57,12 +57,12 @@ REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference value
         "a coil too long",
     ],
 )
-def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(asked: dict, field: str, got: float | None) -> None:
+def test_an_invalid_turn_names_what_was_asked_and_never_a_piece(query: dict, field: str, got: float | None) -> None:
     with pytest.raises(InvalidValue) as refused:
-        Turn(**asked)
+        Turn(**query)
     assert refused.value.field == field
-    given = refused.value.got
-    assert got is None or (isinstance(given, Quantity) and given.value == got)
+    in_error = refused.value.got
+    assert got is None or (isinstance(in_error, Quantity) and in_error.value == got)
     assert refused.value.message.startswith(f"{field} must ")
     assert "path" not in refused.value.message
 
@@ -144,12 +144,12 @@ def test_the_turn_has_the_reference_arcs() -> None:
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("table", REFERENCE["tables"], ids=lambda table: f"{table['time']:g} s")
 def test_every_handle_on_the_turn_is_the_reference_one(table: dict) -> None:
-    found = trajectory(Dance(Dragon(), TURN), [table["time"]])
+    motion = trajectory(Dance(Dragon(), TURN), [table["time"]])
     handles = [row["handle"] for row in table["handles"]]
     known = np.array([[row["x"], row["y"], row["speed"]] for row in table["handles"]])
     assert len(handles) > 5
-    assert np.abs(found.position[0, handles] - known[:, :2]).max() < REFERENCE_ERROR
-    assert np.abs(found.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
+    assert np.abs(motion.position[0, handles] - known[:, :2]).max() < REFERENCE_ERROR
+    assert np.abs(motion.speed[0, handles] - known[:, 2]).max() < REFERENCE_ERROR
 
 
 @pytest.mark.uncompiled

@@ -70,8 +70,8 @@ def test_a_bench_called_far_is_clear_of_the_ring_inside_it() -> None:
 @pytest.mark.parametrize("chord", [0.1, 1.65, 2.86])
 def test_a_bend_is_the_first_root(theta: float, chord: float) -> None:
     needed = (arb(chord) / (arb("0.55") / (2 * arb.pi()))) ** 2
-    found = float(delta(arb(theta), needed))
-    before = np.linspace(0.0, found - DOUBLES, 100_000)
+    result = float(delta(arb(theta), needed))
+    before = np.linspace(0.0, result - DOUBLES, 100_000)
     assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))
 
 

@@ -95,26 +95,26 @@ def touching() -> Certificate:
 def test_a_contact_within_a_margin_is_proven_and_its_neighbourhood_refused(
     dragon: Dragon, path: Spiral, margin: float
 ) -> None:
-    found = first_contact(Dance(dragon, path), margin=margin)
-    assert found.time
-    certificate = through_json(prove_collision_time(Dance(dragon, path), found.time, margin=margin))
+    contact = first_contact(Dance(dragon, path), margin=margin)
+    assert contact.time
+    certificate = through_json(prove_collision_time(Dance(dragon, path), contact.time, margin=margin))
     assert certificate["claim"]["margin"] == margin
     a, b = certificate["overlap"]["benches"]
     assert f"benches {a} and {b} are nearer than {margin!r} m" in verify(certificate).statement
-    for wrong in (found.time - OFF, found.time + OFF):
+    for wrong in (contact.time - OFF, contact.time + OFF):
         with pytest.raises(ProofRefused):
             prove_collision_time(Dance(dragon, path), wrong, margin=margin)
 
 
 def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
     dragon, margin = Dragon(18), 1.05
-    found = first_contact(Dance(dragon, LOOP), start=60.0, margin=margin)
-    assert found.time is not None
-    assert found.edge is None
-    certificate = through_json(prove_contact(Dance(dragon, LOOP), found.time, start=60.0, margin=margin))
+    contact = first_contact(Dance(dragon, LOOP), start=60.0, margin=margin)
+    assert contact.time is not None
+    assert contact.edge is None
+    certificate = through_json(prove_contact(Dance(dragon, LOOP), contact.time, start=60.0, margin=margin))
     verify(certificate)
     assert stretches(certificate)[-1][2][0] == "8"
-    for wrong in (found.time - OFF, found.time + OFF):
+    for wrong in (contact.time - OFF, contact.time + OFF):
         with pytest.raises(ProofRefused):
             prove_contact(Dance(dragon, LOOP), wrong, start=60.0, margin=margin)
 
@@ -122,14 +122,14 @@ def test_two_corners_within_a_margin_need_a_direction_and_are_proven() -> None:
 def test_a_minimum_pitch_with_a_margin_is_proven_and_one_off_it_refused() -> None:
     from core import minimum_pitch
 
-    dragon, asked = Dragon(14), {"turning_radius": 3.2, "start_turns": 7.0, "margin": 0.1}
-    pitch = minimum_pitch(dragon, **asked).pitch_bracket[1]
-    certificate = through_json(prove_minimum_pitch(dragon, pitch, **asked))
+    dragon, request = Dragon(14), {"turning_radius": 3.2, "start_turns": 7.0, "margin": 0.1}
+    pitch = minimum_pitch(dragon, **request).pitch_bracket[1]
+    certificate = through_json(prove_minimum_pitch(dragon, pitch, **request))
     assert "says nothing of larger pitches" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="nearer than the margin"):
-        prove_minimum_pitch(dragon, pitch - OFF, **asked)
+        prove_minimum_pitch(dragon, pitch - OFF, **request)
     with pytest.raises(ProofRefused, match="keeps the margin"):
-        prove_minimum_pitch(dragon, pitch + 1.1e-6, **asked)
+        prove_minimum_pitch(dragon, pitch + 1.1e-6, **request)
 
 
 @pytest.mark.parametrize("name", ["pitch_0.80", "n_4"])
@@ -165,10 +165,10 @@ def test_a_run_to_the_centre_or_a_fold_beside_it_is_clear(seed: int) -> None:
         benches = int(random.integers(3, 8))
         sizes = random.uniform(0.5, 2.0, benches), random.uniform(0.05, 0.2, benches), random.uniform(0.0, 0.1, benches)
         dragon, path = Dragon.of(*sizes), Spiral(random.uniform(1.2, 3.5), random.uniform(4.0, 7.0))
-        found = first_contact(Dance(dragon, path))
-        if found.end is not None:
+        contact = first_contact(Dance(dragon, path))
+        if contact.end is not None:
             certificate = through_json(prove_clear(Dance(dragon, path)))
-            assert certificate["claim"]["until"] == found.end.reason
+            assert certificate["claim"]["until"] == contact.end.reason
             verify(certificate)
 
 
@@ -217,12 +217,12 @@ def test_waypoints_have_no_proof() -> None:
 @pytest.mark.parametrize("dragon", [SMALL, pytest.param(SHORT, marks=pytest.mark.deep)], ids=["contest", "short"])
 def test_a_route_is_proven_with_a_margin_up_to_its_least_clearance_and_not_beyond(name: str, dragon: Dragon) -> None:
     path, start, stop = ROUTES[name]
-    found = least_clearance(Dance(dragon, path), start=start, stop=stop)
-    assert found is not None
-    certificate = through_json(prove_clear(Dance(dragon, path), stop, start=start, margin=found.distance - MARGIN_OFF))
+    result = least_clearance(Dance(dragon, path), start=start, stop=stop)
+    assert result is not None
+    certificate = through_json(prove_clear(Dance(dragon, path), stop, start=start, margin=result.distance - MARGIN_OFF))
     assert f"nearer to one another than {certificate['claim']['margin']!r} m" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="nearer than the margin"):
-        prove_clear(Dance(dragon, path), stop, start=start, margin=found.distance + MARGIN_OFF)
+        prove_clear(Dance(dragon, path), stop, start=start, margin=result.distance + MARGIN_OFF)
 
 
 def test_the_turn_of_the_contest_is_clear_and_within_its_margin_at_the_reference_time() -> None:

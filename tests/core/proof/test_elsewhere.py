@@ -21,9 +21,9 @@ def test_a_certificate_does_not_depend_on_where_the_spiral_lies() -> None:
 
 def test_a_pose_that_overlaps_elsewhere_is_proven_in_the_frame_of_the_spiral() -> None:
     dance = Dance(Dragon(20), replace(ELSEWHERE.path, start_turns=8.0))
-    found = tolerance(dance, **SPAN)
-    assert found.exhibit is not None
-    certificate = prove_tolerance(dance, found.stray, exhibit=found.exhibit, **SPAN)
+    result = tolerance(dance, **SPAN)
+    assert result.exhibit is not None
+    certificate = prove_tolerance(dance, result.stray, exhibit=result.exhibit, **SPAN)
     assert verify(certificate).pair_proofs > 0
 
 

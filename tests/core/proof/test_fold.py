@@ -119,13 +119,13 @@ FOLDS = {0: (11, 15, 62, 113), 1: (3, 25, 121), 2: (70, 92, 135)}
 )
 def test_the_fold_of_any_bench_is_proven(seed: int, bench: int) -> None:
     dragon, radius, turns, margin = random_case(seed)
-    found = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
-    assert found.limited_by is LimitedBy.FOLD
-    asked = {"turning_radius": radius, "start_turns": turns, "margin": margin}
-    certificate = through_json(prove_minimum_pitch(dragon, found.pitch_bracket[1], **asked))
+    result = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)
+    assert result.limited_by is LimitedBy.FOLD
+    request = {"turning_radius": radius, "start_turns": turns, "margin": margin}
+    certificate = through_json(prove_minimum_pitch(dragon, result.pitch_bracket[1], **request))
     assert f"bench {bench} cannot follow so far (it folds)" in verify(certificate).statement
     with pytest.raises(ProofRefused, match="folds"):
-        prove_minimum_pitch(dragon, found.pitch_bracket[0] - OFF * (1.0 + found.pitch), **asked)
+        prove_minimum_pitch(dragon, result.pitch_bracket[0] - OFF * (1.0 + result.pitch), **request)
     for other in {bench - 1, bench + 1, dragon.benches} - {-1}:
         with pytest.raises(ProofRefused):
             verify(edit(at("overlap", "folds", put=other))(certificate))
@@ -145,9 +145,9 @@ def test_a_bend_where_a_fold_has_just_vanished_is_the_first_root() -> None:
         chain = Chain(Dragon(1, 2.2, 2.2, 0.02, 0.1), arb(VANISHED + DECIDED), 2.0)
         growth = (VANISHED + DECIDED) / (2.0 * math.pi)
         for theta in np.linspace(0.97, 1.0, 60):
-            found = float(delta(arb(theta), chain.needed[0]))
-            before = np.linspace(0.0, found - SAMPLED, SAMPLES)
-            assert found > math.pi
+            result = float(delta(arb(theta), chain.needed[0]))
+            before = np.linspace(0.0, result - SAMPLED, SAMPLES)
+            assert result > math.pi
             assert np.all(moved(theta, before) < (2.0 / growth) ** 2)
 
 

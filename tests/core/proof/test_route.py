@@ -57,6 +57,6 @@ def test_a_bend_beyond_pi_near_the_centre_is_the_first_root_or_unproven(theta: f
         with pytest.raises(Unproven, match="nearest"):
             delta(arb(theta), needed)
         return
-    found = float(delta(arb(theta), needed))
-    before = np.linspace(0.0, found - DOUBLES, 100_000)
+    result = float(delta(arb(theta), needed))
+    before = np.linspace(0.0, result - DOUBLES, 100_000)
     assert np.all(before**2 + 2 * theta * (theta + before) * (1 - np.cos(before)) < float(needed))

@@ -56,8 +56,8 @@ def test_literal_corners_are_those_of_eq_12_as_printed() -> None:
         (-LENGTH / 2 * cos + WIDTH / 2 * sin, -LENGTH / 2 * sin + WIDTH / 2 * cos),
         (-LENGTH / 2 * cos - WIDTH / 2 * sin, -LENGTH / 2 * sin - WIDTH / 2 * cos),
     ]
-    found = literal_corners(np.array([0.0, 0.0, theta]), np.array([LENGTH, WIDTH]))
-    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDING)
+    result = literal_corners(np.array([0.0, 0.0, theta]), np.array([LENGTH, WIDTH]))
+    np.testing.assert_allclose(result, expected, rtol=0, atol=ROUNDING)
 
 
 SQUARE = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
@@ -101,8 +101,8 @@ def test_angle_sum_finds_just_the_overlaps_with_a_corner_inside(seed: int, count
     along = np.abs(offset[..., 0] * cos + offset[..., 1] * sin) <= length[:, None] / 2
     across = np.abs(offset[..., 1] * cos - offset[..., 0] * sin) <= width[:, None] / 2
     holds = (along & across).any(axis=-1)
-    found = overlaps(pose, length, width, engine=Engine.ANGLE_SUM, chained=False).pairs
-    np.testing.assert_array_equal(found, np.argwhere(np.triu(holds | holds.T, k=1)))
+    result = overlaps(pose, length, width, engine=Engine.ANGLE_SUM, chained=False).pairs
+    np.testing.assert_array_equal(result, np.argwhere(np.triu(holds | holds.T, k=1)))
 
 
 def test_the_angle_sum_rule_refuses_a_margin() -> None:

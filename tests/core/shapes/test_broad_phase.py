@@ -49,9 +49,9 @@ LAYOUTS["a giant and two far away"] = with_giants
 
 @pytest.mark.parametrize("scene", LAYOUTS.values(), ids=LAYOUTS.keys())
 def test_separating_axis_finds_what_all_pairs_finds(scene: Scene) -> None:
-    found = overlaps(*scene, chained=False).pairs
-    np.testing.assert_array_equal(found, all_pairs(scene))
-    assert len(found) > 100
+    result = overlaps(*scene, chained=False).pairs
+    np.testing.assert_array_equal(result, all_pairs(scene))
+    assert len(result) > 100
 
 
 def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_looked_at() -> None:
@@ -66,7 +66,7 @@ def test_close_benches_that_do_not_overlap_are_refused_when_too_many_must_be_loo
 @pytest.mark.parametrize(("find", "limit"), [(overlaps, PAIRS_MAX), (close_pairs, CROSS_CANDIDATES_MAX)])
 def test_as_many_pairs_as_the_limit_allows_are_found(find: object, limit: int) -> None:
     most = (1 + math.isqrt(1 + 8 * limit)) // 2
-    found = find(np.zeros((most, 3)), np.ones(most), np.ones(most), chained=False)
-    assert len(getattr(found, "pairs", found)) == most * (most - 1) // 2
+    result = find(np.zeros((most, 3)), np.ones(most), np.ones(most), chained=False)
+    assert len(getattr(result, "pairs", result)) == most * (most - 1) // 2
     with pytest.raises(TooLarge, match=f"at most {limit} pairs"):
         find(np.zeros((most + 1, 3)), np.ones(most + 1), np.ones(most + 1), chained=False)

@@ -37,14 +37,14 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
     random = np.random.default_rng(5)
     order = random.integers(0, (len(scenes), 3), (examples(60, 400), 2)).tolist()
 
-    def found(asked: list[int]) -> set[tuple[int, int]]:
-        scene, instant = asked
+    def found(request: list[int]) -> set[tuple[int, int]]:
+        scene, instant = request
         poses, size = scenes[scene]
         (pairs,) = engine_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
         return {(a, b) for a, b in pairs.tolist()}
 
     wanted = [truth[scene][instant] for scene, instant in order]
-    assert [found(asked) for asked in order] == wanted
+    assert [found(request) for request in order] == wanted
     with ThreadPoolExecutor(THREADS) as pool:
         assert list(pool.map(found, order)) == wanted
 
@@ -70,10 +70,10 @@ def test_a_union_is_grown_by_what_was_asked_and_hardly_more() -> None:
     grown = 0.02
     polygons = united([fan, bars], [bars[1:] + 0.2], grown, 0.3, Budget())
     own = shapely.union_all([*shapely.polygons(fan), *shapely.polygons(bars)])
-    found = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
-    assert found.is_valid
-    assert found.covers(own)
-    border = shapely.segmentize(found.boundary, 1e-3)
+    result = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+    assert result.is_valid
+    assert result.covers(own)
+    border = shapely.segmentize(result.boundary, 1e-3)
     away = shapely.distance(own, shapely.points(shapely.get_coordinates(border)))
     assert grown - GRID <= away.min()
     assert away.max() <= GROWTH_MOST * grown + GRID

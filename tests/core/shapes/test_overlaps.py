@@ -43,8 +43,8 @@ def near_pairs(count: int, seed: int, margin: float) -> tuple[Scene, Floats]:
     size = random.uniform(0.1, 3.0, (2, count, 2))
     near = random.random(count) < 2 / 3
     wanted = margin + NEAR * random.choice([0.0, 0.1, -0.1, 0.2, -0.2, 1.0, -1.0], count)
-    found = separation(pose[0], size[0], pose[1], size[1])
-    pose[1, near, :2] -= ((found.separation - wanted)[:, None] * found.normal)[near]
+    result = separation(pose[0], size[0], pose[1], size[1])
+    pose[1, near, :2] -= ((result.separation - wanted)[:, None] * result.normal)[near]
     cell = 20.0 * np.stack(np.divmod(np.arange(count), math.isqrt(count)), axis=-1)
     pose[..., :2] += cell
     gap = separation(pose[0], size[0], pose[1], size[1]).separation
@@ -73,8 +73,8 @@ SCENES = {
 @pytest.mark.parametrize("engine", Engine)
 @pytest.mark.parametrize(("poses", "pairs"), SCENES.values(), ids=SCENES.keys())
 def test_every_engine_finds_the_pairs_of_the_table(poses: tuple, pairs: list, engine: Engine) -> None:
-    found = overlaps(*benches(*poses), engine=engine, chained=False)
-    np.testing.assert_array_equal(found.pairs, np.array(pairs).reshape(-1, 2))
+    result = overlaps(*benches(*poses), engine=engine, chained=False)
+    np.testing.assert_array_equal(result.pairs, np.array(pairs).reshape(-1, 2))
 
 
 @pytest.mark.parametrize("engine", Engine)
@@ -97,19 +97,19 @@ def test_a_gap_counts_up_to_and_with_the_margin(engine: Engine, gap: float, with
 def test_margin_is_a_distance_also_around_corners(engine: Engine) -> None:
     corner_to_corner = np.array([[0.0, 0.0, 0.0], [2.0 + 0.3, 1.0 + 0.4, 0.0]])
     for margin, within in ((0.499999, False), (0.500001, True)):
-        found = overlaps(corner_to_corner, [2, 2], [1, 1], engine=engine, margin=margin, chained=False)
-        assert found.pairs.size == 2 * within
+        result = overlaps(corner_to_corner, [2, 2], [1, 1], engine=engine, margin=margin, chained=False)
+        assert result.pairs.size == 2 * within
 
 
 def test_contact_holds_the_exact_separation_of_each_pair() -> None:
     pose, length, width = crowd(60, seed=1, side=8.0)
     size = np.stack([length, width], axis=-1)
     for engine in Engine:
-        found = overlaps(pose, length, width, engine=engine)
-        a, b = found.pairs.T
+        result = overlaps(pose, length, width, engine=engine)
+        a, b = result.pairs.T
         expected = separation(pose[a], size[a], pose[b], size[b])
         for name in ("separation", "witness_a", "witness_b", "normal"):
-            np.testing.assert_array_equal(getattr(found.contact, name), getattr(expected, name))
+            np.testing.assert_array_equal(getattr(result.contact, name), getattr(expected, name))
 
 
 # -- the engines against each other ---------------------------------------------------------------------------
@@ -120,10 +120,10 @@ def test_engines_agree_on_random_and_near_touching_pairs(count: int, margin: flo
     scene, gap = near_pairs(count, seed=2, margin=margin)
     assert np.mean(np.abs(gap - margin) <= NEAR + UNDECIDED) > 0.6
     for engine in EXACT:
-        found = overlaps(*scene, engine=engine, margin=margin, chained=False).pairs
-        np.testing.assert_array_equal(found[:, 1], found[:, 0] + 1)
+        result = overlaps(*scene, engine=engine, margin=margin, chained=False).pairs
+        np.testing.assert_array_equal(result[:, 1], result[:, 0] + 1)
         within = np.zeros(count, dtype=bool)
-        within[found[:, 0] // 2] = True
+        within[result[:, 0] // 2] = True
         differs = within != (gap <= margin)
         assert np.abs(gap[differs] - margin).max(initial=0.0) <= UNDECIDED, engine
         assert engine is not Engine.SEPARATING_AXIS or not differs.any()
@@ -190,10 +190,10 @@ def test_verdicts_of_a_margin_come_from_the_engines_that_know_one() -> None:
 def test_verdicts_on_one_pair_are_what_the_searches_find(seed: int, margin: float) -> None:
     (pose, length, width), (other, _, _) = crowd(2, seed, side=3.0), crowd(2, seed + 1, side=3.0)
     seen = verdicts(pose, other, length, width, margin=margin)
-    found = [cross_check(poses, length, width, margin=margin, chained=False) for poses in (pose, other)]
-    assert list(seen) == list(found[0].pairs)
+    entries = [cross_check(poses, length, width, margin=margin, chained=False) for poses in (pose, other)]
+    assert list(seen) == list(entries[0].pairs)
     for engine, verdict in seen.items():
-        assert (verdict.before, verdict.after) == tuple(check.pairs[engine].size > 0 for check in found)
+        assert (verdict.before, verdict.after) == tuple(check.pairs[engine].size > 0 for check in entries)
 
 
 @pytest.mark.parametrize(("before", "after"), [(1, 2), (2, 1), (3, 3)])
@@ -229,7 +229,7 @@ def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
 
 
 @pytest.mark.parametrize(
-    ("row", "name", "value", "said"),
+    ("row", "name", "value", "text"),
     [
         (1, "x", math.nan, "benches[1].x must be a finite number, got nan m"),
         (0, "y", math.inf, "benches[0].y must be a finite number, got inf m"),
@@ -241,7 +241,7 @@ def test_a_hundred_thousand_stacked_benches_are_refused(engine: Engine) -> None:
         (0, "length", 1e5, "benches[0].length must be from 0.001 to 10000 m, got 100000 m"),
     ],
 )
-def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: float, said: str) -> None:
+def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: float, text: str) -> None:
     pose, length, width = benches((0, 0, 0), (3, 0, 0), (6, 0, 0))
     columns = {"x": pose[:, 0], "y": pose[:, 1], "heading": pose[:, 2], "length": length, "width": width}
     columns[name][row] = value
@@ -249,7 +249,7 @@ def test_a_bad_bench_is_refused_by_number_and_name(row: int, name: str, value: f
         with pytest.raises(InvalidValue) as caught:
             find(pose, length, width)
         assert caught.value.field == f"benches.{row}.{name}"
-        assert caught.value.message == said
+        assert caught.value.message == text
 
 
 @pytest.mark.parametrize(
@@ -283,7 +283,7 @@ GOOD = ((0.0, 0.0, 0.0), BENCH)
 
 @pytest.mark.uncompiled
 @pytest.mark.parametrize(
-    ("pose", "size", "field", "said"),
+    ("pose", "size", "field", "text"),
     [
         ((math.nan, 0, 0), BENCH, "poses_a.0.x", "finite number, got nan m"),
         ((0, math.inf, 0), BENCH, "poses_a.0.y", "finite number, got inf m"),
@@ -302,11 +302,11 @@ GOOD = ((0.0, 0.0, 0.0), BENCH)
         (np.zeros((2, 3)), np.ones((3, 2)), "sizes_a", "must broadcast"),
     ],
 )  # fmt: skip
-def test_bad_rectangles_are_refused_by_name(pose: object, size: object, field: str, said: str) -> None:
+def test_bad_rectangles_are_refused_by_name(pose: object, size: object, field: str, text: str) -> None:
     with pytest.raises(InvalidValue) as caught:
         separation(pose, size, *GOOD)
     assert caught.value.field == field
-    assert said in caught.value.message
+    assert text in caught.value.message
 
 
 @pytest.mark.uncompiled
@@ -319,5 +319,5 @@ def test_pairs_that_do_not_broadcast_are_refused() -> None:
 @pytest.mark.uncompiled
 @pytest.mark.parametrize("size", [SIZE_MIN, SIZE_MAX])
 def test_sizes_and_positions_at_their_limits_are_accepted(size: float) -> None:
-    found = separation([-POSITION_MAX, 0, 0], [size, size], [POSITION_MAX, 0, 0], [size, size])
-    assert found.separation == pytest.approx(2 * POSITION_MAX - size, rel=1e-15)
+    result = separation([-POSITION_MAX, 0, 0], [size, size], [POSITION_MAX, 0, 0], [size, size])
+    assert result.separation == pytest.approx(2 * POSITION_MAX - size, rel=1e-15)

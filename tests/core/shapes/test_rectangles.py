@@ -96,38 +96,38 @@ def outside(points: Floats, pose: Floats, size: Floats) -> Floats:
 @pytest.mark.parametrize("row", TABLE.values(), ids=TABLE.keys())
 def test_separation_witnesses_and_normal_are_those_of_the_table(row: tuple) -> None:
     pose_a, size_a, pose_b, size_b, distance, witness_a, witness_b, normal = row
-    found = separation(pose_a, size_a, pose_b, size_b)
-    np.testing.assert_allclose(found.separation, distance, rtol=0, atol=ROUNDING)
-    np.testing.assert_allclose(found.witness_a, witness_a, rtol=0, atol=ROUNDING)
-    np.testing.assert_allclose(found.witness_b, witness_b, rtol=0, atol=ROUNDING)
+    result = separation(pose_a, size_a, pose_b, size_b)
+    np.testing.assert_allclose(result.separation, distance, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(result.witness_a, witness_a, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(result.witness_b, witness_b, rtol=0, atol=ROUNDING)
     if normal is not None:
-        np.testing.assert_allclose(found.normal, normal, rtol=0, atol=ROUNDING)
+        np.testing.assert_allclose(result.normal, normal, rtol=0, atol=ROUNDING)
 
 
 @settings(deadline=None)
 @given(pairs)
 def test_witnesses_differ_by_separation_times_unit_normal(pair: Pair) -> None:
-    found = separation(*pair)
+    result = separation(*pair)
     np.testing.assert_allclose(
-        found.witness_b - found.witness_a, found.separation * found.normal, rtol=0, atol=ROUNDING
+        result.witness_b - result.witness_a, result.separation * result.normal, rtol=0, atol=ROUNDING
     )
-    assert np.hypot(*found.normal) == pytest.approx(1.0, rel=0, abs=ROUNDING)
+    assert np.hypot(*result.normal) == pytest.approx(1.0, rel=0, abs=ROUNDING)
 
 
 @settings(deadline=None)
 @given(pairs)
 def test_witnesses_lie_on_the_boundary_of_their_own_rectangle(pair: Pair) -> None:
-    found = separation(*pair)
-    assert outside(found.witness_a, *pair[:2]) == pytest.approx(0.0, abs=ROUNDING)
-    assert outside(found.witness_b, *pair[2:]) == pytest.approx(0.0, abs=ROUNDING)
+    result = separation(*pair)
+    assert outside(result.witness_a, *pair[:2]) == pytest.approx(0.0, abs=ROUNDING)
+    assert outside(result.witness_b, *pair[2:]) == pytest.approx(0.0, abs=ROUNDING)
 
 
 @settings(deadline=None)
 @given(pairs)
 def test_moving_b_back_by_the_separation_makes_them_touch(pair: Pair) -> None:
     pose_a, size_a, pose_b, size_b = pair
-    found = separation(*pair)
-    moved = pose_b - np.append(found.separation * found.normal, 0.0)
+    result = separation(*pair)
+    moved = pose_b - np.append(result.separation * result.normal, 0.0)
     assert separation(pose_a, size_a, moved, size_b).separation == pytest.approx(0.0, abs=ROUNDING)
 
 
@@ -176,10 +176,10 @@ def test_gap_alone_equals_the_separation(pair: Pair) -> None:
 
 def test_separation_equals_the_minkowski_oracle_on_random_pairs() -> None:
     pair = random_pairs(20_000, seed=1)
-    found = separation(*pair).separation
-    assert np.mean(found < 0) > 0.1
+    result = separation(*pair).separation
+    assert np.mean(result < 0) > 0.1
     oracle = minkowski_separation(corners(*pair[:2]), corners(*pair[2:]))
-    np.testing.assert_allclose(found, oracle, rtol=0, atol=ORACLE_ROUNDING)
+    np.testing.assert_allclose(result, oracle, rtol=0, atol=ORACLE_ROUNDING)
 
 
 def test_separation_of_extreme_sizes_equals_the_oracle() -> None:
@@ -187,9 +187,9 @@ def test_separation_of_extreme_sizes_equals_the_oracle() -> None:
     size = 10 ** random.uniform(math.log10(SIZE_MIN), math.log10(SIZE_MAX), (2, 5_000, 2))
     reach = size.sum(axis=(0, 2))[:, None]
     pose = np.concatenate([random.uniform(-0.5, 0.5, (2, 5_000, 2)) * reach, random.uniform(-3, 3, (2, 5_000, 1))], -1)
-    found = separation(pose[0], size[0], pose[1], size[1]).separation
+    result = separation(pose[0], size[0], pose[1], size[1]).separation
     oracle = minkowski_separation(corners(pose[0], size[0]), corners(pose[1], size[1]))
-    np.testing.assert_array_less(np.abs(found - oracle), ORACLE_ROUNDING * reach[:, 0])
+    np.testing.assert_array_less(np.abs(result - oracle), ORACLE_ROUNDING * reach[:, 0])
 
 
 def test_distance_of_far_rectangles_is_exact_in_relative_terms() -> None:
@@ -220,18 +220,18 @@ def test_nearly_parallel_edges_keep_their_distance_and_witnesses(turn: float, ga
     shift = np.concatenate([np.linspace(-2.5, 2.5, 401), little, -little])
     pose = np.stack([shift, np.full_like(shift, 0.3 + gap), np.full_like(shift, turn)], axis=-1)
     still, size = np.zeros_like(pose), np.full((shift.size, 2), BENCH)
-    found = separation(still, size, pose, size)
+    result = separation(still, size, pose, size)
     oracle = minkowski_separation(corners(still, size), corners(pose, size))
-    np.testing.assert_allclose(found.separation, oracle, rtol=0, atol=ORACLE_ROUNDING)
-    np.testing.assert_allclose(outside(found.witness_a, still, size), 0.0, rtol=0, atol=ROUNDING)
-    np.testing.assert_allclose(outside(found.witness_b, pose, size), 0.0, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(result.separation, oracle, rtol=0, atol=ORACLE_ROUNDING)
+    np.testing.assert_allclose(outside(result.witness_a, still, size), 0.0, rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(outside(result.witness_b, pose, size), 0.0, rtol=0, atol=ROUNDING)
 
 
 def test_witness_of_parallel_edges_does_not_depend_on_rounding() -> None:
     for tilt in (-1e-16, 0.0, 1e-16):
-        found = separation([0, 0, 0.7 + tilt], BENCH, [-math.sin(0.7), math.cos(0.7), 0.7], BENCH)
+        result = separation([0, 0, 0.7 + tilt], BENCH, [-math.sin(0.7), math.cos(0.7), 0.7], BENCH)
         middle = [-0.15 * math.sin(0.7), 0.15 * math.cos(0.7)]
-        np.testing.assert_allclose(found.witness_a, middle, rtol=0, atol=ROUNDING)
+        np.testing.assert_allclose(result.witness_a, middle, rtol=0, atol=ROUNDING)
 
 
 def test_features_name_the_corner_or_edge_that_holds_each_witness() -> None:
@@ -275,9 +275,9 @@ def test_inputs_are_left_as_they_were() -> None:
 
 
 def test_corners_run_front_left_front_right_rear_right_rear_left() -> None:
-    found = corners(np.array([[1.0, 2.0, math.pi / 2], [0.0, 0.0, 0.0]]), np.array([4.0, 2.0]))
-    np.testing.assert_allclose(found[0], [[0, 4], [2, 4], [2, 0], [0, 0]], rtol=0, atol=ROUNDING)
-    np.testing.assert_allclose(found[1], [[2, 1], [2, -1], [-2, -1], [-2, 1]], rtol=0, atol=0)
+    result = corners(np.array([[1.0, 2.0, math.pi / 2], [0.0, 0.0, 0.0]]), np.array([4.0, 2.0]))
+    np.testing.assert_allclose(result[0], [[0, 4], [2, 4], [2, 0], [0, 0]], rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(result[1], [[2, 1], [2, -1], [-2, -1], [-2, 1]], rtol=0, atol=0)
 
 
 @pytest.mark.parametrize("handles", [None, 1.0, [[0.0, 0.0, 0.0]], [0.0, 0.0], "handles", [["a", "b"]]])

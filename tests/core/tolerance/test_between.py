@@ -31,7 +31,7 @@ def strayed_threes(rng: np.random.Generator, chords: Floats, places: Floats, str
     """Handles (N, 4, 2) of poses within the stray, many of them at its edge, for every three benches with chords (R, 3)
     and places (R, 4, 2); all in [m]."""
     seek, chords = places.mean(axis=1)[:, None, None], chords[:, None]
-    found: list[list[Floats]] = [[] for _ in places]
+    entries: list[list[Floats]] = [[] for _ in places]
     moved = np.repeat(places[:, None], count, axis=1)
     for spread in (1.0, 1.0, 0.5, 0.3, 0.1):
         step = rng.normal(0.0, spread * stray, moved.shape)
@@ -46,9 +46,9 @@ def strayed_threes(rng: np.random.Generator, chords: Floats, places: Floats, str
             far = np.hypot(off[..., 0], off[..., 1])
             moved = places[:, None] + off * np.minimum(1.0, stray / np.maximum(far, 1e-9))[..., None]
         wrong = np.abs(np.linalg.norm(np.diff(moved, axis=2), axis=-1) - chords).max(axis=-1)
-        for kept, poses, bad in zip(found, moved, wrong, strict=True):
+        for kept, poses, bad in zip(entries, moved, wrong, strict=True):
             kept.append(poses[bad < 1e-6])
-    return [np.concatenate(kept) for kept in found]
+    return [np.concatenate(kept) for kept in entries]
 
 
 @pytest.mark.parametrize(
@@ -106,17 +106,17 @@ def test_the_bound_is_not_above_what_a_pose_shows(radius: float) -> None:
     dance, safe = Dance(dragon, hairpin(radius)), held(dragon, radius)
     for time in np.linspace(40.0, 52.0, examples(3, 7)).tolist():
         handles = trajectory(dance, time).position
-        shown = exhibit(dragon, handles, (1, 3), None, 0.0, safe, time)
-        assert shown is not None
-        assert shown.stray > safe
-        chords = np.hypot(*np.diff(shown.handles, axis=0).T)
+        pose = exhibit(dragon, handles, (1, 3), None, 0.0, safe, time)
+        assert pose is not None
+        assert pose.stray > safe
+        chords = np.hypot(*np.diff(pose.handles, axis=0).T)
         assert np.abs(chords - dragon.chords).max() < CHORD_ERROR
-        rows = bench_outlines(dragon, shown.handles)
-        first, second = shown.benches  # of all threes in a row, those that fold with the least strays
+        rows = bench_outlines(dragon, pose.handles)
+        first, second = pose.benches  # of all threes in a row, those that fold with the least strays
         assert second == first + 2
         assert overlapping(rows[first][None], rows[second][None]).all()
-        assert np.hypot(*(shown.handles - handles).T).max() == shown.stray
-    assert safe > (0.7 if radius >= 3.0 else 0.5) * shown.stray
+        assert np.hypot(*(pose.handles - handles).T).max() == pose.stray
+    assert safe > (0.7 if radius >= 3.0 else 0.5) * pose.stray
 
 
 def test_a_pose_on_a_line_strays_little_more_than_must_be() -> None:

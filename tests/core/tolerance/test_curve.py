@@ -35,7 +35,7 @@ def test_the_head_is_on_the_circle_then() -> None:
 
 
 @pytest.mark.parametrize(
-    ("pitches", "given", "message"),
+    ("pitches", "arguments", "message"),
     [
         ([], {}, "pitches must be a list of 1 to 10000 numbers in metres"),
         ([[0.5]], {}, r"got an array of shape \(1, 1\)"),
@@ -50,12 +50,12 @@ def test_the_head_is_on_the_circle_then() -> None:
     ],
     ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
 )
-def test_curves_that_cannot_be_are_refused(pitches: list[float], given: dict[str, float], message: str) -> None:
+def test_curves_that_cannot_be_are_refused(pitches: list[float], arguments: dict[str, float], message: str) -> None:
     with pytest.raises(InvalidValue, match=message):
-        tolerance_curve(DRAGON, pitches, **given)  # type: ignore[arg-type]
+        tolerance_curve(DRAGON, pitches, **arguments)  # type: ignore[arg-type]
 
 
-def test_pitches_that_are_too_many_for_the_budget_are_told_with_how_many_were_answered() -> None:
+def test_pitches_that_are_too_many_for_the_budget_are_reported_with_how_many_were_answered() -> None:
     budget = Budget()
 
     def stop(share: float) -> None:

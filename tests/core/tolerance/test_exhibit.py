@@ -20,31 +20,31 @@ GAP_ERROR = 1e-6  # [m]: the direction that keeps two corners apart is found by 
 
 
 def test_the_pose_that_is_shown_overlaps_little_also_where_the_first_one_tried_does_not() -> None:
-    found = tolerance(Dance(Dragon(40, 2.6, 2.4, 0.2, 0.2), Spiral(1.1, start_turns=10)), stop=40.0)
-    shown = found.stray_bracket[1]
-    assert shown is not None
-    assert shown < found.stray * (1.0 + WIDE_SPIRAL)
+    result = tolerance(Dance(Dragon(40, 2.6, 2.4, 0.2, 0.2), Spiral(1.1, start_turns=10)), stop=40.0)
+    touching = result.stray_bracket[1]
+    assert touching is not None
+    assert touching < result.stray * (1.0 + WIDE_SPIRAL)
 
 
 def test_the_benches_between_two_that_stray_far_stray_no_further() -> None:
-    found = tolerance(Dance(Dragon(36, 3.6, 1.95, 0.2, 0.06), Spiral(1.08, start_turns=10)), stop=22.0)
-    shown = found.stray_bracket[1]
-    assert shown is not None
-    assert found.stray > FAR
-    assert shown < found.stray * (1.0 + BRACKET)
+    result = tolerance(Dance(Dragon(36, 3.6, 1.95, 0.2, 0.06), Spiral(1.08, start_turns=10)), stop=22.0)
+    touching = result.stray_bracket[1]
+    assert touching is not None
+    assert result.stray > FAR
+    assert touching < result.stray * (1.0 + BRACKET)
 
 
 def test_the_shown_contact_is_one() -> None:
     dance, stop = to_circle(0.55)
-    found = tolerance(dance, stop=stop)
-    shown = found.exhibit
-    assert shown is not None
-    assert shown.benches == found.benches == (0, 19)
-    nominal = trajectory(dance, shown.time).position
-    assert np.hypot(*(shown.handles - nominal).T).max() == shown.stray == found.stray_bracket[1]
-    chords = np.hypot(*np.diff(shown.handles, axis=0).T)
+    result = tolerance(dance, stop=stop)
+    pose = result.exhibit
+    assert pose is not None
+    assert pose.benches == result.benches == (0, 19)
+    nominal = trajectory(dance, pose.time).position
+    assert np.hypot(*(pose.handles - nominal).T).max() == pose.stray == result.stray_bracket[1]
+    chords = np.hypot(*np.diff(pose.handles, axis=0).T)
     assert np.abs(chords - dance.dragon.chords).max() < CHORD_ERROR
-    a, b = (shapely.Polygon(bench_outlines(dance.dragon, shown.handles)[k]) for k in shown.benches)
+    a, b = (shapely.Polygon(bench_outlines(dance.dragon, pose.handles)[k]) for k in pose.benches)
     assert a.intersection(b).area > 0.0
 
 
@@ -52,29 +52,29 @@ def test_the_shown_contact_is_one() -> None:
 def test_where_benches_next_but_one_limit_the_stray_a_pose_of_all_three_shows_a_contact(width: float) -> None:
     """Short chords and wide benches: a small bend of all three is enough."""
     dragon = Dragon(20, body_length=1.2, width=width)
-    found = tolerance(Dance(dragon, Route([Line((0.0, 0.0), (50.0, 0.0))])))
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert found.exhibit is not None
-    a, b = found.exhibit.benches
+    result = tolerance(Dance(dragon, Route([Line((0.0, 0.0), (50.0, 0.0))])))
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert result.exhibit is not None
+    a, b = result.exhibit.benches
     assert b == a + 2
-    assert "are held apart by it" in found.certificate.method
-    assert 1.5 * found.independent < safe < shown < 1.06 * safe
-    chords = np.hypot(*np.diff(found.exhibit.handles, axis=0).T)
+    assert "are held apart by it" in result.certificate.method
+    assert 1.5 * result.independent < safe < touching < 1.06 * safe
+    chords = np.hypot(*np.diff(result.exhibit.handles, axis=0).T)
     assert np.abs(chords - dragon.chords).max() < CHORD_ERROR
-    rows = [shapely.Polygon(bench_outlines(dragon, found.exhibit.handles)[k]) for k in (a, b)]
+    rows = [shapely.Polygon(bench_outlines(dragon, result.exhibit.handles)[k]) for k in (a, b)]
     assert rows[0].intersection(rows[1]).area > 0.0
 
 
 def test_the_pose_is_of_those_three_in_a_row_that_fold_with_the_least_strays() -> None:
     """The head and bench 2 come first where benches are taken to be independent, but fold with 10 cm only."""
     dance = Dance(Dragon(20, body_length=1.2, width=0.5), Spiral(5.0))
-    found = tolerance(dance, stop=dance.path.travel_to(20.0))
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert found.exhibit is not None
-    assert found.benches == found.exhibit.benches == (1, 3)
-    assert 0.06 < safe < shown < 1.03 * safe
+    result = tolerance(dance, stop=dance.path.travel_to(20.0))
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert result.exhibit is not None
+    assert result.benches == result.exhibit.benches == (1, 3)
+    assert 0.06 < safe < touching < 1.03 * safe
 
 
 def test_without_a_stray_the_nearest_rotated_benches_have_the_gap_of_the_benches_as_they_are() -> None:

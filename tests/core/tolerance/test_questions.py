@@ -34,24 +34,24 @@ KNOWN = [(0.01, 0.47173, 401.565), (0.02, 0.49313, 389.513), (0.05, 0.55741, 311
 @pytest.mark.parametrize(("stray", "pitch", "time"), KNOWN)
 def test_known_answers_with_a_stray(stray: float, pitch: float, time: float) -> None:
     assert pitch - 4e-4 < minimum_pitch(Dragon(), stray=stray).pitch < pitch + 1e-5
-    found = first_contact(DANCE, stray=stray)
-    assert found.time is not None
-    assert found.time_bracket is not None
-    assert time - 1e-3 < found.time < time + 0.4
-    assert found.time_bracket[1] - found.time_bracket[0] < 1e-9
-    assert found.gap is not None
-    assert 2.0 * stray < found.gap < 2.2 * stray
+    contact = first_contact(DANCE, stray=stray)
+    assert contact.time is not None
+    assert contact.time_bracket is not None
+    assert time - 1e-3 < contact.time < time + 0.4
+    assert contact.time_bracket[1] - contact.time_bracket[0] < 1e-9
+    assert contact.gap is not None
+    assert 2.0 * stray < contact.gap < 2.2 * stray
 
 
 def test_first_contact_with_the_tolerance_up_to_some_time_is_at_that_time() -> None:
     known = tolerance(DANCE, stop=300.0)
-    safe, shown = known.stray_bracket
-    assert shown is not None
+    safe, touching = known.stray_bracket
+    assert touching is not None
     assert known.time is not None
     assert first_contact(DANCE, stray=safe, stop=300.0).outcome is Outcome.CLEAR
-    found = first_contact(DANCE, stray=1.001 * shown)
-    assert found.time is not None
-    assert known.time - 2.0 < found.time < known.time
+    contact = first_contact(DANCE, stray=1.001 * touching)
+    assert contact.time is not None
+    assert known.time - 2.0 < contact.time < known.time
 
 
 def test_the_minimum_pitch_for_a_stray_has_that_tolerance() -> None:
@@ -59,10 +59,10 @@ def test_the_minimum_pitch_for_a_stray_has_that_tolerance() -> None:
     spiral = Spiral(pitch)
     theta = 4.5 / spiral.growth
     stop = spiral.length - 0.5 * spiral.growth * (theta * np.hypot(1.0, theta) + np.arcsinh(theta))
-    safe, shown = tolerance(Dance(Dragon(), spiral), stop=float(stop)).stray_bracket
-    assert shown is not None
+    safe, touching = tolerance(Dance(Dragon(), spiral), stop=float(stop)).stray_bracket
+    assert touching is not None
     assert safe == pytest.approx(0.03, rel=1e-3)
-    assert shown == pytest.approx(0.03, rel=2e-3)
+    assert touching == pytest.approx(0.03, rel=2e-3)
 
 
 QUESTIONS: dict[str, Any] = {
@@ -103,6 +103,6 @@ def test_a_check_says_that_benches_may_touch() -> None:
     assert "while every hole is within 0.02 m of its place" in report.first_contact.certificate.method
 
 
-def test_a_stray_that_no_pitch_allows_is_told_as_such() -> None:
+def test_a_stray_that_no_pitch_allows_is_reported_as_such() -> None:
     with pytest.raises(InvalidValue, match=r"stray must be smaller, got 0\.6 m: on a straight line, .* may then touch"):
         minimum_pitch(Dragon(), stray=0.6)

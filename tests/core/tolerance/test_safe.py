@@ -22,63 +22,63 @@ SIMPLE_SHORT = 1e-3
 @pytest.mark.parametrize(("pitch", "bound", "contact"), KNOWN, ids=[f"{known[0]} m" for known in KNOWN])
 def test_brackets_lie_between_the_bounds_and_the_contacts_known(pitch: float, bound: float, contact: float) -> None:
     dance, stop = to_circle(pitch)
-    found = tolerance(dance, stop=stop)
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert bound - ROUNDED < safe < shown < contact + ROUNDED
-    assert shown < safe * (1.0 + BRACKET)
-    assert found.limited_by is Limit.BENCHES
-    assert found.independent == safe
-    assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < found.simple < SIMPLE[pitch] + ROUNDED
+    result = tolerance(dance, stop=stop)
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert bound - ROUNDED < safe < touching < contact + ROUNDED
+    assert touching < safe * (1.0 + BRACKET)
+    assert result.limited_by is Limit.BENCHES
+    assert result.independent == safe
+    assert SIMPLE[pitch] * (1.0 - SIMPLE_SHORT) < result.simple < SIMPLE[pitch] + ROUNDED
 
 
 def test_a_dance_that_touches_as_it_is_allows_none() -> None:
     dance = Dance(Dragon(), Spiral())
-    found = tolerance(dance)
-    assert found.stray == 0.0
-    assert found.stray_bracket[1] is not None
-    assert found.stray_bracket[1] < 1e-6
-    assert found.time == pytest.approx(first_contact(dance).time, abs=1e-8)
-    assert found.benches == (0, 8)
+    result = tolerance(dance)
+    assert result.stray == 0.0
+    assert result.stray_bracket[1] is not None
+    assert result.stray_bracket[1] < 1e-6
+    assert result.time == pytest.approx(first_contact(dance).time, abs=1e-8)
+    assert result.benches == (0, 8)
 
 
 def test_benches_next_but_one_to_each_other_are_held_apart_by_the_one_between() -> None:
     dance = Dance(Dragon(20), Route([Line((0.0, 0.0), (80.0, 0.0))]))
-    found = tolerance(dance)
-    assert found.limited_by is Limit.CHORD
-    assert found.stray == 0.5 * dance.dragon.chords.min()
-    assert found.independent == pytest.approx(0.5 * (1.65 - 2.0 * 0.275), rel=0.05)
-    assert "are held apart by it" in found.certificate.method
+    result = tolerance(dance)
+    assert result.limited_by is Limit.CHORD
+    assert result.stray == 0.5 * dance.dragon.chords.min()
+    assert result.independent == pytest.approx(0.5 * (1.65 - 2.0 * 0.275), rel=0.05)
+    assert "are held apart by it" in result.certificate.method
 
 
 def test_a_pose_shows_where_benches_that_the_one_between_holds_apart_meet_after_all() -> None:
     line = Route([Line((0.0, 0.0), (60.0, 0.0))])
-    found = tolerance(Dance(Dragon(3, 1.6, 1.6, 1.0, 0.275), line))
-    safe, shown = found.stray_bracket
-    assert found.independent < safe < 0.5 * 1.05  # half of a chord [m]: more is not asked about
-    assert found.exhibit is not None
-    assert found.exhibit.benches == (0, 2)
-    assert shown is not None
-    assert safe < shown < 1.2 * safe  # the bound for three benches is not as tight as that for two
+    result = tolerance(Dance(Dragon(3, 1.6, 1.6, 1.0, 0.275), line))
+    safe, touching = result.stray_bracket
+    assert result.independent < safe < 0.5 * 1.05  # half of a chord [m]: more is not asked about
+    assert result.exhibit is not None
+    assert result.exhibit.benches == (0, 2)
+    assert touching is not None
+    assert safe < touching < 1.2 * safe  # the bound for three benches is not as tight as that for two
 
 
 def test_on_a_wide_spiral_the_next_turn_limits_the_stray_and_not_the_next_bench_but_one() -> None:
     dance = Dance(Dragon(60), Spiral(2.0))
-    found = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert found.benches is not None
-    assert found.benches[1] is not None
-    assert found.benches[1] - found.benches[0] > 2
-    assert found.independent < safe < shown < 1.03 * safe
+    result = tolerance(dance, stop=dance.path.travel_to(CIRCLE))
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert result.benches is not None
+    assert result.benches[1] is not None
+    assert result.benches[1] - result.benches[0] > 2
+    assert result.independent < safe < touching < 1.03 * safe
 
 
 def test_where_benches_touch_as_they_are_nothing_is_called_safe() -> None:
     dance, stop = to_circle(0.42)
-    found = tolerance(dance, stop=stop)
-    assert (found.stray, found.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
-    assert "no stray is known to be safe: a bench touches another with everybody in place." in found.certificate.method
-    assert repr(found).startswith("<Tolerance: no stray is known to be safe")
+    result = tolerance(dance, stop=stop)
+    assert (result.stray, result.time) == (0.0, pytest.approx(first_contact(dance).time, abs=1e-6))
+    assert "no stray is known to be safe: a bench touches another with everybody in place." in result.certificate.method
+    assert repr(result).startswith("<Tolerance: no stray is known to be safe")
 
 
 @pytest.mark.parametrize(("above", "known"), [(1e-9, False), (3e-9, True)], ids=["1 nm", "3 nm"])

@@ -48,8 +48,8 @@ def test_the_same_search_finds_contacts_with_strays_beyond_the_bracket(default: 
 def test_all_lengths_times_k_make_the_answer_k_times_as_large(default: Tolerance) -> None:
     _dance, stop = to_circle(0.55)
     dragon = Dragon(223, 6.82, 4.40, 0.60, 0.55)
-    found = tolerance(Dance(dragon, Spiral(1.1), 2.0), stop=stop)
-    assert found.stray == pytest.approx(2.0 * default.stray, rel=1e-5)
+    result = tolerance(Dance(dragon, Spiral(1.1), 2.0), stop=stop)
+    assert result.stray == pytest.approx(2.0 * default.stray, rel=1e-5)
 
 
 def test_speed_changes_when_but_not_how_far(default: Tolerance) -> None:
@@ -61,26 +61,26 @@ def test_speed_changes_when_but_not_how_far(default: Tolerance) -> None:
 
 
 def test_a_run_to_its_fold_has_its_tolerance_too() -> None:
-    found = tolerance(Dance(Dragon(benches=60), Spiral(0.9)))
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert 0.05 < safe < shown < safe * (1.0 + BRACKET)
+    result = tolerance(Dance(Dragon(benches=60), Spiral(0.9)))
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert 0.05 < safe < touching < safe * (1.0 + BRACKET)
 
 
 def test_benches_of_many_sizes_on_a_route() -> None:
     dragon = Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 8, [0.3, 0.5] * 20, [0.2] * 40)
-    found = tolerance(Dance(dragon, Turn(1.7)), stop=60.0)
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert 0.01 < safe < shown < safe * (1.0 + BRACKET)
+    result = tolerance(Dance(dragon, Turn(1.7)), stop=60.0)
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert 0.01 < safe < touching < safe * (1.0 + BRACKET)
 
 
 def test_two_benches_on_a_line_have_nothing_to_touch() -> None:
-    found = tolerance(Dance(Dragon(benches=2), Route([Line((0.0, 0.0), (30.0, 0.0))])), start=5.0)
-    assert found.limited_by is Limit.CHORD
-    assert found.stray == pytest.approx(0.825, abs=1e-12)
-    assert found.stray_bracket == (found.stray, None)
-    assert found.benches is found.time is found.exhibit is None
+    result = tolerance(Dance(Dragon(benches=2), Route([Line((0.0, 0.0), (30.0, 0.0))])), start=5.0)
+    assert result.limited_by is Limit.CHORD
+    assert result.stray == pytest.approx(0.825, abs=1e-12)
+    assert result.stray_bracket == (result.stray, None)
+    assert result.benches is result.time is result.exhibit is None
 
 
 def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
@@ -89,14 +89,14 @@ def test_a_bench_that_passes_a_wall_may_stray_to_it() -> None:
     wall = Area("wall", [[(0.0, 0.5), (40.0, 0.5), (40.0, 1.0), (0.0, 1.0), (0.0, 0.5)]])
     square = Area("square", [[(-20.0, -20.0), (60.0, -20.0), (60.0, 20.0), (-20.0, 20.0), (-20.0, -20.0)]])
     line = Route([Line((0.0, 0.0), (30.0, 0.0))])
-    found = tolerance(Dance(dragon, line), Venue(square, [wall]), start=5.0, stop=25.0)
+    result = tolerance(Dance(dragon, line), Venue(square, [wall]), start=5.0, stop=25.0)
     stray = bisect(lambda stray: corner_reach(stray) >= 0.5, 0.0, 1.0, width=1e-9)[1]
-    assert found.limited_by is Limit.VENUE
-    assert found.area == "wall"
-    safe, shown = found.stray_bracket
-    assert shown is not None
-    assert safe <= stray <= shown + 1e-6
-    assert shown < safe * (1.0 + BRACKET)
+    assert result.limited_by is Limit.VENUE
+    assert result.area == "wall"
+    safe, touching = result.stray_bracket
+    assert touching is not None
+    assert safe <= stray <= touching + 1e-6
+    assert touching < safe * (1.0 + BRACKET)
 
 
 def corner_reach(stray: float) -> float:

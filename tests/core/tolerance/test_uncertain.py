@@ -66,7 +66,7 @@ def test_no_stray_is_longer_than_half_a_chord() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("errors", "message"),
     [
         ({"length_error": -0.01}, "length_error must be zero or more"),
         ({"length_error": 0.83}, "length_error must be at most 0.825 m"),
@@ -74,6 +74,6 @@ def test_no_stray_is_longer_than_half_a_chord() -> None:
         ({"turning_radius": 0.0}, "turning_radius must be positive"),
     ],
 )
-def test_errors_beyond_all_reason_are_refused(given: dict[str, float], message: str) -> None:
+def test_errors_beyond_all_reason_are_refused(errors: dict[str, float], message: str) -> None:
     with pytest.raises(InvalidValue, match=message):
-        uncertain_tolerance(Dragon(), 0.7, **given)
+        uncertain_tolerance(Dragon(), 0.7, **errors)

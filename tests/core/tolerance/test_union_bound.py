@@ -77,10 +77,10 @@ def test_nothing_is_said_of_steep_turns() -> None:
 def test_the_bound_grows_with_the_wobble_and_holds_of_every_sample() -> None:
     span, bounds = {"start": 384.0, "stop": 394.0}, []
     for size in (0.0003, 0.001, 0.002, 0.004, 0.03):
-        found = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
-        assert found.union_bound is not None
-        assert found.limits[0] <= found.union_bound
-        bounds.append(found.union_bound)
+        result = contact_probability(DANCE, Wobble(size, size), 200, 1, **span)
+        assert result.union_bound is not None
+        assert result.limits[0] <= result.union_bound
+        bounds.append(result.union_bound)
     assert bounds[0] < 1e-9
     assert bounds == sorted(bounds)
     assert bounds[-1] == 1.0

@@ -13,7 +13,7 @@ DANCE = Dance(Dragon(5), Spiral())
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("fields", "message"),
     [
         ({"lateral": -0.01}, "model.lateral must be zero or more, got -0.01 m"),
         ({"correlation_time": 0.0}, "model.correlation_time must be positive, got 0 s"),
@@ -25,9 +25,9 @@ DANCE = Dance(Dragon(5), Spiral())
     ],
     ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
 )
-def test_a_model_that_cannot_be_is_refused(given: dict[str, Any], message: str) -> None:
+def test_a_model_that_cannot_be_is_refused(fields: dict[str, Any], message: str) -> None:
     with pytest.raises(InvalidValue) as refused:
-        Wobble(**given)
+        Wobble(**fields)
     assert refused.value.message == message
 
 
