@@ -21,9 +21,9 @@ def test_every_turn_of_a_box_with_an_exhibited_overlap_has_a_contact(
     box, centre = box_at(entry, leaving, ratio, SMALL)
     if box is None:
         pytest.fail("benches can follow no corner of the box")
-    found = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
-    assert found.shared
-    assert found.depth > 0.3
+    result = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
+    assert result.shared
+    assert result.depth > 0.3
     rng, danced = np.random.default_rng(5), 0
     for _ in range(examples(8, 100)):
         turn = turn_at(centre + SMALL * rng.uniform(-1.0, 1.0, 3))
@@ -65,9 +65,9 @@ def test_nothing_is_exhibited_where_a_turn_can_be_danced(entry: float, leaving: 
     for size in (0.01, 1.0, 10.0):
         box, _ = box_at(entry, leaving, ratio, size * SMALL)
         if box is not None:
-            found = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
-            assert not found.shared
-            assert found.depth < 0.0
+            result = OverlapSearch(DRAGON, 0.0, MOST).exhibited(box)
+            assert not result.shared
+            assert result.depth < 0.0
 
 
 def test_a_dragon_of_two_benches_has_no_pair() -> None:

@@ -118,7 +118,7 @@ def test_a_certificate_is_checked_with_the_precision_that_it_states(
     small: Certificate, precision: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     used: list[int] = []
-    monkeypatch.setattr("core.proof.certificate.proven_sweeps", lambda *asked: used.append(ctx.prec) or [])
+    monkeypatch.setattr("core.proof.certificate.proven_sweeps", lambda *request: used.append(ctx.prec) or [])
     with pytest.raises(ProofRefused):
         verify(edit(at("precision", put=precision))(small))
     assert used == [precision]
