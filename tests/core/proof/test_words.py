@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core import Dragon
-from core.proof.words import RUNS_SHOWN, apart_words, contact_words, dragon_words, near_words, runs
+from core.proof.words import RUNS_LISTED, apart_words, contact_words, dragon_words, near_words, runs
 
 
 def mixed(kinds: int) -> Dragon:
@@ -21,8 +21,8 @@ def test_runs_of_equal_benches_are_counted() -> None:
 
 def test_a_dragon_is_told_run_by_run_until_there_are_too_many() -> None:
     assert dragon_words(mixed(1)) == "A dragon of 2 benches (2 of 2 m by 0.3 m, overhang 0.2 m)"
-    assert dragon_words(mixed(RUNS_SHOWN)).count("overhang") == RUNS_SHOWN
-    more = dragon_words(mixed(RUNS_SHOWN + 1))
+    assert dragon_words(mixed(RUNS_LISTED)).count("overhang") == RUNS_LISTED
+    more = dragon_words(mixed(RUNS_LISTED + 1))
     assert more == "A dragon of 10 benches with the sizes that the certificate lists"
 
 
