@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, ViewportSize, expect, sync_playwright
 
-from tests.support.browser import found
+from tests.support.browser import browser_path
 from tests.support.pending import settled
 from tests.support.serving import serving
 
@@ -66,7 +66,7 @@ def browser() -> Iterator[Browser]:
     """One browser for all tests of a process: starting one costs two seconds of a core."""
     expect.set_options(timeout=TIMEOUT)
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found(), args=ARGUMENTS, timeout=TIMEOUT)
+        browser = playwright.chromium.launch(executable_path=browser_path(), args=ARGUMENTS, timeout=TIMEOUT)
         yield browser
         browser.close()
 
@@ -88,17 +88,17 @@ class Watched:
     page: Page
     way: str
     base: str = ""
-    told: list[str] = field(default_factory=list)
-    asked: list[str] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
     failing: bool = False  # requests of this page are meant to fail
 
     def check(self) -> None:
-        told, asked = [line for line in self.told if line not in BUSY], list(self.asked)
-        self.told.clear()
-        self.asked.clear()
-        assert [line for line in told if not (self.failing and line.startswith(FAILED_REQUEST))] == []
+        lines, request = [line for line in self.messages if line not in BUSY], list(self.requests)
+        self.messages.clear()
+        self.requests.clear()
+        assert [line for line in lines if not (self.failing and line.startswith(FAILED_REQUEST))] == []
         strangers = [
-            url for url in asked if urlsplit(url)[:2] != urlsplit(self.base)[:2] and not url.startswith("blob:")
+            url for url in request if urlsplit(url)[:2] != urlsplit(self.base)[:2] and not url.startswith("blob:")
         ]
         assert strangers == []
 
@@ -138,9 +138,9 @@ class Tabs:
             self._contexts[way].set_default_timeout(TIMEOUT)
         page = self._contexts[way].new_page()
         one = Watched(page, way)
-        page.on("console", lambda said: one.told.append(said.text) if said.type in ("error", "warning") else None)
-        page.on("pageerror", lambda error: one.told.append(str(error)))
-        page.on("request", lambda request: one.asked.append(request.url))
+        page.on("console", lambda text: one.messages.append(text.text) if text.type in ("error", "warning") else None)
+        page.on("pageerror", lambda error: one.messages.append(str(error)))
+        page.on("request", lambda request: one.requests.append(request.url))
         return one
 
     def left(self, one: Watched, base: str) -> None:
@@ -217,7 +217,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
     yield visited
     for key in pages:
         one = kept[key]
-        if any("/pitch-scan" in url for url in one.asked):
+        if any("/pitch-scan" in url for url in one.requests):
             tabs.left(kept.pop(key), server)
             continue
         if one.failing:

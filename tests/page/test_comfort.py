@@ -142,8 +142,8 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     page.locator("#speed_limit").fill("1.8")
     fastest = polite.get(f"{server}/maximum-head-speed", params=query).raise_for_status().json()
     shows(page, "#head-speed .value", f"{fastest['head_speed']:.9f} m/s")
-    asked = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
-    shortest = polite.get(f"{server}/shortest-turn", params=asked).raise_for_status().json()
+    request = {"benches": 20, "ratio": 1.5, "pitch": 1.7}
+    shortest = polite.get(f"{server}/shortest-turn", params=request).raise_for_status().json()
     shows(page, "#shortest-turn .value", f"{shortest['length']:.6f} m")
     # Boxes that are drawn anew under the mouse take no click; and another entry has another speed.
     settled(page)
@@ -157,8 +157,8 @@ def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wan
     settled(page)
     page.get_by_role("button", name="Dance the quickest turn").click()
     settled(page)
-    shown = page.locator("#turn-time .value").inner_text()
-    expect(page.locator("#quickest-turn .value")).to_have_text(shown)
+    text = page.locator("#turn-time .value").inner_text()
+    expect(page.locator("#quickest-turn .value")).to_have_text(text)
     assert float(page.locator("#entry_radius").input_value()) != shortest["entry_radius"]
     page.get_by_role("button", name="Dance the spiral of this pitch").click()
     page.locator("[data-path=spiral][aria-pressed=true]").wait_for()
@@ -270,7 +270,7 @@ def test_a_print_from_a_wide_window_is_that_from_a_narrow_one(open_page: Any, lo
 
 
 def test_a_message_changes_its_language_with_the_page(visit: Any) -> None:
-    told = """async (selector) => {
+    script = """async (selector) => {
       const status = document.querySelector("#status");
       document.querySelector(selector).click();
       while (!status.textContent) await new Promise(requestAnimationFrame);
@@ -279,7 +279,7 @@ def test_a_message_changes_its_language_with_the_page(visit: Any) -> None:
       return [first, status.textContent];
     }"""
     page = visit()
-    english, chinese = page.evaluate(told, "#copy-address")
+    english, chinese = page.evaluate(script, "#copy-address")
     assert (english, chinese) in {("Copied", "已复制"), ("The browser did not allow copying", "浏览器不允许复制")}
 
 
@@ -312,5 +312,5 @@ def test_everything_can_be_kept_from_the_page(open_page: Any, server: str) -> No
     assert commands[-1].startswith("bench-dragon prove collision-time --benches 9 ")
     assert all(command.startswith(f"curl '{server}/") for command in commands[:-1])
     (film,) = (command for command in commands if '"films"' in command)  # which takes too long for one answer
-    told = json.loads(shlex.split(film)[-1])
-    assert (shlex.split(film)[1], told["accept"], told["question"]) == (f"{server}/jobs", "video/mp4", "films")
+    answer = json.loads(shlex.split(film)[-1])
+    assert (shlex.split(film)[1], answer["accept"], answer["question"]) == (f"{server}/jobs", "video/mp4", "films")

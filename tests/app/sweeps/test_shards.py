@@ -29,17 +29,17 @@ def spec_of(question: SweepQuestion, over: dict[str, Any], **more: Any) -> Spec:
 
 
 def rows(piece: ShardPiece) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = pa.ipc.open_stream(piece.answer()).read_all().to_pylist()
-    return found
+    result: list[dict[str, Any]] = pa.ipc.open_stream(piece.answer()).read_all().to_pylist()
+    return result
 
 
 def test_each_row_is_the_answer_to_its_request() -> None:
     question = question_of("collision_time")
     spec = spec_of(question, {"pitch": [0.5, 0.55, 1.7], "width": [0.2, 0.3]}, request={"benches": 50})
     for row in rows(ShardPiece.whole(spec, question, 0)) + rows(ShardPiece.whole(spec, question, 1)):
-        asked = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
-        dance = asked.to_dance(50)
-        answer = CollisionTime.of(core.first_contact(dance), asked, Terms())
+        request = CollisionQuery(pitch=row["pitch"], width=row["width"], benches=50, cross_check="none")
+        dance = request.to_dance(50)
+        answer = CollisionTime.of(core.first_contact(dance), request, Terms())
         assert (row["outcome"], row["time"]) == (answer.outcome, answer.time)
         assert (row["benches.0"], row["benches.1"]) == (answer.benches or (None, None))
         assert row["certificate.steps"] == answer.certificate.steps
@@ -65,10 +65,10 @@ def test_a_body_is_swept_by_dotted_names() -> None:
 )
 def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], body: dict[str, Any]) -> None:
     answers = []
-    for asked in (flat, body):
-        spec = Spec.of({"question": name, "over": {place: [value] for place, value in asked.items()}})
+    for request in (flat, body):
+        spec = Spec.of({"question": name, "over": {place: [value] for place, value in request.items()}})
         [row] = rows(ShardPiece.whole(spec, spec.asks, 0))
-        answers.append({place: value for place, value in row.items() if place not in {*asked, "pitch"}})
+        answers.append({place: value for place, value in row.items() if place not in {*request, "pitch"}})
     assert answers[0] == answers[1]
     assert isinstance(answers[0][spec.asks.shown], float)
 
@@ -83,7 +83,7 @@ BENCH = {"x": 0.0, "y": 0.0, "heading": 0.0, "length": 2.2, "width": 0.3}
 # A request, the name of a parameter, a good value and a bad one.
 FLAT = ({"benches": 8}, "pitch", 1.7)
 BODY = ({"dragon": {"benches": 8}}, "path.pitch", 1.7)
-ASKED = {
+REQUESTS = {
     "collision_time": ({"benches": 8}, "pitch", 0.55),
     "minimum_pitch": ({"benches": 8}, "margin", 0.01),
     "minimum_pitch_of": ({"dragon": {"benches": 8}}, "margin", 0.01),
@@ -102,7 +102,7 @@ ASKED = {
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
     body = name.endswith("_of") or name in ("check", "trajectory")
-    request, parameter, good = ASKED.get(name, BODY if body else FLAT)
+    request, parameter, good = REQUESTS.get(name, BODY if body else FLAT)
     question = question_of(name, [parameter, *request])
     spec = Spec.of({"question": name, "over": {parameter: [good, -1.0]}, "request": request, "shard_size": 2})
     answered, refused = rows(ShardPiece.whole(spec, question, 0))
@@ -143,10 +143,10 @@ def test_the_row_of_a_table_is_what_the_table_says() -> None:
 
 def test_a_bad_design_is_a_row_with_its_error_and_the_others_are_answered() -> None:
     spec = spec_of(LAND, {"x": [1.0, 13.0, 14.0, 100.5, 2.0], "y": [3.0]}, shard_size=5)
-    found = rows(ShardPiece.whole(spec, LAND, 0))
-    assert [row["height"] for row in found] == [3.0, None, None, None, 6.0]
-    assert [row["error.code"] for row in found] == [None, "invalid-value", "internal-error", "invalid-value", None]
-    assert [row["error.message"] for row in found[1:4]] == [
+    result = rows(ShardPiece.whole(spec, LAND, 0))
+    assert [row["height"] for row in result] == [3.0, None, None, None, 6.0]
+    assert [row["error.code"] for row in result] == [None, "invalid-value", "internal-error", "invalid-value", None]
+    assert [row["error.message"] for row in result[1:4]] == [
         "x must not be 13 m",
         "ZeroDivisionError: a mistake of ours",
         "x must be at most 100 m, got 100.5 m: lengths are in metres, and 100.5 cm is 1.005 m",

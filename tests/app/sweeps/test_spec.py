@@ -22,50 +22,50 @@ margin = 0.05
 pitch = { start = 0.45, stop = 0.6, count = 100 }
 benches = [100, 223]
 """
-TOLD: dict[str, Any] = {
+FIELDS: dict[str, Any] = {
     "question": "collision_time",
     "request": {"margin": 0.05},
     "over": {"pitch": {"start": 0.45, "stop": 0.6, "count": 100}, "benches": [100, 223]},
 }
 
 
-def told(**changes: Any) -> dict[str, Any]:
-    return TOLD | changes
+def changed(**changes: Any) -> dict[str, Any]:
+    return FIELDS | changes
 
 
 def test_toml_json_and_python_give_the_same_spec_with_the_same_name(tmp_path: Path) -> None:
     (tmp_path / "a.toml").write_text(TOML)
-    (tmp_path / "a.json").write_text(json.dumps(TOLD))
-    specs = [Spec.read(tmp_path / "a.toml"), Spec.read(tmp_path / "a.json"), Spec.of(TOLD)]
+    (tmp_path / "a.json").write_text(json.dumps(FIELDS))
+    specs = [Spec.read(tmp_path / "a.toml"), Spec.read(tmp_path / "a.json"), Spec.of(FIELDS)]
     assert specs[0] == specs[1] == specs[2]
     assert len({spec.canonical() for spec in specs}) == len({spec.name for spec in specs}) == 1
 
 
 def test_another_value_or_another_order_is_another_sweep() -> None:
     others = [
-        Spec.of(told(request={"margin": 0.06})),
-        Spec.of(told(over=dict(reversed(TOLD["over"].items())))),
-        Spec.of(told(shard_size=7)),
-        Spec.of(told(over=TOLD["over"] | {"benches": [100, 222]})),
+        Spec.of(changed(request={"margin": 0.06})),
+        Spec.of(changed(over=dict(reversed(FIELDS["over"].items())))),
+        Spec.of(changed(shard_size=7)),
+        Spec.of(changed(over=FIELDS["over"] | {"benches": [100, 222]})),
     ]
-    assert len({spec.name for spec in [Spec.of(TOLD), *others]}) == 5
+    assert len({spec.name for spec in [Spec.of(FIELDS), *others]}) == 5
 
 
 def test_designs_are_all_combinations_cut_into_shards() -> None:
-    spec = Spec.of(told(shard_size=30))
+    spec = Spec.of(changed(shard_size=30))
     assert (spec.designs, spec.shards) == (200, 7)
     assert [spec.shard(k) for k in (0, 1, 6)] == [(0, 30), (30, 60), (180, 200)]
 
 
 def test_the_size_of_shards_is_known_without_a_clock() -> None:
-    assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=10**6).model_dump()})).shard_size == 5000
-    assert Spec.of(told(over={"pitch": Range(start=0.4, stop=0.6, count=640).model_dump()})).shards == SHARDS_SMALL
+    assert Spec.of(changed(over={"pitch": Range(start=0.4, stop=0.6, count=10**6).model_dump()})).shard_size == 5000
+    assert Spec.of(changed(over={"pitch": Range(start=0.4, stop=0.6, count=640).model_dump()})).shards == SHARDS_SMALL
 
 
 def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
-    assert Spec.of(TOLD).request["cross_check"] == "none"
-    assert Spec.of(told(request={"cross_check": "pair"})).request["cross_check"] == "pair"
-    assert "cross_check" not in Spec.of(told(over={"cross_check": ["none", "pair"]})).request
+    assert Spec.of(FIELDS).request["cross_check"] == "none"
+    assert Spec.of(changed(request={"cross_check": "pair"})).request["cross_check"] == "pair"
+    assert "cross_check" not in Spec.of(changed(over={"cross_check": ["none", "pair"]})).request
 
 
 @pytest.mark.parametrize(
@@ -112,12 +112,12 @@ def test_cross_checks_are_left_out_unless_they_are_asked_for() -> None:
 )
 def test_a_wrong_spec_is_refused_in_words(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(BenchDragonError) as refused:
-        Spec.of(told(**changes))
+        Spec.of(changed(**changes))
     assert message in refused.value.message
 
 
 def test_a_bad_value_of_a_parameter_that_varies_is_a_row_and_no_error_here() -> None:
-    assert Spec.of(told(over={"pitch": [-1.0, 0.5]})).designs == 2
+    assert Spec.of(changed(over={"pitch": [-1.0, 0.5]})).designs == 2
 
 
 @pytest.mark.parametrize(("name", "text"), [("a.toml", "over = ["), ("a.json", "{")])
@@ -129,11 +129,11 @@ def test_what_is_no_toml_or_json_is_said_so(name: str, text: str, tmp_path: Path
 
 def test_values_are_placed_into_a_copy() -> None:
     base = {"path": {"kind": "spiral"}, "margin": 0}
-    found = with_values(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
-    assert found == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
+    result = with_values(base, {"path.pitch": 0.5, "dragon.width": 0.2, "margin": 1})
+    assert result == {"path": {"kind": "spiral", "pitch": 0.5}, "dragon": {"width": 0.2}, "margin": 1}
     assert base == {"path": {"kind": "spiral"}, "margin": 0}
 
 
-@pytest.mark.parametrize("told", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
-def test_the_specs_of_the_page_are_specs(told: str) -> None:
-    assert Spec.of(tomllib.loads(told)).designs in (120, 1000)
+@pytest.mark.parametrize("stated", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
+def test_the_specs_of_the_page_are_specs(stated: str) -> None:
+    assert Spec.of(tomllib.loads(stated)).designs in (120, 1000)
