@@ -13,11 +13,11 @@ TIMES = [0.0, 60.0, 120.0]
 
 
 def test_a_trajectory_has_one_row_for_each_time_and_handle() -> None:
-    found = trajectory(DANCE, TIMES)
-    frame = found.to_dataframe()
+    motion = trajectory(DANCE, TIMES)
+    frame = motion.to_dataframe()
     assert list(frame) == ["time", "handle", "x", "y", "velocity_x", "velocity_y", "speed"]
     row = frame[(frame.time == 60.0) & (frame.handle == 4)].iloc[0]
-    assert row.to_list() == [60.0, 4.0, *found.position[1, 4], *found.velocity[1, 4], found.speed[1, 4]]
+    assert row.to_list() == [60.0, 4.0, *motion.position[1, 4], *motion.velocity[1, 4], motion.speed[1, 4]]
     assert len(frame) == len(TIMES) * 6
 
 
@@ -35,11 +35,11 @@ def test_one_instant_has_one_row_for_each_handle() -> None:
 
 
 def test_axes_of_a_trajectory_have_names() -> None:
-    found = trajectory(DANCE, TIMES)
-    dataset = found.to_xarray()
+    motion = trajectory(DANCE, TIMES)
+    dataset = motion.to_xarray()
     assert dataset.position.dims == ("time", "handle", "axis")
-    assert dataset.speed.sel(time=60.0, handle=4).item() == found.speed[1, 4]
-    assert dataset.velocity.sel(time=120.0, axis="y").values.tolist() == found.velocity[2, :, 1].tolist()
+    assert dataset.speed.sel(time=60.0, handle=4).item() == motion.speed[1, 4]
+    assert dataset.velocity.sel(time=120.0, axis="y").values.tolist() == motion.velocity[2, :, 1].tolist()
     units = {name: dataset[name].attrs["units"] for name in ("time", "position", "velocity", "speed")}
     assert units == {"time": "s", "position": "m", "velocity": "m/s", "speed": "m/s"}
 
@@ -52,22 +52,22 @@ def test_one_instant_has_no_axis_of_time() -> None:
 
 @pytest.mark.parametrize("times", [TIMES, 60.0, []])
 def test_a_clearance_profile_is_a_table(times: list[float] | float) -> None:
-    found = clearance_profile(DANCE, times)
-    frame, dataset = found.to_dataframe(), found.to_xarray()
+    result = clearance_profile(DANCE, times)
+    frame, dataset = result.to_dataframe(), result.to_xarray()
     assert frame.time.to_list() == np.ravel(times).tolist()
-    assert frame.clearance.to_list() == np.ravel(found.clearance).tolist()
-    assert frame[["bench_a", "bench_b"]].to_numpy().tolist() == found.benches.reshape(-1, 2).tolist()
-    assert np.array_equal(dataset.clearance, found.clearance)
-    assert np.array_equal(dataset.benches.sel(pair="b"), found.benches[..., 1])
+    assert frame.clearance.to_list() == np.ravel(result.clearance).tolist()
+    assert frame[["bench_a", "bench_b"]].to_numpy().tolist() == result.benches.reshape(-1, 2).tolist()
+    assert np.array_equal(dataset.clearance, result.clearance)
+    assert np.array_equal(dataset.benches.sel(pair="b"), result.benches[..., 1])
     assert dataset.clearance.attrs["units"] == frame.attrs["units"]["clearance"] == "m"
 
 
 def test_a_scan_is_a_table_with_the_piece_of_each_pitch() -> None:
-    found = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
-    frame = found.to_dataframe()
-    assert frame.pitch.to_list() == found.pitch.tolist()
-    assert frame.radius.to_list() == found.radius.tolist()
-    assert [(group.index[0], group.index[-1] + 1) for _, group in frame.groupby("piece")] == list(found.pieces)
+    result = pitch_scan(Dragon(30), np.linspace(0.4, 0.45, 3), start_turns=8.0)
+    frame = result.to_dataframe()
+    assert frame.pitch.to_list() == result.pitch.tolist()
+    assert frame.radius.to_list() == result.radius.tolist()
+    assert [(group.index[0], group.index[-1] + 1) for _, group in frame.groupby("piece")] == list(result.pieces)
 
 
 @pytest.mark.parametrize(
