@@ -28,7 +28,8 @@ faces        least gap of two unions of hulls             pairs          least g
 nearest      least gap of any two                         rings          benches too far out to touch
 repeats      benches that repeat what others met          clearance      least gap at one instant
 marching     to first contact                             band_march     all pitches between two at once
-rates        bounds on the speeds of handles              speed          the highest speed
+ensemble     several dragons in time                      rates          bounds on the speeds of handles
+speed        the highest speed
 excess       first time beyond a speed limit              wobble         contacts when people wobble
 """
 
@@ -50,6 +51,7 @@ from core.kernels.clearance import bottom_between, clearance_at, clearance_left,
 from core.kernels.clothoid import clothoid_joints
 from core.kernels.constants import *
 from core.kernels.double_double import coil_arc, coil_theta, growth_pair, spiral_thetas
+from core.kernels.ensemble import BENCHES_PER_BLOCK, Ensemble, Member
 from core.kernels.excess import Excess
 from core.kernels.fold import first_crest, first_root, fold_theta, previous_theta
 from core.kernels.gap_curvature import axis_curvature, pair_curvatures, shift_curvature
@@ -58,7 +60,7 @@ from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding
 from core.kernels.rates import climbs, spiral_errors
 from core.kernels.rectangles import Witnesses, bench_separation, pair_gaps, pair_separations
-from core.kernels.rings import Rings, clear_radius, leaders_reach, radius_beyond, ring_clears, ring_least, ring_rounding
+from core.kernels.rings import Rings, clear_radius, leaders_reach, radius_beyond, ring_clears, ring_least, ring_rounding, spirals_least
 from core.kernels.rounding import joint_misses, piece_slides
 from core.kernels.route import cubic_arcs, route_points
 from core.kernels.scene import Interval, MarchState, Scene

@@ -161,8 +161,9 @@ def motion_bounds(growth, h, benches, sizes, before, after, motion):
     summed = False
     outermost = max(before[benches, THETA], after[benches, THETA])
     error = ULP * (outermost + 1.0) * (66.0 * benches + 16.0 * (outermost - after[0, THETA]) + 5.0)
-    widened = 32.0 * ULP * (benches + 8.0) + 2.0 * error
-    error *= growth * benches / SMALL
+    slip = max(before[0, SLIP], after[0, SLIP])  # of the head, where it moves in time (ensemble.py)
+    widened = 32.0 * ULP * (benches + 8.0) + 2.0 * error + 2.0 * slip / growth
+    error = error * (growth * benches / SMALL) + slip * (benches / SMALL)
     outwards = (1.0 - widened) / growth
     inwards = (1.0 + widened) / growth
     for k in range(benches):

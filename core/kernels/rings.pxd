@@ -27,8 +27,10 @@ cpdef double leaders_reach(double growth, double lead, double rear, Rings rings)
 @cython.locals(k=cython.Py_ssize_t)
 cdef double outward_bow(double q, double slope, Rings rings) noexcept nogil
 cdef double inward_bow(double q, double slope, Rings rings) noexcept nogil
-@cython.locals(end=cython.int)
+cdef (double, double) ring_foot(double growth, double radius, Rings rings) noexcept nogil
+cdef double ring_gap(double growth, double angle, double d2, double rho, Rings rings) noexcept nogil
 cpdef double ring_least(double growth_low, double growth, double radius, Rings rings, double total=*) noexcept nogil
+cpdef double spirals_least(double growth, double angle, double radius, Rings rings) noexcept nogil
 cpdef double ring_rounding(double growth, double radius, Rings rings) noexcept nogil
 
 cpdef bint ring_clears(

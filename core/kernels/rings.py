@@ -165,6 +165,33 @@ DISCERNED = 1e-3
 # so it is at least the smaller of its values at both ends; all other terms fall with growth.
 
 
+def ring_foot(growth, radius, rings):
+    """Square of the least distance of centre lines from the centre [m^2], and least distance of points from it [m], for
+    benches led from `radius` outwards; 0, 0 where the bound does not hold."""
+    foot = 0.5 * rings.all_chord if 0.5 * rings.all_chord > 1.67 * growth else 1.67 * growth
+    d2 = radius * radius - foot * foot
+    if d2 <= DISCERNED * radius * radius or radius * radius < 1.5708 * rings.all_chord * growth:
+        return 0.0, 0.0
+    d = sqrt(d2)
+    rho = d - (rings.all_half_width if rings.all_half_width > rings.half_width else rings.half_width)
+    if d <= 2.0 * growth or rho <= 0.0:
+        return 0.0, 0.0
+    return d2, rho
+
+
+def ring_gap(growth, angle, d2, rho, rings):
+    """G of two curves of this growth that are an angle apart about their centre [m]: growth angle - O - I."""
+    d = sqrt(d2)
+    overhang = rings.all_overhang
+    q = 1.0 / d + 2.0 * growth * (0.5 * rings.all_chord + 1.67 * growth + overhang) / (d * d2)
+    slope = sqrt(1.0 + growth * growth / (rho * rho))
+    bows = 0.5 * q * overhang * (overhang + rings.all_chord) + 0.125 * q * rings.chord * rings.chord
+    bows += (rings.all_half_width + rings.half_width) * slope
+    if rings.hulls:
+        bows = outward_bow(q, slope, rings) + inward_bow(q, slope, rings)
+    return angle * growth - bows
+
+
 # Input:  the extremes of the benches (Rings), a range of growths, and the radius of the inner bench's front handle.
 # State:  `gap`, the bound for benches a turn or more apart, the lesser of its values at both growths; `same_turn`, the
 #         bound for benches with another one between them, from their least angle and the largest, of the whole dragon.
@@ -176,33 +203,14 @@ def ring_least(growth_low, growth, radius, rings, total=FREE):
     that may help [m]; returns NO_BOUND where nothing is known
     """
     chord = rings.all_chord
-    overhang = rings.all_overhang
-    half_width = rings.all_half_width
-    outer_half_width = rings.half_width
-    foot = 0.5 * chord if 0.5 * chord > 1.67 * growth else 1.67 * growth
-    d2 = radius * radius - foot * foot
-    gap = FREE
-    at = growth_low
-    if d2 <= DISCERNED * radius * radius or radius * radius < 1.5708 * chord * growth:
+    d2, rho = ring_foot(growth, radius, rings)
+    if rho <= 0.0:
         return NO_BOUND
-    d = sqrt(d2)
-    rho = d - (half_width if half_width > outer_half_width else outer_half_width)
-    if d <= 2.0 * growth or rho <= 0.0:
-        return NO_BOUND
-    for end in range(2):
-        x_rear = 0.5 * chord + 1.67 * at
-        q = 1.0 / d + 2.0 * at * (x_rear + overhang) / (d * d2)
-        slope = sqrt(1.0 + at * at / (rho * rho))
-        bows = 0.5 * q * overhang * (overhang + chord) + 0.125 * q * rings.chord * rings.chord
-        bows += (half_width + outer_half_width) * slope
-        if rings.hulls:
-            bows = outward_bow(q, slope, rings) + inward_bow(q, slope, rings)
-        gap = min(gap, TWO_PI * at - bows)
-        at = growth
+    gap = min(ring_gap(growth_low, TWO_PI, d2, rho, rings), ring_gap(growth, TWO_PI, d2, rho, rings))
     gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
     x_rear = 0.5 * chord + 1.67 * growth
     rear = radius + PI * growth * chord / radius
-    overhangs = 2.0 * (overhang + x_rear * half_width / d) / rho
+    overhangs = 2.0 * (rings.all_overhang + x_rear * rings.all_half_width / sqrt(d2)) / rho
     least = rings.between_shortest * rho / sqrt(growth * growth + rear * rear) / rho - overhangs
     if least <= 0.0:
         return NO_BOUND
@@ -213,6 +221,24 @@ def ring_least(growth_low, growth, radius, rings, total=FREE):
     if gap <= 0.0:
         return NO_BOUND
     return gap if gap < same_turn else same_turn
+
+
+# Two spirals. The bound for benches a turn or more apart also holds for those of two dragons on spirals of one growth,
+# centre and sense, of which one is turned by an angle against the other: radii are growth psi + E and growth (psi' +
+# angle + 2 pi m) + E', at polar angles psi and psi' whose difference is x up to whole turns. No benches of one turn
+# count here.
+def spirals_least(growth, angle, radius, rings):
+    """Lower bound of the separation of benches of two dragons on such spirals, all with their front handles at `radius`
+    or further out [m]; NO_BOUND where nothing is known.
+
+    angle: least difference of the turn between both spirals from a whole number of turns [rad]
+    rings: of the benches of both, each of which can be the outer one
+    """
+    d2, rho = ring_foot(growth, radius, rings)
+    if rho <= 0.0:
+        return NO_BOUND
+    gap = ring_gap(growth, angle, d2, rho, rings) / sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
+    return gap if gap > 0.0 else NO_BOUND
 
 
 # Largest error of ring_least(), relative to the lengths in it [1]: at most 64 sums, products and roots. d^2 =

@@ -1,0 +1,189 @@
+"""Performance: several dances on one clock, among the obstacles of one venue.
+
+Part k is at time t where its own dance is at t - delay. Before its head is at the beginning of its path, and the whole
+dragon on it, the dragon stands there; after the end of its path it stays there. A fold ends the performance, because
+the dance has no continuation then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from core.dance import Dance, EndReason
+from core.errors import (
+    Given,
+    InvalidValue,
+    OutsideRun,
+    Parameter,
+    Quantity,
+    Value,
+    bound,
+    checked_number,
+    checked_type,
+    listed,
+    quantities,
+)
+from core.names import checked_name
+from core.passages import TIME_MAX
+from core.shown import Readable, counted, worded
+from core.venue import Venue
+
+# Largest delay, forwards and back [s]: eleven days. Times of a performance keep 1e-10 s then.
+DELAY_MAX = 1e6
+# Largest number of parts, and of the benches of all together [1].
+PARTS_MAX = 200
+BENCHES_MAX = 1_000_000
+
+
+@dataclass(frozen=True, repr=False)
+class Part(Readable):
+    """One dance of a performance.
+
+    delay: time of the performance at time 0 of the dance [s]; name: of the dragon, None without
+    raises: InvalidValue
+    """
+
+    dance: Dance
+    delay: float = 0.0
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        checked_type("dance", self.dance, Dance)
+        object.__setattr__(self, "delay", checked_number("delay", self.delay, "s", -DELAY_MAX, DELAY_MAX))
+        if self.name is not None:
+            checked_name("name", self.name)
+
+    @property
+    def begin(self) -> float:
+        """Time of the performance from which on it dances [s]."""
+        return self.dance.begin + self.delay
+
+    @property
+    def end(self) -> float:
+        """Time of the performance at which it folds, or is at the end of its path [s]."""
+        return self.dance.end.time + self.delay
+
+    @property
+    def folds(self) -> bool:
+        """True if a bench folds at the end."""
+        return self.dance.end.reason is EndReason.FOLD
+
+    def own_time(self, time: float) -> float:
+        """Time of its own dance at a time of the performance, at which it is at its place [s]."""
+        return min(max(time - self.delay, self.dance.begin), self.dance.end.time)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class PerformanceEnd(Readable):
+    """End of a performance: reason, time [s]; the dragon that folds and its bench, None if all paths end.
+
+    reason: FOLD, END, or STOP at the end of the time that was asked about
+    """
+
+    reason: EndReason
+    time: float
+    dragon: int | None = None
+    bench: int | None = None
+
+
+@dataclass(frozen=True, repr=False)
+class Performance(Readable):
+    """Dances on one clock, frozen and checked once.
+
+    parts: at least one, in the order of the dragons' numbers; venue: the square and its obstacles, None without
+    begin: time from which on the first of them dances [s]; end: see PerformanceEnd
+    raises: InvalidValue for no part or too many, for two equal names, and for a part that has not begun when another
+        one folds
+
+    >>> from core import Dance, Dragon, Spiral
+    >>> two = [Part(Dance(Dragon(60), Spiral(1.1, 8.0, rotation=turn))) for turn in (0.0, 3.141592653589793)]
+    >>> performance = Performance(two)
+    >>> performance.begin, round(performance.end.time, 3)
+    (0.0, 217.609)
+    """
+
+    parts: Sequence[Part]
+    venue: Venue | None = None
+    begin: float = field(init=False, repr=False, compare=False)
+    end: PerformanceEnd = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        parts = tuple(listed("parts", self.parts, "a list of Part objects"))
+        if not 1 <= len(parts) <= PARTS_MAX:
+            rule = "must be at least one" if not parts else "must be at most {most}"
+            raise InvalidValue("parts", rule, got=len(parts), most=PARTS_MAX)
+        for k, part in enumerate(parts):
+            checked_type(f"parts.{k}", part, Part)
+        object.__setattr__(self, "parts", parts)
+        if self.venue is not None:
+            checked_type("venue", self.venue, Venue)
+        benches = sum(part.dance.dragon.benches for part in parts)
+        if benches > BENCHES_MAX:
+            raise InvalidValue("parts", "must have at most {most} benches in all", got=benches, most=BENCHES_MAX)
+        self._refuse_equal_names()
+        object.__setattr__(self, "begin", min(part.begin for part in parts))
+        object.__setattr__(self, "end", self._end())
+        self._refuse_late_parts()
+
+    def _refuse_equal_names(self) -> None:
+        first: dict[str, int] = {}
+        for k, part in enumerate(self.parts):
+            if part.name is not None and first.setdefault(part.name, k) != k:
+                other = Parameter(f"parts.{first[part.name]}.name")
+                raise InvalidValue(f"parts.{k}.name", "must differ from {other}", got=Given(part.name), other=other)
+
+    def _end(self) -> PerformanceEnd:
+        folding = [k for k, part in enumerate(self.parts) if part.folds]
+        if not folding:
+            return PerformanceEnd(EndReason.END, max(part.end for part in self.parts))
+        k = min(folding, key=lambda k: self.parts[k].end)
+        return PerformanceEnd(EndReason.FOLD, self.parts[k].end, k, self.parts[k].dance.end.bench)
+
+    def _refuse_late_parts(self) -> None:
+        for k, part in enumerate(self.parts):
+            if self.end.dragon is not None and part.begin >= self.end.time:
+                rule = "must let {part} begin, which is at {begin}, before bench {bench} of {other} folds at {end}"
+                other, times = Parameter(f"parts.{self.end.dragon}"), quantities("s", 9, begin=part.begin)
+                told: dict[str, Value] = {"bench": self.end.bench or 0, "end": bound(self.end.time, 9, "s")}
+                got = Quantity(part.delay, "s")
+                raise InvalidValue(
+                    f"parts.{k}.delay", rule, got=got, part=Parameter(f"parts.{k}"), other=other, **times, **told
+                )
+
+    def _line(self) -> str:
+        names = ", ".join(self.name_of(k) for k in range(min(len(self.parts), 6)))
+        more = ", ..." if len(self.parts) > 6 else ""
+        span = f"from {worded(self.begin, 's')} to {worded(self.end.time, 's')}"
+        return f"{counted(len(self.parts), 'dragon')} ({names}{more}), {span}"
+
+    def name_of(self, k: int) -> str:
+        """The name of a dragon, or its number."""
+        return self.parts[k].name or f"dragon {k}"
+
+    def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
+        """start and stop [s], checked to lie between begin and end and in this order.
+
+        None: `begin` for start, `end` for stop
+        raises: InvalidValue; OutsideRun
+        """
+        last = self.end.time
+        begin = self.begin if start is None else checked_number("start", start, "s", -TIME_MAX, TIME_MAX)
+        until = last if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
+        if begin < self.begin:
+            least = bound(self.begin, 6, "s", up=True)
+            rule = "must be at least {least}, when the first dragon is on its path"
+            raise OutsideRun("start", rule, got=Quantity(begin, "s"), least=least)
+        for name, time, wrong in (("stop", until, until > last), ("start", begin, stop is None and begin >= last)):
+            if wrong:
+                rule = "must be at most {end}" if name == "stop" else "must be before {end}"
+                raise OutsideRun(name, f"{rule}, when {{why}}", got=Quantity(time, "s"), **self._ending())
+        if until <= begin:
+            raise InvalidValue("stop", "must be after start ({start})", **quantities("s", got=until, start=begin))
+        return begin, until
+
+    def _ending(self) -> dict[str, Value]:
+        why = "the last path ends"
+        if self.end.dragon is not None:
+            why = f"bench {self.end.bench} of {self.name_of(self.end.dragon)} folds"
+        return {"end": bound(self.end.time, 9, "s"), "why": why}
