@@ -70,6 +70,16 @@ def looks(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
     ]
 
 
+def looks_at_two(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
+    """True at each time at which two dragons overlap, the second one turned by half a turn about the centre."""
+    overlap = []
+    for time in times:
+        position = handles_and_velocities(dragon, path, time)[0]
+        tree = shapely.STRtree(polygons(dragon, position))
+        overlap.append(tree.query(polygons(dragon, -position), predicate="intersects").size > 0)
+    return overlap
+
+
 def looks_for_first_contact(time: float) -> int:
     """Number of looks in a march to the first contact and a bisection there."""
     return math.ceil(time / STEP) + math.ceil(math.log2(STEP / BRACKET))

@@ -22,6 +22,14 @@ ROWS = (
     ("first contact, certified", "first_contact[223]", "first_contact_baseline", "20 ms", "4 ms"),
     ("minimum pitch, 9 m circle", "minimum_pitch", "minimum_pitch_baseline", "250 ms", "60 ms"),
     ("first contact, 100,000 benches", "first_contact[100000]", None, "2x the default", "the same"),
+    (
+        "two dragons of 223 in one spiral to their encounter",
+        "first_encounter",
+        "first_encounter_baseline",
+        "60 ms",
+        "10 ms",
+    ),
+    ("ten dragons of 200 in a square, 300 s", "ten_dragons", None, "2 s", "0.5 s"),
     ("overlapping pairs of 100,000 benches", "overlaps", "overlaps_baseline", "1 s", "0.2 s"),
     (
         "`GET /collision-time`, four engines on the whole dragon, p50",

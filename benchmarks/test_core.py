@@ -96,6 +96,32 @@ def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
     assert not any(benchmark.pedantic(baselines.looks, (DRAGON, path, times), rounds=3))
 
 
+TWO = core.Performance([core.Part(core.Dance(DRAGON, core.Spiral(1.1, 16.0, rotation=turn))) for turn in (0.0, np.pi)])
+
+
+def test_first_encounter(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "first encounter"
+    assert benchmark(core.first_encounter, TWO).outcome is core.Outcome.CONTACT
+
+
+def test_first_encounter_baseline(benchmark: BenchmarkFixture) -> None:
+    time = core.first_encounter(TWO).time
+    assert time is not None
+    benchmark.group = "first encounter"
+    benchmark.extra_info["scale"] = baselines.looks_for_first_contact(time) / SAMPLED_LOOKS.size
+    path = core.Spiral(1.1, 16.0)
+    assert not any(benchmark.pedantic(baselines.looks_at_two, (DRAGON, path, SAMPLED_LOOKS), rounds=3))
+    assert baselines.looks_at_two(DRAGON, path, np.array([time - 1e-6, time + 1e-6])) == [False, True]
+
+
+def test_ten_dragons(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "ten dragons"
+    places = [(45.0 * k, 45.0 * row) for row in range(3) for k in range(3)] + [(135.0, 0.0)]
+    spirals = [core.Spiral(1.1, 14.0, place, 0.7 * k, k % 2 == 1) for k, place in enumerate(places)]
+    square = core.Performance([core.Part(core.Dance(core.Dragon(200), spiral)) for spiral in spirals])
+    assert benchmark(lambda: core.first_encounter(square, stop=300.0)).outcome is core.Outcome.CLEAR
+
+
 @pytest.fixture(scope="module")
 def long_dragon() -> tuple[core.Dragon, Floats]:
     """A dragon of 100,000 benches a moment after its first contact, and the places of its handles."""

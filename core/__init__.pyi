@@ -5,7 +5,9 @@ from .claims.claim import (
     ContactClaim,
     DanceSummary,
     DragonSummary,
+    EncounterClaim,
     GroundClaim,
+    PartSummary,
     ProbabilityClaim,
     StrayClaim,
 )
@@ -58,6 +60,10 @@ from .paths.pieces import Arc, Clothoid, Coil, Line, Piece, Waypoints
 from .paths.route import Route
 from .paths.spiral import Spiral
 from .paths.turn import Turn
+from .performance.answer import EncounterEvidence, FirstEncounter, NearPass
+from .performance.cross_check import EncounterCheck, encounter_check
+from .performance.encounter import first_encounter
+from .performance.performance import Part, Performance, PerformanceEnd
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
 from .proposal.gates import Gate
@@ -96,6 +102,9 @@ __all__ = [
     "Dragon",
     "DragonSummary",
     "DubinsTurn",
+    "EncounterCheck",
+    "EncounterClaim",
+    "EncounterEvidence",
     "EndReason",
     "Engine",
     "Envelope",
@@ -106,6 +115,7 @@ __all__ = [
     "Feature",
     "Figure",
     "FirstContact",
+    "FirstEncounter",
     "FirstExcess",
     "Gate",
     "Given",
@@ -125,14 +135,19 @@ __all__ = [
     "MinimumPitch",
     "Misplaced",
     "Near",
+    "NearPass",
     "Nearest",
     "Objective",
     "Outcome",
     "OutsideRun",
     "Overlaps",
     "Parameter",
+    "Part",
+    "PartSummary",
     "Passage",
     "PathSummary",
+    "Performance",
+    "PerformanceEnd",
     "Piece",
     "PitchScan",
     "ProbabilityClaim",
@@ -177,8 +192,10 @@ __all__ = [
     "cross_check",
     "deepest_turn",
     "dubins_turn",
+    "encounter_check",
     "envelope",
     "first_contact",
+    "first_encounter",
     "first_excess",
     "highest_speed",
     "least_clearance",

@@ -308,7 +308,11 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
                 if not missing or spent is None:
                     raise
             arguments = signature(question).bind(*args, **kwargs).arguments
-            dance = arguments.get("dance") or getattr(arguments.get("contact"), "dance", None)
+            shown = arguments.get("contact") or arguments.get("encounter")
+            if performance := arguments.get("performance") or getattr(shown, "performance", None):
+                rule = "must be fewer, or the time asked about shorter"
+                raise too_much(spent, "parts", f"{rule}: {missing} {{then}}", len(performance.parts))
+            dance = arguments.get("dance") or getattr(shown, "dance", None)
             if dragon := arguments.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
                 raise too_much(spent, "dragon.benches", f"{rule}: {missing} {{then}}", dragon.benches)

@@ -36,6 +36,7 @@ core.design
 core.tolerance
 core.ground
 core.failures core.judgement
+core.performance
 core.proposal
 core
 core.proof

@@ -73,6 +73,38 @@ class ContactClaim(Answer):
     time: float | None = measure("s", "Time at which these are certainly within the margin; null without")
 
 
+class ClaimedPart(Answer):
+    """A part of the performance that a claim is about."""
+
+    name: str | None = Field(description="Name of the dragon; null without")
+    dance: ClaimedDance = Field(description="Its dance")
+    delay: float = measure("s", "Time of the performance at time 0 of the dance")
+    centre: tuple[float, float] = measure("m", "Centre of a spiral; 0, 0 for a route")
+    rotation: float = measure("rad", "Rotation of a spiral; 0 for a route")
+    clockwise: bool = Field(description="Direction of the dance on a spiral; true for a route")
+
+
+class EncounterClaim(Answer):
+    """Claim of a search for the first encounter of two dragons."""
+
+    kind: ClaimKind = KIND
+    parts: list[ClaimedPart] = Field(description="The parts of the performance; none if there are more than six")
+    part_count: int = Field(description="Number of all parts")
+    bench_count: int = Field(description="Number of the benches of all parts")
+    margin: float = measure("m", "Required clearance")
+    stray: float = measure("m", "Largest distance of a hole from its place")
+    start: float = measure("s", "Start of the search")
+    clear_until: float | None = measure(
+        "s", "Time until which no benches of two dragons come within the margin; null if none is proven"
+    )
+    end: EndReason | None = Field(description="End without an encounter; null with one, or if undecided")
+    dragons: Pair | None = Field(
+        description="Two dragons whose benches are within the margin at that time; null without"
+    )
+    benches: Pair | None = Field(description="These benches, one of each dragon; null without")
+    time: float | None = measure("s", "Time at which these are certainly within the margin; null without")
+
+
 class StrayClaim(Answer):
     """Claim of a tolerance to strays."""
 

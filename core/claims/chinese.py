@@ -12,7 +12,9 @@ from core.claims.claim import (
     ContactClaim,
     DanceSummary,
     DragonSummary,
+    EncounterClaim,
     GroundClaim,
+    PartSummary,
     ProbabilityClaim,
     StrayClaim,
     format_safe,
@@ -35,6 +37,16 @@ ENDS = {
     EndReason.CENTRE: "；此时龙头到达中心。",
     EndReason.END: "；此时路径结束。",
     EndReason.STOP: "；搜索到此为止。",
+}
+ENCOUNTERS = (
+    "按时间逐步对全部板凳证明：每一步以固定在板凳上的轴向间距的二阶导数界为据，同一螺线的外圈以闭式的环间距界为据；"
+    "以双精度计算，并计入舍入误差。"
+)
+ONE_DRAGON = "只有一条龙，没有可比较的板凳。"
+PERFORMANCE_ENDS = {
+    EndReason.FOLD: "；此时有板凳折叠，表演结束。",
+    EndReason.END: "；此时最后一条路径结束。",
+    EndReason.STOP: ENDS[EndReason.STOP],
 }
 HULLS = "对板凳此时可能占据的全部位置的凸包逐步证明，方法与首次碰撞相同；以双精度计算，并计入舍入误差。"
 BETWEEN = {
@@ -64,6 +76,30 @@ def contact(claim: ContactClaim) -> str:
         proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
     strayed = f"只要每个孔离其位置不超过 {format_number(claim.stray)} m 且每节孔距不变，"
     return f"{_dance(claim.dance)}：{strayed if claim.stray else ''}{fact}{proof}"
+
+
+def encounter(claim: EncounterClaim) -> str:
+    start, may = format_number(claim.start), "可能" if claim.stray else ""
+    within = f"间距{may}小于 {format_number(claim.margin)} m"
+    if claim.kind is ClaimKind.CONTACT_AT_START:
+        fact, proof = f"{_pair(claim)}{within if claim.margin else f'{may}相碰'}。", MEASURED
+    elif claim.clear_until is None:
+        before = (
+            f"在 {format_number(claim.time)} s（届时 {_benches(claim)}相碰或过近）之前，"
+            if claim.time is not None
+            else ""
+        )
+        fact, proof = f"自 {start} s 起，{before}无法判定不同龙的板凳是否相碰或过近。", TRIED
+    else:
+        apart = f"间距都不小于 {format_number(claim.margin)} m" if claim.margin else "都不相碰"
+        then = PERFORMANCE_ENDS[claim.end] if claim.end else _end(claim)
+        then = then or f"；{_pair(claim)}{within if claim.margin else f'{may}重叠'}。"
+        fact = f"{start} s 至 {format_number(claim.clear_until)} s，不同龙的任何两节板凳{apart}{then}"
+        proof = ENCOUNTERS if claim.part_count > 1 else ONE_DRAGON
+    strayed = f"只要每个孔离其位置不超过 {format_number(claim.stray)} m 且每节孔距不变，"
+    parts = "；".join(_part(k, part) for k, part in enumerate(claim.parts))
+    parts = parts or f"{claim.part_count} 条龙，共 {claim.bench_count} 节板凳"
+    return f"{parts}：{strayed if claim.stray else ''}{fact}{proof}"
 
 
 def stray(claim: StrayClaim) -> str:
@@ -107,23 +143,36 @@ def ground(claim: GroundClaim) -> str:
     )
 
 
-def _benches(claim: ContactClaim) -> str:
+def _benches(claim: ContactClaim | EncounterClaim) -> str:
     assert claim.benches is not None
+    if isinstance(claim, EncounterClaim) and claim.dragons is not None:
+        (i, j), (a, b) = claim.dragons, claim.benches
+        return f"龙 {i} 的 {a} 号与龙 {j} 的 {b} 号板凳"
     return f"{claim.benches[0]} 号与 {claim.benches[1]} 号板凳"
 
 
-def _pair(claim: ContactClaim) -> str:
+def _pair(claim: ContactClaim | EncounterClaim) -> str:
     assert claim.time is not None
     return f"{format_number(claim.time)} s 时 {_benches(claim)}"
 
 
-def _end(claim: ContactClaim) -> str:
+def _end(claim: ContactClaim | EncounterClaim) -> str:
     """The end of the sentence about a time without a contact, unless a contact ends it."""
     if claim.kind is not ClaimKind.UNDECIDED:
         return ENDS[claim.end] if claim.end else ""
     if claim.time is None:
         return "；其后无法判定。"
     return f"；其后在 {format_number(claim.time)} s 之前无法判定，届时 {_benches(claim)}相碰或过近。"
+
+
+def _part(k: int, part: PartSummary) -> str:
+    name = f"龙 {k}" if part.name is None else f"龙 {k}（{part.name}）"
+    x, y = map(format_number, part.centre)
+    place = f"，中心 ({x}, {y}) m" if part.centre != (0.0, 0.0) else ""
+    place += f"，转过 {format_number(part.rotation)} rad" if part.rotation else ""
+    place += "" if part.clockwise else "，逆时针"
+    delay = f"，推迟 {format_number(part.delay)} s" if part.delay else ""
+    return f"{name}，{_dance(part.dance)}{place}{delay}"
 
 
 def _dance(dance: DanceSummary) -> str:
@@ -164,6 +213,7 @@ def _passage(passage: Passage) -> str:
 # The function that puts each class of claims in sentences.
 SENTENCES: dict[type[Claim], Callable[[Any], str]] = {
     ContactClaim: contact,
+    EncounterClaim: encounter,
     StrayClaim: stray,
     ProbabilityClaim: probability,
     GroundClaim: ground,

@@ -12,15 +12,17 @@ from core.dragon import Dragon
 from core.errors import format_bound, format_number
 from core.passages import Passage
 from core.paths.path import PathSummary
+from core.values import Point
 
-# Most passages that a summary lists one by one [1].
-PASSAGES_LISTED = 6
+# Most passages that a summary lists one by one [1], and most parts of a performance.
+PASSAGES_LISTED, PARTS_LISTED = 6, 6
 
 
 class ClaimKind(StrEnum):
     """Kind of a claim.
 
-    CLEAR, CONTACT: no two benches come within the margin between two times; CONTACT: and two do soon after
+    CLEAR, CONTACT: no two benches come within the margin between two times; CONTACT: and two do soon after. In an
+        EncounterClaim two benches are of different dragons
     CONTACT_AT_START: two benches are within the margin at the start
     UNDECIDED: no two come within the margin up to a time, and it is not decided whether any do after that
     SAFE_STRAY, NO_SAFE_STRAY: nothing touches while no hole strays further; no such stray is known
@@ -105,6 +107,45 @@ class ContactClaim(Readable):
     time: float | None = None
 
 
+@dataclass(frozen=True, slots=True, repr=False)
+class PartSummary(Readable):
+    """A part of a performance.
+
+    name: of the dragon, None without; delay: time of the performance at time 0 of the dance [s]
+    centre (x, y) [m], rotation [rad], clockwise: the place of a spiral; (0, 0), 0 and True for a route
+    """
+
+    name: str | None
+    dance: DanceSummary
+    delay: float
+    centre: Point
+    rotation: float
+    clockwise: bool
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class EncounterClaim(Readable):
+    """Claim of a search for the first encounter of two dragons.
+
+    parts: of the performance, none if there are more than PARTS_LISTED; part_count, bench_count: number of all parts,
+        and of their benches
+    margin, stray, start, clear_until, end, benches, time: as in a ContactClaim; dragons: those of these two benches
+    """
+
+    kind: ClaimKind
+    parts: tuple[PartSummary, ...]
+    part_count: int
+    bench_count: int
+    margin: float
+    stray: float
+    start: float
+    clear_until: float | None = None
+    end: EndReason | None = None
+    dragons: tuple[int, int] | None = None
+    benches: tuple[int, int] | None = None
+    time: float | None = None
+
+
 class BenchBetween(StrEnum):
     """Part that the bench between two others plays in a safe stray. HELD: it holds them apart, which is used;
     UNUSED: the two that limit the stray have one between them, and are assumed to stray independently."""
@@ -176,4 +217,4 @@ def format_safe(stray: float) -> str:
     return format_number(float(format_bound(stray, 12)))
 
 
-Claim = ContactClaim | StrayClaim | ProbabilityClaim | GroundClaim
+Claim = ContactClaim | EncounterClaim | StrayClaim | ProbabilityClaim | GroundClaim

@@ -16,7 +16,9 @@ from core.claims.claim import (
     ContactClaim,
     DanceSummary,
     DragonSummary,
+    EncounterClaim,
     GroundClaim,
+    PartSummary,
     ProbabilityClaim,
     StrayClaim,
     format_safe,
@@ -39,6 +41,17 @@ ENDS = {
     EndReason.CENTRE: "; there the head is at the centre.",
     EndReason.END: "; there the path ends.",
     EndReason.STOP: "; the search was to stop there.",
+}
+ENCOUNTERS = (
+    "Proven in steps of time for all benches at once, each by a bound on the second derivative of the gap along an "
+    "axis fixed in a bench, and further out in one spiral by ring bounds in closed form; computed in doubles, with "
+    "allowances for their rounding."
+)
+ONE_DRAGON = "There is only one dragon, so there is no pair to judge."
+PERFORMANCE_ENDS = {
+    EndReason.FOLD: "; there a bench folds, and the performance ends.",
+    EndReason.END: "; there the last path ends.",
+    EndReason.STOP: ENDS[EndReason.STOP],
 }
 HULLS = (
     "Proven in steps for the hulls of all places that benches can have then, as first contacts are for benches; "
@@ -65,6 +78,24 @@ def contact(claim: ContactClaim) -> str:
         proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
     strayed = f"while every hole is within {stray} m of its place, and every chord keeps its length, "
     return f"{_dance(claim.dance)}: {strayed if claim.stray else ''}{fact} {proof}"
+
+
+def encounter(claim: EncounterClaim) -> str:
+    start, stray = format_number(claim.start), format_number(claim.stray)
+    apart = f"no benches of two dragons {_near(claim)}"
+    if claim.kind is ClaimKind.CONTACT_AT_START:
+        fact, proof = f"at {_pair(claim)} {_near(claim, may=claim.stray > 0.0)}.", MEASURED
+    elif claim.clear_until is None:
+        undecided = f"it is not decided whether benches of two dragons {_near(claim)}"
+        fact, proof = f"from {start} s on {undecided}{_before(claim)}.", TRIED
+    else:
+        until = format_number(claim.clear_until)
+        then = PERFORMANCE_ENDS[claim.end] if claim.end else _then(claim)
+        fact, proof = f"from {start} s to {until} s {apart}{then}", ENCOUNTERS if claim.part_count > 1 else ONE_DRAGON
+    strayed = f"while every hole is within {stray} m of its place, and every chord keeps its length, "
+    parts = "; ".join(_part(k, part) for k, part in enumerate(claim.parts))
+    parts = parts or f"{claim.part_count} dragons with {claim.bench_count} benches in all"
+    return f"{parts}: {strayed if claim.stray else ''}{fact} {proof}"
 
 
 def stray(claim: StrayClaim) -> str:
@@ -112,34 +143,48 @@ def ground(claim: GroundClaim) -> str:
     )
 
 
-def _near(claim: ContactClaim, *, may: bool = False) -> str:
+def _near(claim: ContactClaim | EncounterClaim, *, may: bool = False) -> str:
     if claim.margin:
         return f"{'may be' if may else 'are'} nearer to each other than {format_number(claim.margin)} m"
     return "may touch" if may else "touch"
 
 
-def _pair(claim: ContactClaim, between: str = "") -> str:
+def _pair(claim: ContactClaim | EncounterClaim, between: str = "") -> str:
     assert claim.benches is not None
     assert claim.time is not None
-    return f"{format_number(claim.time)} s{between} benches {claim.benches[0]} and {claim.benches[1]}"
+    (a, b), time = claim.benches, f"{format_number(claim.time)} s{between}"
+    if isinstance(claim, EncounterClaim) and claim.dragons is not None:
+        i, j = claim.dragons
+        return f"{time} bench {a} of dragon {i} and bench {b} of dragon {j}"
+    return f"{time} benches {a} and {b}"
 
 
-def _overlap(claim: ContactClaim) -> str:
+def _overlap(claim: ContactClaim | EncounterClaim) -> str:
     if claim.margin:
         return f"{'may be' if claim.stray else 'are'} nearer than {format_number(claim.margin)} m"
     return "may overlap" if claim.stray else "overlap"
 
 
-def _then(claim: ContactClaim) -> str:
+def _then(claim: ContactClaim | EncounterClaim) -> str:
     """The end of the sentence about a time without a contact."""
     if claim.kind is ClaimKind.UNDECIDED:
         return f"; whether any do after that is not decided{_before(claim)}."
     return ENDS[claim.end] if claim.end else f", and at {_pair(claim)} {_overlap(claim)}."
 
 
-def _before(claim: ContactClaim) -> str:
+def _before(claim: ContactClaim | EncounterClaim) -> str:
     """The later contact that is certain, if an undecided search found one."""
     return f" before {_pair(claim, ', when')} {_overlap(claim)}" if claim.benches else ""
+
+
+def _part(k: int, part: PartSummary) -> str:
+    name = f"dragon {k}" if part.name is None else f"dragon {k} ({part.name})"
+    x, y = map(format_number, part.centre)
+    place = f", about ({x}, {y}) m" if part.centre != (0.0, 0.0) else ""
+    place += f", turned by {format_number(part.rotation)} rad" if part.rotation else ""
+    place += "" if part.clockwise else ", counter-clockwise"
+    delay = f", delayed by {format_number(part.delay)} s" if part.delay else ""
+    return f"{name}, {_dance(part.dance)}{place}{delay}"
 
 
 def _dance(dance: DanceSummary) -> str:
@@ -176,6 +221,7 @@ def _passage(passage: Passage) -> str:
 # The function that puts each class of claims in sentences.
 SENTENCES: dict[type[Claim], Callable[[Any], str]] = {
     ContactClaim: contact,
+    EncounterClaim: encounter,
     StrayClaim: stray,
     ProbabilityClaim: probability,
     GroundClaim: ground,

@@ -128,11 +128,14 @@ def judged_contact(
     margin: float = 0.0,
     whole: bool = True,
     at_start: bool = False,
+    owners: Indices | None = None,
     budget: Budget | None = None,
 ) -> ContactCheck:
     """The engines' verdicts on a pair that, by the search, comes within the margin between two instants.
 
     poses: (2, n, 3) just before and just after, or at a start and just after; sizes: (n, 2) length and width [m]
+    owners: (n,) the dragon of each bench: then only pairs of two dragons count; by default all are of one dragon, and
+        all pairs but neighbours count
     """
     judged = judged_benches(poses[1], sizes, pair, margin) if whole else np.array(pair)
     two, size = poses[:, list(pair)], sizes[list(pair)]
@@ -142,7 +145,7 @@ def judged_contact(
         verdicts = {engine: _verdict(JUDGES[engine](two, size, margin), at_start) for engine in able(margin)}
     else:
         near, own = poses[:, judged], sizes[judged]
-        pairs_of = {engine: _pairs_of(engine, near, own, margin, judged, budget) for engine in able(margin)}
+        pairs_of = {engine: _pairs_of(engine, near, own, margin, judged, budget, owners) for engine in able(margin)}
         if not at_start:
             together = _meeting_together(sorted(pairs_of[Engine.SEPARATING_AXIS][1] - {pair}), poses, sizes, margin)
         for engine, (before, after) in pairs_of.items():
@@ -225,14 +228,20 @@ def _check(verdicts: dict[Engine, Verdict], judged: Indices, together: tuple[Pai
 # The judged benches need not be consecutive, so the engines search among all of them, and neighbours are removed by
 # their numbers.
 def _pairs_of(
-    engine: Engine, poses: Floats, sizes: Floats, margin: float, judged: Indices, budget: Budget | None
+    engine: Engine,
+    poses: Floats,
+    sizes: Floats,
+    margin: float,
+    judged: Indices,
+    budget: Budget | None,
+    owners: Indices | None = None,
 ) -> list[set[Pair]]:
-    """Pairs that an engine finds at each instant, by their numbers in the dragon."""
-    chained = len(judged) == int(judged[-1] - judged[0]) + 1
+    """Pairs that an engine finds at each instant, by their numbers in the dragon, or among all benches."""
+    chained = owners is None and len(judged) == int(judged[-1] - judged[0]) + 1
     pairs_at = []
     for indices in engine_pairs(engine, poses, sizes, margin, chained=chained, budget=budget):
         a, b = judged[indices].reshape(-1, 2).T
-        apart = b - a != 1
+        apart = b - a != 1 if owners is None else owners[a] != owners[b]
         pairs_at.append(set(zip(a[apart].tolist(), b[apart].tolist(), strict=True)))
     return pairs_at
 

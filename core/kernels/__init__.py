@@ -60,7 +60,16 @@ from core.kernels.marching import March
 from core.kernels.pairs import pair_least, pair_most, pair_rounding
 from core.kernels.rates import climbs, spiral_errors
 from core.kernels.rectangles import Witnesses, bench_separation, pair_gaps, pair_separations
-from core.kernels.rings import Rings, clear_radius, leaders_reach, radius_beyond, ring_clears, ring_least, ring_rounding, spirals_least
+from core.kernels.rings import (
+    Rings,
+    clear_radius,
+    leaders_reach,
+    radius_beyond,
+    ring_clears,
+    ring_least,
+    ring_rounding,
+    spirals_least,
+)
 from core.kernels.rounding import joint_misses, piece_slides
 from core.kernels.route import cubic_arcs, route_points
 from core.kernels.scene import Interval, MarchState, Scene

@@ -360,8 +360,8 @@ class Ensemble:
     def rate(self, which, a, b):
         """Rate at which two rows part at an instant [m/s]."""
         with cython.nogil:
-            parting = self.parting(self.interval.scene, a, b, self.rows(which))
-        return parting
+            speed = self.parting(self.interval.scene, a, b, self.rows(which))
+        return float(speed)  # outside the block, which holds no objects
 
     def parting(self, scene, a, b, rows):
         """Body of rate()."""
@@ -376,7 +376,7 @@ class Ensemble:
         """
         with cython.nogil:
             least = self.least_left(self.interval.scene, moved)
-        return least
+        return float(least)  # outside the block, which holds no objects
 
     def least_left(self, scene, moved):
         """Body of left()."""

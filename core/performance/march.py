@@ -353,4 +353,3 @@ def beyond(stage: Stage, met: Met, until: float) -> Met | None:
         if found.ended is Ended.REACHED:
             return None
     return None
-

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from core.dance import Dance, EndReason
+from core.display import Readable, display, format_count
 from core.errors import (
     Given,
     InvalidValue,
@@ -19,14 +20,13 @@ from core.errors import (
     Quantity,
     Value,
     bound,
+    checked_list,
     checked_number,
     checked_type,
-    listed,
     quantities,
 )
 from core.names import checked_name
 from core.passages import TIME_MAX
-from core.shown import Readable, counted, worded
 from core.venue import Venue
 
 # Largest delay, forwards and back [s]: eleven days. Times of a performance keep 1e-10 s then.
@@ -109,7 +109,7 @@ class Performance(Readable):
     end: PerformanceEnd = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        parts = tuple(listed("parts", self.parts, "a list of Part objects"))
+        parts = tuple(checked_list("parts", self.parts, "a list of Part objects"))
         if not 1 <= len(parts) <= PARTS_MAX:
             rule = "must be at least one" if not parts else "must be at most {most}"
             raise InvalidValue("parts", rule, got=len(parts), most=PARTS_MAX)
@@ -154,8 +154,8 @@ class Performance(Readable):
     def _line(self) -> str:
         names = ", ".join(self.name_of(k) for k in range(min(len(self.parts), 6)))
         more = ", ..." if len(self.parts) > 6 else ""
-        span = f"from {worded(self.begin, 's')} to {worded(self.end.time, 's')}"
-        return f"{counted(len(self.parts), 'dragon')} ({names}{more}), {span}"
+        span = f"from {display(self.begin)} to {display(self.end.time, 's')}"
+        return f"{format_count(len(self.parts), 'dragon')} ({names}{more}), {span}"
 
     def name_of(self, k: int) -> str:
         """The name of a dragon, or its number."""
@@ -182,8 +182,12 @@ class Performance(Readable):
             raise InvalidValue("stop", "must be after start ({start})", **quantities("s", got=until, start=begin))
         return begin, until
 
+    @property
+    def ending(self) -> str:
+        """What ends it, as a clause."""
+        if self.end.dragon is None:
+            return "the last path ends"
+        return f"bench {self.end.bench} of {self.name_of(self.end.dragon)} folds"
+
     def _ending(self) -> dict[str, Value]:
-        why = "the last path ends"
-        if self.end.dragon is not None:
-            why = f"bench {self.end.bench} of {self.name_of(self.end.dragon)} folds"
-        return {"end": bound(self.end.time, 9, "s"), "why": why}
+        return {"end": bound(self.end.time, 9, "s"), "why": self.ending}

@@ -18,7 +18,6 @@ from core.kernels.constants import (
     CLEAR_SPARE,
     FREE,
     MOTION_COLUMNS,
-    RADIUS,
     SIZE_COLUMNS,
     ULP,
 )
@@ -26,7 +25,6 @@ from core.paths.frame import Frame
 from core.performance.performance import Part, Performance
 from core.sampling import bisected
 from core.shapes.reach import directions, reach
-from core.values import Floats
 
 # The instants of an ensemble at which its benches are laid out: both ends of a step, and another one.
 BEFORE, AFTER, PROBED = range(3)
@@ -57,7 +55,9 @@ class Player:
         local = [time - part.delay for time in span]
         until = max(map(abs, local))
         fastest = max(self.clock.speeds)
-        timing = self.clock.rounding(until) + fastest * OWN_TIME_ROUNDING * (until + abs(part.delay) + max(map(abs, span)))
+        timing = self.clock.rounding(until) + fastest * OWN_TIME_ROUNDING * (
+            until + abs(part.delay) + max(map(abs, span))
+        )
         travels = [self.clock.travel(part.own_time(time)) for time in span]
         furthest = max(search.place, *(max(abs(travel), search.place - travel) for travel in travels))
         self.slip = 2.0 * (search.path.slide + timing + PLACE_ROUNDING * furthest)
@@ -89,6 +89,7 @@ class Stage:
     players: one for each part; ensemble: the kernels' loops over all; owner: (rows,) the part of each row
     own_sizes: (rows, SIZE_COLUMNS) of the benches themselves; with a stray the scene has the ground that they may cover
     work: what is left of its own work [1], within the budget of the whole question
+    chains: rows at both ends of a step and at another instant; motion: bounds over a step, in time
     rings: {(i, j): radius outside which the benches of two dragons in one spiral keep apart} [m]
     """
 
@@ -136,7 +137,8 @@ class Stage:
         self.scene, self.sizes = scene, sizes
         self.chains = np.zeros((3, rows + 1, CHAIN_COLUMNS))
         before, after, probed = self.chains
-        interval = kernels.Interval(scene, before, after, np.zeros((rows + 1, MOTION_COLUMNS)))
+        self.motion = np.zeros((rows + 1, MOTION_COLUMNS))
+        interval = kernels.Interval(scene, before, after, self.motion)
         members = [
             kernels.Member(
                 player.search.interval, player.search.probed, player.first, player.benches,
@@ -178,7 +180,9 @@ class Stage:
                         one.part.dance.path.frame.rotation - two.part.dance.path.frame.rotation, 2.0 * math.pi
                     )
                 )
-                radius = clear_of_each_other(one.search.growth, angle, (one.search.dragon, two.search.dragon), self.margin)
+                radius = clear_of_each_other(
+                    one.search.growth, angle, (one.search.dragon, two.search.dragon), self.margin
+                )
                 if radius is not None:
                     clear[i, j] = radius
         return clear
@@ -326,4 +330,3 @@ def clear_of_each_other(growth: float, angle: float, dragons: tuple[Dragon, Drag
     if not clears(RINGS_MOST):
         return None
     return bisected(clears, 0.0, RINGS_MOST, relative=RINGS_WIDTH)[1] * (1.0 + CLEAR_SPARE)
-

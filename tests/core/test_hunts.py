@@ -9,8 +9,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core import Clothoid, Coil, Dance, Dragon, Line, Outcome, Route, Turn, first_contact, trajectory, venue_clearance
-from tests.campaigns import hunt_clothoids, hunt_contacts, hunt_turns, hunt_venues, hunting
+from core import (
+    Clothoid,
+    Coil,
+    Dance,
+    Dragon,
+    Line,
+    Outcome,
+    Route,
+    Turn,
+    first_contact,
+    first_encounter,
+    trajectory,
+    venue_clearance,
+)
+from tests.campaigns import hunt_clothoids, hunt_contacts, hunt_encounters, hunt_turns, hunt_venues, hunting
 from tests.support.depth import examples
 from tests.support.slow_route import SlowRoute
 
@@ -26,8 +39,9 @@ SAME_PLACE = 1e-10
         (hunt_clothoids.fault, CONTACTS),
         (hunt_venues.fault, VENUES),
         (hunt_turns.fault, CONTACTS),
+        (hunt_encounters.fault, CONTACTS),
     ],
-    ids=["contacts", "clothoids", "venues", "turns"],
+    ids=["contacts", "clothoids", "venues", "turns", "encounters"],
 )
 def test_nothing_false_is_found_in_a_small_part(fault: Callable[[int, int], tuple[str, str]], count: int) -> None:
     result = hunting.hunt(fault, 44, 0.0, count)
@@ -92,6 +106,19 @@ def test_a_bound_that_is_too_high_and_a_tree_that_is_overlooked_are_faults() -> 
     assert hunt_venues.area_fault(replace(result, nearest=nearest), margin, look)
     (margin, look), result = first_where(campaign, lambda result: result.outcome is Outcome.CONTACT)
     assert hunt_venues.area_fault(replace(result, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
+
+
+def test_an_encounter_that_is_left_out_or_invented_is_a_fault() -> None:
+    def campaign(case: int) -> Any:
+        performance, margin, start, stop, look = hunt_encounters.random_case(44, case)
+        return (margin, look), first_encounter(performance, margin=margin, start=start, stop=stop)
+
+    (margin, look), found = first_where(campaign, lambda found: found[1].outcome is Outcome.CONTACT)
+    assert hunt_encounters.encounter_fault(found, margin, look) == ""
+    assert hunt_encounters.encounter_fault(replace(found, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
+    start = found.time_bracket[0]
+    early = replace(found, time_bracket=(start - 0.1, start - 1e-2))
+    assert hunt_encounters.encounter_fault(early, margin - 1e-6, look)
 
 
 @pytest.mark.parametrize(("seed", "case"), [(1, 6), (1, 11), (1, 201), (3, 130), (3, 186)])

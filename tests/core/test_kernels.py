@@ -79,6 +79,12 @@ EXPRESSIONS = {
     "highest speed before a fold": "core.highest_speed(Dance(Dragon(4), Spiral(1.2, 3.0)), stop=30.7)",
     "envelope": "core.envelope(Dance(Dragon(4), Turn(1.7)), start=6.0, stop=8.0)",
     "tolerance": "core.tolerance(Dance(Dragon(9), Spiral()), start=406.0, stop=410.0)",
+    "first encounter": "core.first_encounter(core.Performance([core.Part("
+    "Dance(Dragon(9), Spiral(1.1, 3.0, rotation=turn))) for turn in (0.0, 3.0)]), start=20.0)",
+    "first encounter with a stray": "core.first_encounter(core.Performance([core.Part(Dance(Dragon(4), core.Route("
+    "[core.Line((-x, -y), (x, y))]))) for x, y in ((20, 0), (0, 20))]), margin=0.1, stray=0.02, start=15.0)",
+    "first encounter up to a fold": "core.first_encounter(core.Performance([core.Part("
+    "Dance(Dragon(3), Spiral(1.2, 2.0, (x, 0.0)))) for x in (0.0, 9.0)]))",
     "shortest turn": "core.shortest_turn(Dragon(4), 1.7)",
     "pitch scan": "core.pitch_scan(Dragon(10), [0.53, 0.55], start_turns=5.0)",
 }

@@ -12,7 +12,9 @@ from core.claims.claim import (
     ClaimKind,
     ContactClaim,
     DanceSummary,
+    EncounterClaim,
     GroundClaim,
+    PartSummary,
     ProbabilityClaim,
     StrayClaim,
 )
@@ -34,6 +36,11 @@ CLEAR, CONTACT, START, UNDECIDED = list(ClaimKind)[:4]
 SAFE, UNSAFE = ClaimKind.SAFE_STRAY, ClaimKind.NO_SAFE_STRAY
 MET = {"benches": (0, 3), "time": 12.5}
 
+EAST = PartSummary("east", FIVE, 0.0, (0.0, 0.0), 0.0, True)
+SECOND = PartSummary(None, TWO, 12.5, (3.0, -1.5), 0.5, False)
+BOTH, TEN = ((EAST, SECOND), 2, 7), ((), 10, 2000)
+TOGETHER = {"dragons": (0, 1), "benches": (3, 0), "time": 12.5}
+
 CLAIMS: dict[str, Claim] = {
     "fold": ContactClaim(CLEAR, TWO, 0.0, 0.0, 0.0, 20.5, EndReason.FOLD),
     "centre": ContactClaim(CLEAR, ONE, 0.1, 0.0, 0.0, 20.5, EndReason.CENTRE),
@@ -52,6 +59,16 @@ CLAIMS: dict[str, Claim] = {
     "undecided before a contact within a margin": ContactClaim(UNDECIDED, FIVE, 0.05, 0.0, 0.0, 10.0, **MET),
     "undecided from the start": ContactClaim(UNDECIDED, FIVE, 0.05, 0.0, 10.0),
     "undecided from the start before a contact": ContactClaim(UNDECIDED, FIVE, 0.05, 0.02, 10.0, **MET),
+    "encounter": EncounterClaim(CONTACT, *BOTH, 0.0, 0.0, 0.0, 12.25, **TOGETHER),
+    "encounter with both": EncounterClaim(CONTACT, *TEN, 0.05, 0.02, 0.0, 12.25, **TOGETHER),
+    "no encounter up to a fold": EncounterClaim(CLEAR, *BOTH, 0.0, 0.0, 0.0, 20.5, EndReason.FOLD),
+    "no encounter up to an end": EncounterClaim(CLEAR, *TEN, 0.05, 0.0, 0.0, 20.5, EndReason.END),
+    "no encounter up to a stop": EncounterClaim(CLEAR, *TEN, 0.0, 0.0, 0.0, 20.5, EndReason.STOP),
+    "a lone dragon": EncounterClaim(CLEAR, (EAST,), 1, 5, 0.0, 0.0, 0.0, 20.5, EndReason.END),
+    "encounter at the start": EncounterClaim(START, *TEN, 0.0, 0.0, 12.5, **TOGETHER),
+    "undecided encounter": EncounterClaim(UNDECIDED, *TEN, 0.0, 0.0, 0.0, 10.0),
+    "undecided before an encounter": EncounterClaim(UNDECIDED, *TEN, 0.05, 0.0, 0.0, 10.0, **TOGETHER),
+    "encounters undecided from the start": EncounterClaim(UNDECIDED, *TEN, 0.0, 0.0, 10.0, **TOGETHER),
     "safe stray": StrayClaim(SAFE, FIVE, False, 0.0, 9.5, 0.0125000000000009, False, None),
     "safe stray in a venue": StrayClaim(SAFE, ODD, True, 0.0, 9.5, 0.0125, False, BenchBetween.HELD),
     "safe stray of three": StrayClaim(SAFE, WINDING, False, 0.0, 9.5, 0.0125, False, BenchBetween.UNUSED),

@@ -15,6 +15,8 @@ SQUARE = Venue(Area("square", (((-30, -30), (30, -30), (30, 30), (-30, 30), (-30
 DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
 CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
+PERFORMANCE = core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(40.0, 0.0))))])
+ENCOUNTER = core.first_encounter(PERFORMANCE, stop=9.0)
 # A valid call of each function; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.bench_outlines: {"dragon": DRAGON, "handles": np.zeros((6, 2)) + np.arange(6)[:, None]},
@@ -33,6 +35,8 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.course: {"path": SPIRAL, "dragon": DRAGON},
     core.cross_check: {"poses": POSES, "lengths": COLUMN, "widths": COLUMN, "margin": 0.0},
     core.envelope: {"dance": DANCE, "start": 0.0, "stop": 9.0, "excess": 1e-3},
+    core.encounter_check: {"encounter": ENCOUNTER},
+    core.first_encounter: {"performance": PERFORMANCE, "margin": 0.0, "stray": 0.0, "start": 1.0, "stop": 9.0},
     core.first_contact: {"dance": DANCE, "margin": 0.0, "stray": 0.0, "start": 0.0, "stop": 9.0},
     core.first_excess: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
     core.highest_speed: {"dance": DANCE, "start": 0.0, "stop": 9.0},

@@ -1,0 +1,193 @@
+"""First encounter of two dragons, with a certificate.
+
+The proof is written above its loops: `core/kernels/ensemble.py` for the bounds, `march.py` here for the steps. In
+short: time advances from t to t' only if, for every two benches of different dragons that can be near, one axis fixed
+in one of the two separates them by more than the margin over all of [t, t'].
+"""
+
+from __future__ import annotations
+
+from core import kernels
+from core.claims.claim import PARTS_LISTED, ClaimKind, DanceSummary, EncounterClaim, PartSummary
+from core.contact.answer import Feature, Outcome
+from core.contact.first_contact import CORNERS, EDGES, OUTCOMES
+from core.contact.march import TOUCHES
+from core.contact.search import MARGIN_MAX, WORK_BUDGET
+from core.dance import EndReason
+from core.dragon import Stray, checked_stray
+from core.errors import checked_number, question_about
+from core.kernels import Budget, Ended
+from core.kernels.constants import FRONT, MX, UY
+from core.paths.path import HeadState
+from core.performance.answer import EncounterEvidence, FirstEncounter, NearPass
+from core.performance.march import March, Met, beyond, to_fold
+from core.performance.performance import Performance, PerformanceEnd
+from core.performance.stage import PROBED, Stage
+from core.values import Point
+
+# A feature with its dragon.
+Owned = tuple[Feature | None, int | None]
+
+
+@question_about("performance", Performance, "the first encounter was not decided")
+def first_encounter(
+    performance: Performance,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> FirstEncounter:
+    """First time at which benches of two different dragons come within the margin, proven to miss no earlier one.
+
+    What each dragon does by itself does not count: see first_contact() for that.
+    margin: required clearance [m]; an encounter means separation <= margin
+    stray: largest distance of every hole from its place [m]: the answer is then the first time at which two benches may
+        come within the margin, because the grounds that they may cover do (core/shapes/reach.py)
+    start, stop: interval of the search [s]; None for the beginning and the end of the performance
+    returns: see FirstEncounter. The bracket [proven clear up to, within the margin at] is at most 1e-9 s wide. It is
+        wider where two benches meet so slowly that rounding hides the gap: within about 1e-5 m of a graze, on paths or
+        over times of many kilometres or days, and with a stray. Both ends hold in spite of rounding. The answer is
+        undecided if rounding hides it: for benches whose clearance equals the margin to about 1e-11 m at the start or
+        in a graze, or for a while; `overlapping` then names a pair that is certainly within the margin at the end of
+        the bracket, if any
+    raises: InvalidValue; OutsideRun for times outside the performance; TooMuchWork
+
+    >>> import math
+    >>> from core import Dance, Dragon, Part, Performance, Spiral
+    >>> turned = [Spiral(1.1, 8.0, rotation=rotation) for rotation in (0.0, math.pi)]
+    >>> met = first_encounter(Performance([Part(Dance(Dragon(60), spiral)) for spiral in turned]))
+    >>> met.outcome.value, round(met.time, 6), met.dragons, met.benches
+    ('contact', 207.378361, (0, 1), (3, 0))
+    """
+    budget = budget or Budget()
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    strayed = max(checked_stray(stray, part.dance.dragon) for part in performance.parts)
+    span = performance.span(start, stop)
+    stage = Stage(performance, span, margin, stray=strayed, work=WORK_BUDGET, budget=budget)
+    met = marched(stage)
+    end = performance.end
+    if stop is not None and span[1] < end.time:
+        end = PerformanceEnd(EndReason.STOP, span[1])
+    if met.ended is Ended.STUCK:
+        answer = _undecided(stage, met)
+        budget.afford()  # it may be undecided because the work is spent
+        return answer
+    return _decided(stage, met, end)
+
+
+def marched(stage: Stage, *, dips: bool = True) -> Met:
+    """The march over the span of a stage, from where its rings no longer prove all to be clear; up to a fold if it ends
+    there."""
+    begin, until = stage.span
+    if len(stage.players) == 1:
+        return Met(Ended.REACHED, until)
+    march, first = March(stage, dips=dips), max(begin, stage.clear_until())
+    if first >= until:
+        return Met(Ended.REACHED, until)
+    folding = stage.folding(until)
+    return to_fold(stage, march, first, until, folding) if folding else march.run(first, until)
+
+
+def summary(performance: Performance) -> dict[str, object]:
+    """What a claim says of a performance, by the names of its fields."""
+    parts = []
+    for part in performance.parts if len(performance.parts) <= PARTS_LISTED else ():
+        frame = part.dance.path.frame
+        place = frame.centre, frame.rotation, frame.clockwise
+        parts.append(PartSummary(part.name, DanceSummary.of(part.dance), part.delay, *place))
+    benches = sum(part.dance.dragon.benches for part in performance.parts)
+    return {"parts": tuple(parts), "part_count": len(performance.parts), "bench_count": benches}
+
+
+def _claim(stage: Stage, kind: ClaimKind, **values: object) -> EncounterClaim:
+    about = {"margin": stage.margin, "stray": stage.stray, "start": stage.span[0], **values}
+    return EncounterClaim(kind, **summary(stage.performance), **about)  # type: ignore[arg-type]
+
+
+def _evidence(stage: Stage, met: Met, claim: EncounterClaim) -> EncounterEvidence:
+    near = None
+    if met.graze is not None:
+        near = NearPass(met.graze.time, met.graze.gap, *stage.pair(*met.graze.rows))
+    return EncounterEvidence(claim, met.steps, claim.clear_until, met.curvature, near)
+
+
+def _undecided(stage: Stage, met: Met) -> FirstEncounter:
+    """The answer of a search that gave up."""
+    begin, until = stage.span
+    later = beyond(stage, met, until)
+    overlapping = None
+    values: dict[str, object] = {"clear_until": met.proven if met.proven > begin else None}
+    if later is not None and later.touching is not None:
+        until, overlapping = later.touching, stage.pair(*later.rows)
+        values |= {"time": until, "dragons": overlapping[0], "benches": overlapping[1]}
+    return FirstEncounter(
+        Outcome.UNDECIDED,
+        time_bracket=(met.proven, until),
+        overlapping=overlapping,
+        certificate=_evidence(stage, met, _claim(stage, ClaimKind.UNDECIDED, **values)),
+        margin=stage.margin,
+        stray=stage.stray,
+        performance=stage.performance,
+    )
+
+
+def _decided(stage: Stage, met: Met, end: PerformanceEnd) -> FirstEncounter:
+    outcome, performance = OUTCOMES[met.ended], stage.performance
+    about = {"margin": stage.margin, "stray": stage.stray, "performance": performance}
+    if met.ended not in TOUCHES or met.touching is None:
+        claim = _claim(stage, ClaimKind.CLEAR, clear_until=stage.span[1], end=end.reason)
+        return FirstEncounter(outcome, end=end, certificate=_evidence(stage, met, claim), **about)  # type: ignore[arg-type]
+    at_start = outcome is Outcome.CONTACT_AT_START
+    begin = stage.span[0]
+    if at_start and met.touching > begin:  # right where the rings end that prove the time before
+        outcome, at_start = Outcome.CONTACT, False
+    time = begin if at_start else max(met.touching - met.half, begin)
+    dragons, benches = stage.pair(*met.rows)
+    clear_until = met.proven if met.proven > begin and not at_start else None
+    kind = ClaimKind.CONTACT if clear_until is not None else ClaimKind.CONTACT_AT_START
+    claim = _claim(stage, kind, clear_until=clear_until, dragons=dragons, benches=benches, time=met.touching)
+    features, point, gap = _features(stage, time, met.rows)
+    (corner, of_corner), (edge, of_edge) = features
+    return FirstEncounter(
+        outcome,
+        time=time,
+        time_bracket=None if at_start else (met.proven, met.touching),
+        dragons=dragons,
+        benches=benches,
+        corner=corner,
+        edge=edge,
+        feature_dragons=(of_corner, of_edge),
+        point=point,
+        heads=(_head(stage, dragons[0], time), _head(stage, dragons[1], time)),
+        certificate=_evidence(stage, met, claim),
+        gap=gap if at_start or stage.stray else stage.margin,
+        **about,  # type: ignore[arg-type]
+    )
+
+
+def _head(stage: Stage, k: int, time: float) -> HeadState:
+    player = stage.players[k]
+    return player.part.dance.path.head(player.travel(time))
+
+
+def _features(stage: Stage, time: float, rows: tuple[int, int]) -> tuple[tuple[Owned, Owned], Point, float]:
+    """The corner and the edge that meet, each with its dragon; the place of the corner [m]; and the separation [m]."""
+    stage.probe(time, *rows)
+    placed = stage.chains[PROBED]
+    met = kernels.bench_separation(*rows, stage.own_sizes, placed)
+    dragons, benches = stage.pair(*rows)
+    corner: Owned = (None, None)
+    edge, point = corner, (float(met.ax), float(met.ay))
+    for side, feature in enumerate((met.feature_a, met.feature_b)):
+        x, y, ux, uy = placed[rows[side], MX : UY + 1].tolist()
+        cx, cy = stage.players[dragons[side]].part.dance.path.frame.centre
+        centre_on_left = int(ux * (cy - y) - uy * (cx - x) > 0.0)
+        if feature >= FRONT:
+            edge = Feature(benches[side], EDGES[centre_on_left][feature - FRONT]), dragons[side]
+        elif corner[0] is None:
+            corner = Feature(benches[side], CORNERS[centre_on_left][feature]), dragons[side]
+            if side == 1:
+                point = (float(met.bx), float(met.by))
+    return (corner, edge), point, float(met.separation)

@@ -1,0 +1,154 @@
+"""First encounters in random performances against a slow search that shares no code with them.
+
+`python -m tests.campaigns.hunt_encounters SEED SECONDS`. Two to five small dragons wind into spirals, some into the
+same one, go through arcs and along lines that cross, with speeds, passages, pauses and delays of their own. Half of the
+margins are chosen so that benches only graze, and so meet slowly.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core import (
+    Arc,
+    BenchDragonError,
+    Coil,
+    Dance,
+    Dragon,
+    Line,
+    Outcome,
+    Part,
+    Performance,
+    Route,
+    Spiral,
+    encounter_check,
+    first_encounter,
+)
+from tests.campaigns import hunting
+from tests.campaigns.hunt_contacts import SlowLook, random_passages
+from tests.support.slow_performance import SlowPerformance
+from tests.support.slow_search import RUN
+
+# Accuracy of slow clearances [m]; width of a bracket as promised where benches do not meet slowly [s].
+GAP, NARROW = 1e-9, 1e-9
+# Performances that are drawn until no two dragons overlap at the beginning [1].
+TRIALS = 6
+# Longest time that is looked at [s].
+LONGEST = 60.0
+
+
+def random_dragon(rng):
+    """1 to 9 benches, uniform or bench by bench; one is a cart."""
+    benches, chord = int(rng.integers(1, 10)), float(rng.uniform(0.8, 2.2))
+    width, overhang = chord * float(rng.uniform(0.1, 0.4)), chord * float(rng.choice([0.0, 0.1, 0.3]))
+    if rng.uniform() < 0.2:
+        chords = chord * 10.0 ** rng.uniform(-0.15, 0.15, benches)
+        overhangs = np.full(benches, overhang) * rng.uniform(0.5, 1.0, benches)
+        return Dragon.of(chords + 2.0 * overhangs, width * rng.uniform(0.7, 1.3, benches), overhangs)
+    head = chord * float(rng.uniform(0.8, 1.6))
+    return Dragon(benches, head + 2.0 * overhang, chord + 2.0 * overhang, width, overhang)
+
+
+def random_route(rng, dragon, reach):
+    """A line through the middle, an arc about it, or a coil, long enough for the dragon."""
+    chord, length = float(dragon.chords.max()), float(dragon.chords.sum())
+    middle, heading = rng.uniform(-0.3, 0.3, 2) * reach, float(rng.uniform(-np.pi, np.pi))
+    kind = rng.choice(["line", "arc", "coil"])
+    along = np.array([np.cos(heading), np.sin(heading)])
+    if kind == "line":
+        return Route([Line(tuple(middle - (reach + length) * along), tuple(middle + reach * along))], start=length)
+    if kind == "arc":
+        radius = float(rng.uniform(1.2 * chord, max(reach, 1.5 * chord)))
+        sweep = (length / radius * 1.6 + float(rng.uniform(1.0, 5.0))) * float(rng.choice([-1.0, 1.0]))
+        return Route([Arc(tuple(middle), radius, heading, sweep)])
+    pitch, inner = float(rng.uniform(0.8, 2.0) * chord), float(rng.uniform(1.0, 2.0))
+    return Route([Coil(pitch, inner + float(rng.uniform(2.0, 4.0)), inner, tuple(middle), heading)])
+
+
+def random_performance(rng):
+    """Two to five dragons, of which some share one spiral."""
+    count, reach = int(rng.integers(2, 6)), float(rng.uniform(5.0, 16.0))
+    shared = bool(rng.uniform() < 0.4)
+    pitch, clockwise = float(rng.uniform(0.8, 2.0) * count * 0.6), bool(rng.uniform() < 0.5)
+    centre, turn, spin = tuple(rng.uniform(-5.0, 5.0, 2)), float(rng.uniform(2.0, 6.0)), float(rng.uniform(-3.0, 3.0))
+    parts = []
+    for k in range(count):
+        dragon = random_dragon(rng)
+        if shared and rng.uniform() < 0.8:
+            rotation = spin + 2.0 * np.pi * k / count + float(rng.choice([0.0, 0.0, rng.uniform(-0.3, 0.3)]))
+            path = Spiral(pitch, turn, centre, rotation, clockwise)
+        elif rng.uniform() < 0.3:
+            place = tuple(rng.uniform(-reach, reach, 2))
+            path = Spiral(
+                float(rng.uniform(0.5, 2.0)), float(rng.uniform(2.0, 6.0)), place, spin * k, bool(rng.uniform() < 0.5)
+            )
+        else:
+            path = random_route(rng, dragon, reach)
+        speed = 1.0 if shared else float(rng.uniform(0.5, 1.6))
+        delay = float(rng.choice([0.0, 0.0, rng.uniform(-5.0, 15.0)]))
+        parts.append(Part(Dance(dragon, path, speed, random_passages(rng)), delay))
+    return Performance(parts)
+
+
+def random_case(seed, case):
+    """performance, margin, start, stop, and the slow look at it; raises: BenchDragonError for what is refused"""
+    rng = hunting.generator(seed, case)
+    performance = random_performance(rng)
+    for _ in range(TRIALS):
+        if SlowPerformance(performance.parts).clearance([performance.begin])[0][0] > 0.0:
+            break
+        performance = random_performance(rng)
+    begin, end = performance.begin, performance.end.time
+    if performance.end.dragon is not None:
+        end = begin + RUN * (end - begin)
+    start = begin + (end - begin) * float(rng.choice([0.0, rng.uniform(0.0, 0.8)]))
+    look = SlowLook(SlowPerformance(performance.parts), start, min(end, start + LONGEST))
+    margin = float(rng.choice([0.0, 0.0, 0.05, 0.2]))
+    low = look.least()[0]
+    if rng.uniform() < 0.5 and 0.0 < low < 1e3:  # benches that just graze meet slowly
+        margin = max(low + float(rng.choice([-1.0, 1.0])) * 10.0 ** float(rng.uniform(-11.0, -2.0)), 0.0)
+    return performance, margin, start, look.until, look
+
+
+def fault(seed, case):
+    """The kind of one random answer, and its fault in words ('' for none)."""
+    try:
+        performance, margin, start, stop, look = random_case(seed, case)
+    except BenchDragonError as refused:
+        return f"refused: {type(refused).__name__}", ""
+    met = first_encounter(performance, margin=margin, start=start, stop=stop)
+    wrong = encounter_fault(met, margin, look)
+    kind = met.outcome.value
+    if met.outcome is Outcome.CONTACT:
+        low, high = met.time_bracket
+        kind += ", wide" if high - low > 1.01 * NARROW else ""
+        # engines see a graze only if it is deeper than their tolerances
+        if not wrong and high - low < 1.01 * NARROW and not encounter_check(met).agree:
+            kind += ", engines differ"
+    return kind, wrong and f"{wrong} in {performance.parts!r}, margin {margin!r}, {start} to {stop}"
+
+
+def encounter_fault(met, margin, look):
+    """What is wrong with a first encounter."""
+    if met.outcome is Outcome.CONTACT_AT_START:
+        gap = look.at(look.begin)
+        return f"{met!r}, but the gap is {gap}" if gap > margin + GAP else ""
+    clear = look.until if met.outcome is Outcome.CLEAR else met.time_bracket[0]
+    least, there = look.least(clear)
+    if least < margin - GAP:
+        return f"proven clear up to {clear} s, but the gap is {least} at {there} s"
+    if met.outcome is Outcome.CONTACT or met.overlapping is not None:
+        gap = look.at(met.time_bracket[1])
+        if gap > margin + GAP:
+            return f"certain encounter at {met.time_bracket[1]} s, but the gap is {gap}"
+    return ""
+
+
+def hunt(seed, seconds):
+    """(cases, faults) of a campaign of some seconds."""
+    found = hunting.hunt(fault, seed, seconds)
+    return found.cases, found.faults
+
+
+if __name__ == "__main__":
+    hunting.main(fault, "encounters")

@@ -1,0 +1,34 @@
+"""The performances of tests/reference/encounters.json."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from core import Arc, Dance, Dragon, Legs, Line, Part, Performance, Route, Spiral
+
+CASES: dict[str, dict[str, Any]] = {
+    case["name"]: case
+    for case in json.loads((Path(__file__).parents[1] / "reference" / "encounters.json").read_text())["cases"]
+}
+PIECES = {"arc": Arc, "line": Line}
+
+
+def path_of(given: dict[str, Any]) -> Spiral | Route:
+    kind, rest = given["kind"], {name: value for name, value in given.items() if name != "kind"}
+    if kind == "spiral":
+        return Spiral(**rest)
+    if kind == "waypoints":
+        return Legs(rest["points"], rest["straight"])
+    pieces = [{name: value for name, value in piece.items() if name != "kind"} for piece in rest["pieces"]]
+    return Route([PIECES[one["kind"]](**piece) for one, piece in zip(rest["pieces"], pieces, strict=True)])
+
+
+def performance_of(case: dict[str, Any]) -> Performance:
+    return Performance(
+        [
+            Part(Dance(Dragon(**one["dragon"]), path_of(one["path"]), one["head_speed"]), one["delay"])
+            for one in case["dances"]
+        ]
+    )

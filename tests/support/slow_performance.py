@@ -1,0 +1,83 @@
+"""Several dragons on one clock, computed a second time slowly and plainly: no code of core, every pair of benches.
+
+Each dragon follows its own slow path; its places are then turned, mirrored and moved as the path says. Only the times
+at which a dance begins and ends are those of core.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from core import Spiral
+from tests.support.slow_route import SlowRoute
+from tests.support.slow_search import SlowDance, rectangles_gap
+
+
+def travelled(dance, times):
+    """Travels of the head (T,) at times (T,) of its own dance, whose passages end at given times [m]."""
+    ends, travel = [0.0, *(passage.until_time for passage in dance.passages)], 0.0
+    for (start, end), passage in zip(pairwise(ends), dance.passages, strict=True):
+        travel = travel + passage.speed * (np.clip(times, start, end) - start)
+    return travel + dance.head_speed * (np.maximum(times - ends[-1], 0.0) + np.minimum(times, 0.0))
+
+
+class SlowPart:
+    """One dragon: its handles at times of the performance."""
+
+    def __init__(self, part):
+        self.dance, self.delay = part.dance, part.delay
+        spiral = isinstance(part.dance.path, Spiral)
+        self.slow = (SlowDance if spiral else SlowRoute).of(part.dance.dragon, part.dance.path)
+        self.begin, self.end = part.dance.begin, part.dance.end.time
+        path = part.dance.path
+        self.place = (path.centre, path.rotation, path.clockwise) if spiral else ((0.0, 0.0), 0.0, True)
+
+    def handles(self, times):
+        """(T, n + 1, 2) [m]"""
+        own = self.slow.handles(travelled(self.dance, np.clip(times - self.delay, self.begin, self.end)))
+        centre, rotation, clockwise = self.place
+        x, y = own[..., 0], own[..., 1] if clockwise else -own[..., 1]
+        turned = [x * np.cos(rotation) - y * np.sin(rotation), x * np.sin(rotation) + y * np.cos(rotation)]
+        return np.stack(turned, axis=-1) + centre
+
+
+class SlowPerformance:
+    """All dragons. chords: of all benches, over the highest speed of a head, by which a slow look chooses its steps."""
+
+    def __init__(self, parts):
+        self.parts = [SlowPart(part) for part in parts]
+        fastest = max(max([p.speed for p in part.dance.passages] + [part.dance.head_speed]) for part in parts)
+        self.chords = np.concatenate([part.slow.chords for part in self.parts]) / fastest
+        self.sides = [np.stack([part.slow.lengths, part.slow.widths], axis=-1) / 2.0 for part in self.parts]
+
+    def clearance(self, times):
+        """(T,) least separation of benches of two dragons [m], and (T, 4) its dragons and benches."""
+        times = np.asarray(times, dtype=float)
+        best, pairs = np.full(len(times), np.inf), np.zeros((len(times), 4), dtype=int)
+        placed = []
+        for part in self.parts:
+            handles = part.handles(times)
+            along = handles[:, :-1] - handles[:, 1:]
+            placed.append((0.5 * (handles[:, 1:] + handles[:, :-1]), along / np.linalg.norm(along, axis=-1)[..., None]))
+        for i, (centres, along) in enumerate(placed):
+            for j, (others, along_others) in enumerate(placed[:i]):
+                apart = np.linalg.norm(centres[:, :, None] - others[:, None, :], axis=-1)
+                radii = [np.linalg.norm(self.sides[k], axis=-1) for k in (i, j)]
+                gap = apart - radii[0][:, None] - radii[1][None, :]
+                # no pair can be nearer than the gap of its circles, nor the nearest one further than their centres
+                near = np.minimum(best, apart.reshape(len(times), -1).min(axis=1))
+                t, a, b = np.nonzero(gap <= np.maximum(near, 0.0)[:, None, None])
+                exact = np.full(gap.shape, np.inf)
+                exact[t, a, b] = rectangles_gap(
+                    centres[t, a], along[t, a], self.sides[i][a], others[t, b], along_others[t, b], self.sides[j][b]
+                )
+                flat = exact.reshape(len(times), -1)
+                least = flat.argmin(axis=1)
+                value = flat[np.arange(len(times)), least]
+                closer = value < best
+                best[closer] = value[closer]
+                a, b = np.unravel_index(least, gap.shape[1:])
+                pairs[closer] = np.stack([np.full_like(a, j), np.full_like(a, i), b, a], axis=-1)[closer]
+        return best, pairs
