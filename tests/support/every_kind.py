@@ -36,7 +36,7 @@ CLEAR, CONTACT, START, UNDECIDED = list(ClaimKind)[:4]
 SAFE, UNSAFE = ClaimKind.SAFE_STRAY, ClaimKind.NO_SAFE_STRAY
 MET = {"benches": (0, 3), "time": 12.5}
 
-EAST = PartSummary("east", FIVE, 0.0, (0.0, 0.0), 0.0, True)
+EAST = PartSummary("red", FIVE, 0.0, (0.0, 0.0), 0.0, True)
 SECOND = PartSummary(None, TWO, 12.5, (3.0, -1.5), 0.5, False)
 BOTH, TEN = ((EAST, SECOND), 2, 7), ((), 10, 2000)
 TOGETHER = {"dragons": (0, 1), "benches": (3, 0), "time": 12.5}
