@@ -155,8 +155,8 @@ class March:
                 if self._narrow(end, until):
                     return Ended.TOUCHED
                 continue
-            self.curvature = max(self.curvature, ensemble.curvature)
-            width = ensemble.width
+            self.curvature = max(self.curvature, float(ensemble.curvature))
+            width = float(ensemble.width)
             self.time = end
             ensemble.advance()
             self._stand_still(speeds)

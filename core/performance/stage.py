@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from core import kernels
-from core.contact.search import NEAR_WORK_BUDGET, Search
+from core.contact.search import NEAR_WORK_BUDGET, ContactSearch
 from core.dance import NEAR_FOLD
 from core.dragon import Dragon
 from core.kernels import Budget
@@ -23,7 +23,7 @@ from core.kernels.constants import (
 )
 from core.paths.frame import Frame
 from core.performance.performance import Part, Performance
-from core.sampling import bisected
+from core.sampling import bisect
 from core.shapes.reach import directions, reach
 
 # The instants of an ensemble at which its benches are laid out: both ends of a step, and another one.
@@ -34,7 +34,7 @@ WIDTH_ROUNDING = 1e-12
 PLACE_ROUNDING = 6.0 * ULP
 # Largest relative error of the time of a part's own dance, and of a time at which its speed changes [1]: a sum each.
 OWN_TIME_ROUNDING = 2.0 * ULP
-# Relative width to which a radius outside which all benches of two dragons keep apart is bisected [1]; and the largest
+# Relative width to which a radius outside which all benches of two dragons keep apart is bisect [1]; and the largest
 # such radius [m].
 RINGS_WIDTH, RINGS_MOST = 1e-3, 1e6
 
@@ -49,7 +49,7 @@ class Player:
     head by less than half of slip at every instant, and the other half is for the places at both ends of a step.
     """
 
-    def __init__(self, part: Part, search: Search, first: int, span: tuple[float, float]) -> None:
+    def __init__(self, part: Part, search: ContactSearch, first: int, span: tuple[float, float]) -> None:
         self.part, self.search, self.first, self.clock = part, search, first, part.dance.clock
         self.begin, self.end, self.benches = part.begin, part.end, part.dance.dragon.benches
         local = [time - part.delay for time in span]
@@ -108,7 +108,7 @@ class Stage:
         self.players: list[Player] = []
         first = 0
         for part in performance.parts:
-            search = Search(part.dance.dragon, part.dance.path, margin, budget=self.budget, stray=stray)
+            search = ContactSearch(part.dance.dragon, part.dance.path, margin, budget=self.budget, stray=stray)
             search.resize(part.dance.dragon.benches)
             self.players.append(Player(part, search, first, span))
             first += part.dance.dragon.benches + 1
@@ -329,4 +329,4 @@ def clear_of_each_other(growth: float, angle: float, dragons: tuple[Dragon, Drag
 
     if not clears(RINGS_MOST):
         return None
-    return bisected(clears, 0.0, RINGS_MOST, relative=RINGS_WIDTH)[1] * (1.0 + CLEAR_SPARE)
+    return bisect(clears, 0.0, RINGS_MOST, relative=RINGS_WIDTH)[1] * (1.0 + CLEAR_SPARE)
