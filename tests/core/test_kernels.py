@@ -80,7 +80,7 @@ EXPRESSIONS = {
     "envelope": "core.envelope(Dance(Dragon(4), Turn(1.7)), start=6.0, stop=8.0)",
     "tolerance": "core.tolerance(Dance(Dragon(9), Spiral()), start=406.0, stop=410.0)",
     "first encounter": "core.first_encounter(core.Performance([core.Part("
-    "Dance(Dragon(9), Spiral(1.1, 3.0, rotation=turn))) for turn in (0.0, 3.0)]), start=20.0)",
+    "Dance(Dragon(9), Spiral(1.1, 3.0, rotation=turn))) for turn in (0.0, 3.0)]), start=9.0)",
     "first encounter with a stray": "core.first_encounter(core.Performance([core.Part(Dance(Dragon(4), core.Route("
     "[core.Line((-x, -y), (x, y))]))) for x, y in ((20, 0), (0, 20))]), margin=0.1, stray=0.02, start=15.0)",
     "first encounter up to a fold": "core.first_encounter(core.Performance([core.Part("
