@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
 
-from core.claims.certificate import Certificate
+from core.claims.certificate import WithClaim
 from core.claims.claim import EncounterClaim
 from core.contact.answer import Feature, Outcome
 from core.dance import EndReason
@@ -25,7 +25,7 @@ class NearPass(Readable):
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class EncounterEvidence(Certificate):
+class EncounterEvidence(WithClaim):
     """Evidence for the answer.
 
     claim: what is known, as a kind and values; method: the claim and its proof in sentences (core/claims)
