@@ -16,7 +16,8 @@ DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
 CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
 PERFORMANCE = core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(40.0, 0.0))))])
-ENCOUNTER = core.first_encounter(PERFORMANCE, stop=9.0)
+# The second one stands where the first one does.
+ENCOUNTER = core.first_encounter(core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, SPIRAL))]), stop=9.0)
 # A valid call of each function; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.bench_outlines: {"dragon": DRAGON, "handles": np.zeros((6, 2)) + np.arange(6)[:, None]},
