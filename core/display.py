@@ -26,7 +26,10 @@ _FIELDS = {
         witness_a witness_b x y
     """,
     "1/m": "bound",
-    "s": "clear_until correlation_time peak_time start step stop time time_at_unit_head_speed time_bracket until_time",
+    "s": """
+        clear_until correlation_time delay peak_time start step stop time time_at_unit_head_speed time_bracket
+        until_time
+    """,
     "": "confidence correlation_benches limits normal probability speed_ratio union_bound",
     "turns": "end_turns start_turns",
     "m/rad": "growth",

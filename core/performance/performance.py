@@ -107,6 +107,7 @@ class Performance(Readable):
     venue: Venue | None = None
     begin: float = field(init=False, repr=False, compare=False)
     end: PerformanceEnd = field(init=False, repr=False, compare=False)
+    _units = {"begin": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def __post_init__(self) -> None:
         parts = tuple(checked_list("parts", self.parts, "a list of Part objects"))

@@ -65,6 +65,7 @@ def results() -> Iterator[Any]:
     yield core.propose(SQUARE, Dragon(150), figures=["ring"]).reason
     yield from parts(core.course(core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0), Dragon(2)))
     yield core.Misplaced("well", 3, (1.0, 2.0))
+    yield core.NearPass(75.06, 0.06, (0, 1), (1, 4))
 
 
 INPUTS = [
