@@ -53,7 +53,7 @@ class ProposalsRequest(VenueFields, DragonFields, strict=True):
         description="What is best. tolerance: the largest proven stray; benches: the most benches; turns: the most "
         "turns of the head; duration: the longest dance",
     )
-    count: Annotated[Whole, Field(ge=1, le=COUNT_MOST, description="Number of proposals")] = 3
+    count: Whole = Field(3, ge=1, le=COUNT_MOST, description="Number of proposals")
 
 
 class Near(Answer):

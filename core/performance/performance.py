@@ -100,7 +100,7 @@ class Performance(Readable):
     >>> two = [Part(Dance(Dragon(60), Spiral(1.1, 8.0, rotation=turn))) for turn in (0.0, 3.141592653589793)]
     >>> performance = Performance(two)
     >>> performance.begin, round(performance.end.time, 3)
-    (0.0, 217.609)
+    (0.0, 217.61)
     """
 
     parts: Sequence[Part]
