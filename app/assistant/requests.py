@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import binascii
 import json
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ from mcp import types
 
 from app.assistant.tools import Call, filled_path
 from app.wire.problem import PROBLEM_TYPE, Problem, problem_of
-from app.wire.question import BYTES, JSON
+from app.wire.question import BYTES, JSON, short_json
 
 # Longer answers are refused with advice: an assistant reads every character of an answer [characters].
 ANSWER_MAX = 100_000
@@ -50,20 +49,23 @@ def file_content(arguments: dict[str, Any], folder: Path | None, most: int) -> b
     if text is not None:
         try:
             return base64.b64decode(str(text), validate=True)
-        except binascii.Error as error:
+        except ValueError as error:
             raise _refused(422, "invalid-value", "content must be base64: {why}.", why=str(error)) from error
     if folder is None:
         raise _refused(403, "forbidden", "file must be left out: this door reads no files; give the content.")
-    path = folder.joinpath(str(name)).resolve()
-    if not path.is_relative_to(folder):
-        raise _refused(403, "forbidden", "file must be in the folder of this door, got {name}.", name=str(name))
     try:
+        path = folder.joinpath(str(name)).resolve()
+        if not path.is_relative_to(folder):
+            raise _refused(403, "forbidden", "file must be in the folder of this door, got {name}.", name=str(name))
+        if not path.is_file():
+            raise _refused(404, "not-found", "file must be a file, got {name}.", name=str(name))
         if path.stat().st_size > most:
             raise _refused(413, "too-large", "file must have at most {most} bytes.", most=most)
         return path.read_bytes()
-    except OSError as error:
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or "it cannot be a name"
         words = "file must be readable, got {name}: {why}."
-        raise _refused(404, "not-found", words, name=str(name), why=error.strerror or "no such file") from error
+        raise _refused(404, "not-found", words, name=short_json(str(name)), why=why) from error
 
 
 async def answer(
@@ -94,7 +96,8 @@ async def answer(
             content, headers = json.dumps(body).encode(), headers | {"Content-Type": JSON}
         query = urlencode({name: _plain(value) for name, value in rest.items() if value is not None}, doseq=True)
         transport = httpx2.ASGITransport(app=app, client=client, raise_app_exceptions=False)
-        async with httpx2.AsyncClient(transport=transport, base_url="http://127.0.0.1", timeout=HANGS) as service:
+        host = settings.hosts.split(",")[0] or "127.0.0.1"
+        async with httpx2.AsyncClient(transport=transport, base_url=f"http://{host}", timeout=HANGS) as service:
             response = await service.request(
                 call.method, f"{path}?{query}" if query else path, content=content, headers={"Accept": ACCEPT} | headers
             )

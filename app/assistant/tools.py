@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
+from urllib.parse import quote
 
 from app.wire.question import BYTES, JSON
 
@@ -152,6 +153,6 @@ def filled_path(call: Call, arguments: dict[str, Any]) -> str:
 
     def value(match: re.Match[str]) -> str:
         schema = call.schema["properties"][match[1]]
-        return str(arguments.get(match[1], schema.get("default", "")))
+        return quote(str(arguments.get(match[1], schema.get("default", ""))), safe="")
 
     return re.sub(r"\{(\w+)\}", value, call.path)

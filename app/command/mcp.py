@@ -10,6 +10,7 @@ import typer
 
 from app.command.usage import path
 from app.extras import require
+from core.errors import Given, InvalidValue
 
 
 def mcp(
@@ -32,8 +33,13 @@ def mcp(
     require("mcp", "mcp", "mcp")
     from app.assistant.server import create_server, serve_http, serve_streams
 
+    if folder and not folder.is_dir():
+        raise InvalidValue.in_words("folder", "--folder must be a folder", got=Given(str(folder), str(folder)))
     server: Any = create_server(folder=folder and folder.resolve(), twins=twins)
     if port is None:
         asyncio.run(serve_streams(server))
-    else:
+        return
+    try:
         serve_http(server, host, port)
+    except SystemExit as stop:  # The port is taken, or the address is not local; uvicorn has printed it.
+        raise typer.Exit(2 if stop.code else 0) from stop

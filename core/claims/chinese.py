@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from core.claims.claim import (
@@ -58,27 +58,28 @@ PIECES = {"line": "直线", "arc": "圆弧", "coil": "螺线", "clothoid": "回�
 
 
 def contact(claim: ContactClaim) -> str:
-    start, may = format_number(claim.start), "可能" if claim.stray else ""
-    within = f"间距{may}小于 {format_number(claim.margin)} m"
-    if claim.kind is ClaimKind.CONTACT_AT_START:
-        fact, proof = f"{_pair(claim)}{within if claim.margin else f'{may}相碰'}。", MEASURED
-    elif claim.clear_until is None:
-        before = (
-            f"在 {format_number(claim.time)} s（届时 {_benches(claim)}相碰或过近）之前，"
-            if claim.time is not None
-            else ""
-        )
-        fact, proof = f"自 {start} s 起，{before}无法判定{PAIRS}是否相碰或过近。", TRIED
-    else:
-        apart = f"间距都不小于 {format_number(claim.margin)} m" if claim.margin else "都不相碰"
-        then = _end(claim) or f"；{_pair(claim)}{within if claim.margin else f'{may}重叠'}。"
-        fact = f"{start} s 至 {format_number(claim.clear_until)} s，{PAIRS}{apart}{then}"
-        proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
-    strayed = f"只要每个孔离其位置不超过 {format_number(claim.stray)} m 且每节孔距不变，"
-    return f"{_dance(claim.dance)}：{strayed if claim.stray else ''}{fact}{proof}"
+    proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
+    return _search(claim, _dance(claim.dance), (PAIRS, PAIRS), ENDS, proof)
 
 
 def encounter(claim: EncounterClaim) -> str:
+    parts = "；".join(_part(k, part) for k, part in enumerate(claim.parts))
+    parts = parts or f"{claim.part_count} 条龙，共 {claim.bench_count} 节板凳"
+    pairs = ("不同龙的板凳", "不同龙的任何两节板凳")
+    return _search(claim, parts, pairs, PERFORMANCE_ENDS, ENCOUNTERS if claim.part_count > 1 else ONE_DRAGON)
+
+
+def _search(
+    claim: ContactClaim | EncounterClaim,
+    scene: str,
+    pairs: tuple[str, str],
+    ends: Mapping[EndReason, str],
+    proof: str,
+) -> str:
+    """The claim of a search.
+
+    scene: what dances; pairs: which benches it judges, without and with a result; ends, proof: words of such a search
+    """
     start, may = format_number(claim.start), "可能" if claim.stray else ""
     within = f"间距{may}小于 {format_number(claim.margin)} m"
     if claim.kind is ClaimKind.CONTACT_AT_START:
@@ -89,17 +90,13 @@ def encounter(claim: EncounterClaim) -> str:
             if claim.time is not None
             else ""
         )
-        fact, proof = f"自 {start} s 起，{before}无法判定不同龙的板凳是否相碰或过近。", TRIED
+        fact, proof = f"自 {start} s 起，{before}无法判定{pairs[0]}是否相碰或过近。", TRIED
     else:
         apart = f"间距都不小于 {format_number(claim.margin)} m" if claim.margin else "都不相碰"
-        then = PERFORMANCE_ENDS[claim.end] if claim.end else _end(claim)
-        then = then or f"；{_pair(claim)}{within if claim.margin else f'{may}重叠'}。"
-        fact = f"{start} s 至 {format_number(claim.clear_until)} s，不同龙的任何两节板凳{apart}{then}"
-        proof = ENCOUNTERS if claim.part_count > 1 else ONE_DRAGON
+        then = _end(claim, ends) or f"；{_pair(claim)}{within if claim.margin else f'{may}重叠'}。"
+        fact = f"{start} s 至 {format_number(claim.clear_until)} s，{pairs[1]}{apart}{then}"
     strayed = f"只要每个孔离其位置不超过 {format_number(claim.stray)} m 且每节孔距不变，"
-    parts = "；".join(_part(k, part) for k, part in enumerate(claim.parts))
-    parts = parts or f"{claim.part_count} 条龙，共 {claim.bench_count} 节板凳"
-    return f"{parts}：{strayed if claim.stray else ''}{fact}{proof}"
+    return f"{scene}：{strayed if claim.stray else ''}{fact}{proof}"
 
 
 def stray(claim: StrayClaim) -> str:
@@ -156,10 +153,10 @@ def _pair(claim: ContactClaim | EncounterClaim) -> str:
     return f"{format_number(claim.time)} s 时 {_benches(claim)}"
 
 
-def _end(claim: ContactClaim | EncounterClaim) -> str:
+def _end(claim: ContactClaim | EncounterClaim, ends: Mapping[EndReason, str]) -> str:
     """The end of the sentence about a time without a contact, unless a contact ends it."""
     if claim.kind is not ClaimKind.UNDECIDED:
-        return ENDS[claim.end] if claim.end else ""
+        return ends[claim.end] if claim.end else ""
     if claim.time is None:
         return "；其后无法判定。"
     return f"；其后在 {format_number(claim.time)} s 之前无法判定，届时 {_benches(claim)}相碰或过近。"

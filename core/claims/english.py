@@ -6,7 +6,7 @@ dance, or an instant that is not proven.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from core.claims.claim import (
@@ -66,36 +66,32 @@ BETWEEN = {
 
 
 def contact(claim: ContactClaim) -> str:
-    start, stray = format_number(claim.start), format_number(claim.stray)
-    apart = f"no two benches that share no handle {_near(claim)}"
-    if claim.kind is ClaimKind.CONTACT_AT_START:
-        fact, proof = f"at {_pair(claim)} {_near(claim, may=claim.stray > 0.0)}.", MEASURED
-    elif claim.clear_until is None:
-        undecided = f"it is not decided whether two benches that share no handle {_near(claim)}"
-        fact, proof = f"from {start} s on {undecided}{_before(claim)}.", TRIED
-    else:
-        fact = f"from {start} s to {format_number(claim.clear_until)} s {apart}{_then(claim)}"
-        proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
-    strayed = f"while every hole is within {stray} m of its place, and every chord keeps its length, "
-    return f"{_dance(claim.dance)}: {strayed if claim.stray else ''}{fact} {proof}"
+    proof = PROOF if claim.dance.dragon.benches > 2 else NO_PAIR
+    return _search(claim, _dance(claim.dance), "two benches that share no handle", ENDS, proof)
 
 
 def encounter(claim: EncounterClaim) -> str:
+    parts = "; ".join(_part(k, part) for k, part in enumerate(claim.parts))
+    parts = parts or f"{claim.part_count} dragons with {claim.bench_count} benches in all"
+    proof = ENCOUNTERS if claim.part_count > 1 else ONE_DRAGON
+    return _search(claim, parts, "benches of two dragons", PERFORMANCE_ENDS, proof)
+
+
+def _search(
+    claim: ContactClaim | EncounterClaim, scene: str, pairs: str, ends: Mapping[EndReason, str], proof: str
+) -> str:
+    """The claim of a search. scene: what dances; pairs: which benches it judges; ends, proof: words of such a search"""
     start, stray = format_number(claim.start), format_number(claim.stray)
-    apart = f"no benches of two dragons {_near(claim)}"
     if claim.kind is ClaimKind.CONTACT_AT_START:
         fact, proof = f"at {_pair(claim)} {_near(claim, may=claim.stray > 0.0)}.", MEASURED
     elif claim.clear_until is None:
-        undecided = f"it is not decided whether benches of two dragons {_near(claim)}"
+        undecided = f"it is not decided whether {pairs} {_near(claim)}"
         fact, proof = f"from {start} s on {undecided}{_before(claim)}.", TRIED
     else:
         until = format_number(claim.clear_until)
-        then = PERFORMANCE_ENDS[claim.end] if claim.end else _then(claim)
-        fact, proof = f"from {start} s to {until} s {apart}{then}", ENCOUNTERS if claim.part_count > 1 else ONE_DRAGON
+        fact = f"from {start} s to {until} s no {pairs} {_near(claim)}{_then(claim, ends)}"
     strayed = f"while every hole is within {stray} m of its place, and every chord keeps its length, "
-    parts = "; ".join(_part(k, part) for k, part in enumerate(claim.parts))
-    parts = parts or f"{claim.part_count} dragons with {claim.bench_count} benches in all"
-    return f"{parts}: {strayed if claim.stray else ''}{fact} {proof}"
+    return f"{scene}: {strayed if claim.stray else ''}{fact} {proof}"
 
 
 def stray(claim: StrayClaim) -> str:
@@ -165,11 +161,11 @@ def _overlap(claim: ContactClaim | EncounterClaim) -> str:
     return "may overlap" if claim.stray else "overlap"
 
 
-def _then(claim: ContactClaim | EncounterClaim) -> str:
+def _then(claim: ContactClaim | EncounterClaim, ends: Mapping[EndReason, str]) -> str:
     """The end of the sentence about a time without a contact."""
     if claim.kind is ClaimKind.UNDECIDED:
         return f"; whether any do after that is not decided{_before(claim)}."
-    return ENDS[claim.end] if claim.end else f", and at {_pair(claim)} {_overlap(claim)}."
+    return ends[claim.end] if claim.end else f", and at {_pair(claim)} {_overlap(claim)}."
 
 
 def _before(claim: ContactClaim | EncounterClaim) -> str:

@@ -117,7 +117,12 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
             assert name in problem_of(await door.call_tool("grade", {"file": name}))["detail"]
         neither = problem_of(await door.call_tool("grade", {}))
         assert neither["detail"] == "file or content must be given, and not both."
-        assert "base64" in problem_of(await door.call_tool("places", {"content": "?"}))["detail"]
+        for content in ("?", "龙"):
+            assert "base64" in problem_of(await door.call_tool("places", {"content": content}))["detail"]
+        for name in (".", "a\0b"):
+            assert problem_of(await door.call_tool("grade", {"file": name}))["status"] == 404
+        for job in ("../healthz", "?", "a/b"):
+            assert problem_of(await door.call_tool("job_status", {"job_id": job}))["status"] in (404, 422)
         with pytest.raises(MCPError, match="nothing is no tool of this door; it has trajectory, collision_time"):
             await door.call_tool("nothing", {})
 
@@ -158,6 +163,11 @@ def test_without_a_folder_no_file_is_read() -> None:
     )
 
 
+def test_a_door_of_a_service_with_named_hosts_answers() -> None:
+    contact = with_door(lambda door: door.call_tool("collision_time", {}), BENCH_DRAGON_HOSTS="dance.example,[::1]")
+    assert contact.structured_content["benches"] == [0, 8]
+
+
 def test_over_http_the_token_is_that_of_the_assistant(tmp_path: Path) -> None:
     """Over the standard streams it is that of the process, which whoever started it may use."""
     grading = {"content": base64.b64encode(WORKBOOK.read_bytes()).decode()}
@@ -182,7 +192,19 @@ def test_the_pages_of_the_guide_are_resources() -> None:
     assert with_door(pages) == {path.stem: path.read_text("utf-8") for path in PAGES.glob("*.md")}
 
 
-def test_a_port_outside_its_limits_is_one_line() -> None:
-    done = subprocess.run([COMMAND, "mcp", "--port", "99999"], capture_output=True, text=True, timeout=PATIENCE)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "Error: --port must be from 0 to 65535, got 99999\n"
+def test_wrong_options_are_one_line(tmp_path: Path) -> None:
+    file = tmp_path / "a"
+    file.write_text("")
+    for options, message in [
+        (["--port", "99999"], "--port must be from 0 to 65535, got 99999"),
+        (["--folder", str(file)], f"--folder must be a folder, got {file}"),
+        (["--folder", ""], "--folder must not be an empty name: the current folder is ."),
+    ]:
+        done = subprocess.run([COMMAND, "mcp", *options], capture_output=True, text=True, timeout=PATIENCE)
+        assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {message}\n")
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        done = subprocess.run([COMMAND, "mcp", "--port", port], capture_output=True, text=True, timeout=PATIENCE)
+    assert done.returncode == 2
+    assert "address already in use" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -25,8 +25,8 @@ SPEC: dict[str, Any] = {
     "request": {"benches": 60},
     "shard_size": 10,
 }
-# Some seconds of work, a shard of which is done at once: progress is reported twice a second, and three kills leave more
-# than a second of it (0.045 s a design, 2026-11-27).
+# Some seconds of work, a shard of which is done at once. Progress is reported twice a second, and three kills leave
+# more than a second of work (0.045 s a design, 2026-11-27).
 LONG_SPEC: dict[str, Any] = {
     "question": "check",
     "over": {"dragon.width": {"start": 0.2, "stop": 0.3, "count": 60}},
