@@ -48,8 +48,8 @@ app.files
 app.grade
 app.maps
 app.plan
-app.questions
 app.contest
+app.questions
 app.sweeps
 app.jobs
 app.service

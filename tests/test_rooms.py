@@ -20,7 +20,8 @@ TESTS = ROOT / "tests"
 TOGETHER = {
     "assistant/test_assistant.py": "assistant/guide assistant/requests assistant/server assistant/tools command/mcp",
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
-    " contest/sensitivity contest/solved contest/tables",
+    " contest/sensitivity contest/solved contest/tables questions/contest_kit",
+    "files/test_figures.py": "files/figure_words",
     "files/test_film.py": "files/film_spec questions/films",
     "grade/test_command.py": "command/grade grade/contacts grade/names grade/numbers grade/shortcuts",
     "grade/test_diagnosis.py": "grade/chains grade/fits grade/geometry grade/outside grade/rings grade/rubric",

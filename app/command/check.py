@@ -22,7 +22,7 @@ from app.questions import figures
 from app.questions.check import CheckRequest, LeastClearance, Nearest, Report
 from app.questions.figures import Format, TrajectoryFigureRequest
 from app.settings import Settings
-from app.wire.dances import TimeRange, clock_of
+from app.wire.dances import PlacedDance, TimeRange, clock_of
 from app.wire.messages import checked
 from app.wire.question import Terms
 from app.wire.refusals import refusing
@@ -94,7 +94,7 @@ def _drawn_check(request: CheckRequest, answer: Report, format: Format, time: fl
     if time is None:
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
-    fields = {name: getattr(request, name) for name in TrajectoryFigureRequest.model_fields if name != "time"}
+    fields = {name: getattr(request, name) for name in PlacedDance.model_fields}
     # The time comes from an option, not from the file, so a refusal of it must name the option.
     picture = TrajectoryFigureRequest.model_construct(**fields, time=time)
     with refusing(picture):

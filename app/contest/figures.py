@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import zip_longest
 from typing import Any
 
@@ -17,7 +18,7 @@ from matplotlib.patheffects import withStroke
 import core
 from app.contest.sensitivity import Panel, panels
 from app.contest.solved import Solved
-from app.files.drawing import canvas, file_bytes
+from app.files.drawing import canvas, file_bytes, in_turn
 from app.files.fonts import families
 from app.files.tables import handle_names
 from app.files.words import Say
@@ -56,16 +57,20 @@ def figures(solved: Solved, say: Say, progress: Callable[[float], None]) -> Iter
     family = families(say.language)
     of_turn = (geometry, amplification) if solved.turned else ()
     kinds = (positions, snapshots, clearance, staircase, *of_turn, sensitivity)
-    for k, draw in enumerate(kinds):
-        with matplotlib.rc_context({"font.family": family}):
-            figure, caption = draw(solved, say)
-            # The layout is the same for all three files, and takes as long as writing one. With the engine "none", a
-            # placeholder, savefig would still draw twice.
-            figure.draw_without_rendering()
-            figure.set_layout_engine(None)
-            files = {kind: file_bytes(figure, kind, PNG_DPI) for kind in FORMATS}
-        progress((k + 1) / len(kinds))
-        yield Drawn(draw.__name__, caption, files)
+    for k, draw in enumerate(kinds, start=1):
+        drawn = in_turn(partial(_drawn, draw, solved, say, family))
+        progress(k / len(kinds))
+        yield drawn
+
+
+def _drawn(draw: Callable[[Solved, Say], tuple[Figure, str]], solved: Solved, say: Say, family: Sequence[str]) -> Drawn:
+    with matplotlib.rc_context({"font.family": family}):
+        figure, caption = draw(solved, say)
+        # The layout is the same for all three files, and takes as long as writing one. With the engine "none", a
+        # placeholder, savefig would still draw twice.
+        figure.draw_without_rendering()
+        figure.set_layout_engine(None)
+        return Drawn(draw.__name__, caption, {kind: file_bytes(figure, kind, PNG_DPI) for kind in FORMATS})
 
 
 def positions(solved: Solved, say: Say) -> tuple[Figure, str]:
@@ -155,7 +160,12 @@ def staircase(solved: Solved, say: Say) -> tuple[Figure, str]:
     """Question 3: radius of the head at first contact, against the pitch."""
     figure, radius, least = canvas(8.0, 4.8), solved.request.turning_diameter / 2, solved.pitch.pitch
     scan, _ = scan_near_minimum(
-        solved.dragon, samples=STAIRS, turning_radius=radius, start_turns=solved.request.start_turns, margin=0.0
+        solved.dragon,
+        samples=STAIRS,
+        turning_radius=radius,
+        start_turns=solved.request.start_turns,
+        margin=0.0,
+        budget=solved.budget,
     )
     axes = figure.subplots()
     _stairs(axes, scan, radius, least, say)

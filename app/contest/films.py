@@ -47,4 +47,7 @@ def films(
         for form in forms:
             spec = FilmSpec(start, stop, wanted.seconds, *LOOKS[form], say.language, touching=touching)
             file = name + ENDINGS[form]
-            yield file, film.film(dance, spec, form, title=title, progress=partial(progress, file))
+            yield (
+                file,
+                film.film(dance, spec, form, title=title, budget=solved.budget, progress=partial(progress, file)),
+            )

@@ -7,11 +7,13 @@ comes last. So a folder with a report holds only files of the report's run.
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 import orjson
 
@@ -32,6 +34,8 @@ from core import InvalidValue
 FIGURES, TABLES = "figures", "tables"
 # Folder for files until all are ready, the file that comes last, and the name of the lock.
 UNFINISHED, REPORT, ROLE = ".unfinished", "report.md", ".contest"
+# Endings of files that an archive makes smaller.
+TEXTS = (".csv", ".json", ".md", ".svg", ".tex")
 # Files that a kit may hold or lack.
 OPTIONAL = (
     "result4.xlsx",
@@ -79,7 +83,10 @@ def write_kit(
         solved = solve(request, Terms(), lambda share: progress(say("answers", "求解"), share))
         kit = Kit(results=answers(solved, say), no_turn=solved.why_no_turn)
         shutil.rmtree(unfinished, ignore_errors=True)
-        _write(unfinished, solved, kit, say, shot, progress)
+        for name, data in files_of(solved, kit, say, shot, progress):
+            (unfinished / name).parent.mkdir(parents=True, exist_ok=True)
+            write_whole(unfinished / name, data)
+            kit.files.append(name)
         _take_over(folder, kit.files)
     finally:
         try:
@@ -99,23 +106,16 @@ def _take_over(folder: Path, names: list[str]) -> None:
         os.replace(folder / UNFINISHED / name, folder / name)
 
 
-def _write(
-    folder: Path, solved: Solved, kit: Kit, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
-) -> None:
-    """Write every file into a new folder, the report last."""
+def files_of(
+    solved: Solved, kit: Kit, say: Say, shot: films.Wanted, progress: Callable[[str, float], None]
+) -> Iterator[tuple[str, bytes]]:
+    """Name and bytes of each file as it is made, the report last. kit: receives the reason why there are no pictures"""
     tables = paper_tables(solved, say)
-
-    def write(name: str, data: bytes) -> None:
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        write_whole(folder / name, data)
-        kit.files.append(name)
-
-    for name, data in _workbooks(solved, say.language):
-        write(name, data)
-    write("answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n")
+    yield from _workbooks(solved, say.language)
+    yield "answers.json", orjson.dumps(kit.results, option=orjson.OPT_INDENT_2) + b"\n"
     for table in tables:
         for ending, text in (("csv", table.to_csv()), ("md", table.to_markdown()), ("tex", table.to_latex())):
-            write(f"{TABLES}/{table.name}.{ending}", text.encode("utf-8-sig" if ending == "csv" else "utf-8"))
+            yield f"{TABLES}/{table.name}.{ending}", text.encode("utf-8-sig" if ending == "csv" else "utf-8")
     drawn, filmed = [], []
     try:
         require("figures", "folder", "a figure")
@@ -124,13 +124,40 @@ def _write(
         for figure in figures(solved, say, lambda share: progress(say("figures", "绘图"), share)):
             drawn.append(figure)
             for ending, data in figure.files.items():
-                write(f"{FIGURES}/{figure.name}.{ending}", data)
+                yield f"{FIGURES}/{figure.name}.{ending}", data
         for name, data in films.films(solved, say, shot, progress):
             filmed.append(name)
-            write(name, data)
+            yield name, data
     except MissingPackage as missing:
         kit.missing = missing
-    write(REPORT, report(solved, kit.results, tables, drawn, filmed, say).encode())
+    page = report(solved, kit.results, tables, drawn, filmed, say)
+    if kit.missing:
+        page += (
+            "\n"
+            + say("Not in this kit: figures and films, because ", "本文件夹没有图和动画，原因：")
+            + kit.missing.message
+            + "\n"
+        )
+    yield REPORT, page.encode()
+
+
+def zip_of(
+    request: ContestRequest,
+    language: Language,
+    shot: films.Wanted,
+    terms: Terms,
+    progress: Callable[[str, float], None],
+) -> bytes:
+    """The kit as a ZIP archive with the same bytes for the same request. raises: as write_kit, but for the folder"""
+    require("xlsx", "language", "contest")
+    say, sink = Say(language), io.BytesIO()
+    solved = solve(request, terms, lambda share: progress(say("answers", "求解"), share))
+    kit = Kit(results=answers(solved, say), no_turn=solved.why_no_turn)
+    with ZipFile(sink, "w") as archive:
+        for name, data in files_of(solved, kit, say, shot, progress):
+            # Without a time of its own, which is then the first that an archive can have.
+            archive.writestr(ZipInfo(name), data, ZIP_DEFLATED if name.endswith(TEXTS) else ZIP_STORED)
+    return sink.getvalue()
 
 
 def _workbooks(solved: Solved, language: Language) -> Iterator[tuple[str, bytes]]:

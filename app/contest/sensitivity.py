@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,14 +10,14 @@ import numpy as np
 import core
 from app.contest.solved import ContestRequest, Solved
 from app.files.words import Say
-from core import BenchDragonError, Dance, Turn
+from core import BenchDragonError, Budget, Dance, TooMuchWork, Turn
 
 # Number of values on each curve.
 VALUES = 25
 # Ranges of the width [m], of the turning diameter [m], of the length of a body [m] and of the ratio of the arcs [1].
 WIDTHS, DIAMETERS, LENGTHS, RATIOS = (0.26, 0.38), (7.0, 11.0), (1.8, 2.6), (0.5, 2.1)
 
-Answer = Callable[[ContestRequest], float | None]
+Answer = Callable[[ContestRequest, Budget], float | None]
 
 
 @dataclass(frozen=True)
@@ -57,34 +56,39 @@ def panels(solved: Solved, say: Say) -> list[Panel]:
         (ratio, speed, "ratio", RATIOS, _speed, fastest),
     ]
     return [
-        Panel(words, label, _curve(request, name, limits, answer), (getattr(request, name), own), answer is _speed)
+        Panel(words, label, _curve(solved, name, limits, answer), (getattr(request, name), own), answer is _speed)
         for words, label, name, limits, answer, own in wanted
         if own is not None
     ]
 
 
-def _curve(
-    request: ContestRequest, name: str, limits: tuple[float, float], answer: Answer
-) -> list[tuple[float, float]]:
+def _curve(solved: Solved, name: str, limits: tuple[float, float], answer: Answer) -> list[tuple[float, float]]:
     points = []
     for value in np.linspace(*limits, VALUES).tolist():
-        with suppress(BenchDragonError):  # no answer: these benches do not fit on this spiral or turn
-            if (result := answer(request.model_copy(update={name: value}))) is not None:
-                points.append((value, result))
+        try:
+            result = answer(solved.request.model_copy(update={name: value}), solved.budget)
+        except BenchDragonError as error:
+            if isinstance(error, TooMuchWork) and error.stopped:
+                raise
+            continue  # no answer: these benches do not fit on this spiral or turn
+        if result is not None:
+            points.append((value, result))
     return points
 
 
-def _pitch(request: ContestRequest) -> float:
+def _pitch(request: ContestRequest, budget: Budget) -> float:
     dragon = request.to_dragon(request.benches)
     return core.minimum_pitch(
-        dragon, turning_radius=request.turning_diameter / 2, start_turns=request.start_turns
+        dragon, turning_radius=request.turning_diameter / 2, start_turns=request.start_turns, budget=budget
     ).pitch
 
 
-def _contact(request: ContestRequest) -> float | None:
-    return core.first_contact(Dance(request.to_dragon(request.benches), request.to_path(), request.head_speed)).time
+def _contact(request: ContestRequest, budget: Budget) -> float | None:
+    dance = Dance(request.to_dragon(request.benches), request.to_path(), request.head_speed)
+    return core.first_contact(dance, budget=budget).time
 
 
-def _speed(request: ContestRequest) -> float:
+def _speed(request: ContestRequest, budget: Budget) -> float:
     turn = Turn(request.turn_pitch, request.turning_diameter / 2, request.ratio, start_turns=request.start_turns)
-    return core.maximum_head_speed(Dance(request.to_dragon(request.benches), turn), request.speed_limit).head_speed
+    dance = Dance(request.to_dragon(request.benches), turn)
+    return core.maximum_head_speed(dance, request.speed_limit, budget=budget).head_speed

@@ -12,7 +12,7 @@ from pydantic import Field
 import core
 from app.files.tables import PAPER_HANDLES
 from app.wire.question import DanceQuery, Instant, SpeedLimit, Terms, TurningDiameter, measure
-from core import Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
+from core import Budget, Dance, Dragon, InvalidValue, Outcome, Trajectory, Turn
 from core.values import Floats
 
 # Number of intervals between the instants of the tables that the contest requires; for the turn, from -span to span.
@@ -57,6 +57,7 @@ class Solved:
     spiral: the dance of questions 1 to 3
     inwards: every second of question 1; meeting: the instant `met_at` of first contact; contact: the search's answer
     turned: None where no turn can be danced, with the reason why_no_turn
+    budget: of all that is computed from these answers
     """
 
     request: ContestRequest
@@ -67,6 +68,7 @@ class Solved:
     meeting: Trajectory
     pitch: core.MinimumPitch
     turned: Turned | None
+    budget: Budget
     why_no_turn: str = ""
 
     @property
@@ -118,6 +120,7 @@ def solve(request: ContestRequest, terms: Terms, progress: Callable[[float], Non
         meeting=meeting,
         pitch=least,
         turned=turned,
+        budget=terms.budget,
         why_no_turn=why,
     )
 

@@ -5,10 +5,17 @@ The same numbers give the same bytes, so an answer may carry a strong ETag.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from app.files.drawing import canvas, draw_venue, file_bytes, in_turn, look_around
+from app.files.figure_words import translate
+from app.files.fonts import families
+from app.files.tables import Language
 from core import Budget, MinimumPitch, Venue, first_contact, trajectory
 from core.dance import Dance
 from core.design.pitch_scan import JUMP_WIDTH, SCAN_FROM, SCAN_TO, PitchScan
@@ -16,14 +23,36 @@ from core.errors import format_number
 from core.plots import GREY, VERMILION, draw_scan
 
 
-def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float = 300.0, format: str = "svg") -> bytes:
+def _file(draw: Callable[[], Figure], format: str, language: Language) -> bytes:
+    """The file of a figure with its words in this language. raises: MissingPackage without a font for it"""
+    family = families(language)
+
+    def drawn() -> bytes:
+        if language is Language.ENGLISH:
+            return file_bytes(draw(), format)
+        with matplotlib.rc_context({"font.family": family}):
+            figure = draw()
+            translate(figure)
+            return file_bytes(figure, format)
+
+    return in_turn(drawn)
+
+
+def trajectory_figure(
+    dance: Dance,
+    *,
+    venue: Venue | None = None,
+    time: float = 300.0,
+    format: str = "svg",
+    language: Language = Language.ENGLISH,
+) -> bytes:
     """Figure 6: every handle at one instant, coloured by its speed, on any path and in any venue.
 
     time: [s]; raises: OutsideRun after the end of the run
     """
     result = trajectory(dance, [time])
 
-    def drawn() -> bytes:
+    def drawn() -> Figure:
         figure = canvas(7.2, 6.2)
         axes = result.plot(figure.add_subplot())
         if venue:
@@ -31,9 +60,9 @@ def trajectory_figure(dance: Dance, *, venue: Venue | None = None, time: float =
             look_around(figure, axes, result.position[0])
         words = "" if (spiral := dance.path.spiral) is None else f" (pitch {format_number(spiral.pitch)} m)"
         axes.set_title(f"Handles and their speeds at {time:g} s{words}", fontsize=11)
-        return file_bytes(figure, format)
+        return figure
 
-    return in_turn(drawn)
+    return _file(drawn, format, language)
 
 
 def contact_figure(
@@ -44,6 +73,7 @@ def contact_figure(
     start: float | None = None,
     stop: float | None = None,
     format: str = "svg",
+    language: Language = Language.ENGLISH,
     budget: Budget | None = None,
 ) -> bytes:
     """Figure 7: the dance at first contact with the two benches marked, and corner, edge and point enlarged.
@@ -52,16 +82,16 @@ def contact_figure(
     """
     contact = first_contact(dance, margin=margin, start=start, stop=stop, budget=budget)
 
-    def drawn() -> bytes:
+    def drawn() -> Figure:
         figure = canvas(11.0 if contact.benches else 7.2, 6.0)
         axes = contact.plot(figure.add_subplot(1, 2, 1) if contact.benches else figure.add_subplot())
         draw_venue(axes, venue)
         if contact.benches:
             enlarged = contact.plot(figure.add_subplot(1, 2, 2), enlarged=True)
             axes.indicate_inset_zoom(enlarged, edgecolor="black", linewidth=0.8)
-        return file_bytes(figure, format)
+        return figure
 
-    return in_turn(drawn)
+    return _file(drawn, format, language)
 
 
 def pitch_scan_figure(
@@ -72,6 +102,7 @@ def pitch_scan_figure(
     start_turns: float = 16.0,
     margin: float = 0.0,
     format: str = "svg",
+    language: Language = Language.ENGLISH,
 ) -> bytes:
     """Figure 8: radius of the head at first contact against the pitch, jumps left blank, minimum pitch marked.
 
@@ -79,7 +110,7 @@ def pitch_scan_figure(
     """
     pitches = np.array([SCAN_FROM, SCAN_TO]) * least.pitch
 
-    def drawn() -> bytes:
+    def drawn() -> Figure:
         figure = canvas(9.0, 5.6)
         axes = figure.add_subplot()
         near_words = f"first within {format_number(margin)} m of each other" if margin else "first contact"
@@ -98,9 +129,9 @@ def pitch_scan_figure(
         near.set(ylim=(0.94 * turning_radius, 1.05 * turning_radius))
         near.tick_params(labelsize=8)
         axes.indicate_inset_zoom(near, edgecolor="black", linewidth=0.7)
-        return file_bytes(figure, format)
+        return figure
 
-    return in_turn(drawn)
+    return _file(drawn, format, language)
 
 
 def _draw_scan(axes: Axes, scan: PitchScan, least: MinimumPitch, turning_radius: float, near: str) -> None:

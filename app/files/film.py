@@ -26,7 +26,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from numpy.typing import NDArray
 
-from app.files.drawing import draw_venue, with_square
+from app.files.drawing import draw_venue, in_turn, with_square
 from app.files.film_spec import MP4_TYPE, FilmSpec
 from app.files.fonts import families
 from app.files.scratch import temporary
@@ -107,8 +107,11 @@ class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
-        points = TYPE_SHARE * spec.height * 72.0 / DPI
         self.language, self.start_clock = spec.language, spec.start_clock
+        in_turn(lambda: self._draw(dance, spec, venue, title))
+
+    def _draw(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
+        points = TYPE_SHARE * spec.height * 72.0 / DPI
         with matplotlib.rc_context({"font.family": families(spec.language), "font.size": points}):
             figure = Figure(figsize=(spec.width / DPI, spec.height / DPI), dpi=DPI)
             self.canvas = FigureCanvasAgg(figure)

@@ -11,10 +11,10 @@ const REMEMBERED = 50;
 /** Time between two checks of an unfinished job [ms]. */
 const LOOK = 1_000;
 /** Endings of file names, by media type. */
-const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf" };
+const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf", "application/zip": ".zip" };
 /** Names of the jobs that Keep starts. */
-const NAMES = { films: "keepFilm", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
-const UNFINISHED = ["accepted", "running"];
+const NAMES = { films: "keepFilm", "contest-kit": "keepKit", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
+export const UNFINISHED = ["accepted", "running"];
 const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
 
 /** The remembered jobs; empty if the browser allows no storage. */
@@ -34,7 +34,7 @@ export function bearer() {
 }
 
 export class Jobs {
-  /** id -> {spec if this browser asked, status} */
+  /** id -> {spec if this browser asked, status, follow} */
   #jobs = new Map();
   #timer = 0;
 
@@ -56,9 +56,10 @@ export class Jobs {
     this.add(await this.service.ask("sweep", "sweeps", { body: spec, headers: bearer() }), spec);
   }
 
-  /** Follow a job that has begun. spec: {question, over} */
-  add(status, spec) {
-    this.#jobs = new Map([[status.jobID, { spec, status, opened: false }], ...this.#jobs]);
+  /** Follow a job that has begun. spec: {question, over}; follow(status): called with each status */
+  add(status, spec, follow = null) {
+    follow?.(status);
+    this.#jobs = new Map([[status.jobID, { spec, status, follow, opened: false }], ...this.#jobs]);
     this.#remember();
     announce(() => say("jobStarted"));
     this.#look();
@@ -93,6 +94,7 @@ export class Jobs {
       if (job.status && !UNFINISHED.includes(job.status.status)) continue;
       try {
         job.status = await this.service.ask(`job ${id}`, `jobs/${id}`, { cache: "no-store" });
+        job.follow?.(job.status);
       } catch (error) {
         if (error instanceof Superseded) return;
         if (!(error instanceof Problem)) throw error;
@@ -125,7 +127,8 @@ export class Jobs {
   async #end(id) {
     try {
       const status = await this.service.ask(`end ${id}`, `jobs/${id}`, { method: "DELETE" });
-      if (status) this.#jobs.get(id).status = status;
+      const job = this.#jobs.get(id);
+      if (status) job.follow?.((job.status = status));
       else this.#forget(id);
       this.render();
     } catch (error) {
@@ -166,7 +169,8 @@ const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {}
 const isTable = (status) => status.processID === "sweep" && resultOf(status).type === "application/json";
 
 function what(process, spec) {
-  if (process !== "sweep") return process in NAMES ? say(NAMES[process]) : process;
+  const name = process.replace(/_of$/, "").replaceAll("_", "-");
+  if (process !== "sweep") return name in NAMES ? say(NAMES[name]) : process;
   if (!spec) return say("sweep");
   const names = Object.keys(spec.over).map((name) => say(name));
   return say("sweepOver", { question: say(`sweep_${spec.question}`), names: names.join(say("and")) });

@@ -2,11 +2,11 @@
 
 import { Problem } from "./api.js";
 import { $, button, download, make, onClick } from "./elements.js";
-import { CONTACT, DRAGON, TURN, strayOf } from "./fields.js";
-import { bearer } from "./jobs.js";
+import { CONTACT, DRAGON, TURN, numbersOf, strayOf } from "./fields.js";
+import { UNFINISHED, bearer } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
 import { isPlain } from "./questions.js";
-import { language, say } from "./text.js";
+import { language, refusalWords, say } from "./text.js";
 
 /** The type of a problem of what takes too long for one answer. */
 const TOO_LONG = "urn:problem-type:bench-dragon:too-much-work";
@@ -25,15 +25,17 @@ const TYPES = {
   KML: "application/vnd.google-earth.kml+xml",
   A4: "application/pdf",
   A3: "application/pdf",
+  ZIP: "application/zip",
 };
-/** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job. */
+/** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job; hint: a button of its own. */
 const ITEMS = [
+  { key: "keepKit", forms: ["ZIP"], ask: "kit", file: "contest-kit", job: true, hint: "keepKitIs" },
   { key: "keepTrajectory", forms: ["CSV", "XLSX", "Arrow", "JSON"], ask: "trajectory", file: "trajectory" },
   { key: "keepPicture", forms: ["PNG"], file: "dance" },
   { key: "keepInstant", forms: ["SVG", "PNG"], ask: "instant", file: "instant" },
   { key: "keepContact", forms: ["SVG", "PNG"], ask: "contact", file: "first-contact" },
   { key: "keepStairs", forms: ["SVG", "PNG"], ask: "stairs", file: "pitch-scan" },
-  { key: "keepFilm", forms: ["MP4", "GIF"], ask: "film", job: true },
+  { key: "keepFilm", forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
   { key: "keepGround", forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
   { key: "keepPlan", forms: ["A4", "A3"], ask: "plan", file: "plan" },
   { key: "keepMap", forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
@@ -50,11 +52,21 @@ const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` 
 const SHOWN = "keepShown";
 const PROOF = "keepProof";
 
-const figure = (name, form, request) => ({ path: `figures/${name}.${form.toLowerCase()}`, ...request });
+/** A figure with its words in the language of the page. */
+function figure(name, form, { query, body }) {
+  const words = (values) => ({ ...values, language: language() });
+  return { path: `figures/${name}.${form.toLowerCase()}`, ...(query ? { query: words(query) } : { body: words(body) }) };
+}
 /** Whole seconds of a dance. */
 const seconds = ({ begin, end }) => ({ start: Math.min(Math.ceil(begin), end), stop: end, step: CSV_STEP });
 /** The request of each item in a format: {path, query or body}. */
 const REQUESTS = {
+  /** The contest's problem with the numbers of the page, of which the pitch is that of the spiral or of the turn. */
+  kit({ state }) {
+    const own = numbersOf(state.texts([...DRAGON, "start_turns", "head_speed", "turning_diameter", "ratio", "speed_limit"]));
+    const pitch = state.get("path") === "turn" ? "turn_pitch" : "pitch";
+    return { path: "contest-kit", body: { ...own, [pitch]: Number(state.get("pitch")), language: language() } };
+  },
   trajectory: (questions) => ({ path: "trajectory", body: questions.body({ times: seconds(questions.dance) }) }),
   instant(questions, form) {
     const { begin, end } = questions.dance;
@@ -92,6 +104,9 @@ const REQUESTS = {
   paper: () => ({ path: "paper", query: { language: language() } }),
 };
 
+/** Name a button after its item, its format and how far its job is. */
+const nameButton = (button) => button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}${button.querySelector(".share").textContent}`);
+
 export class Keep {
   /**
    * jobs: makes films
@@ -111,14 +126,17 @@ export class Keep {
   }
 
   #row(item) {
-    const about = (form) => ({ id: `${item.key}-${form}`, textContent: form, "data-keep": item.key, "data-form": form });
-    const buttons = item.forms.map((form) => button(about(form), () => this.#save(item, form)));
+    const about = (form) => ({ id: `${item.key}-${form}`, "data-keep": item.key, "data-form": form });
+    const text = (form) => (item.hint ? make("span", { "data-text": item.key }) : form);
+    const buttons = item.forms.map((form) => button(about(form), () => this.#save(item, form), text(form), make("span", { className: "share" })));
+    if (item.hint) return make("li", { className: "whole" }, ...buttons, make("p", { className: "hint", "data-text": item.hint }));
     return make("li", {}, make("span", { "data-text": item.key }), make("span", { className: "buttons" }, ...buttons));
   }
 
   /** Name each button after its item. */
   translate() {
-    for (const button of $("#kept").querySelectorAll("button")) button.setAttribute("aria-label", `${say(button.dataset.keep)}, ${button.dataset.form}`);
+    for (const button of $("#kept").querySelectorAll("button")) nameButton(button);
+    for (const film of $("#kept").querySelectorAll(".film")) Object.assign(film, { alt: say("keepFilm"), ariaLabel: say("keepFilm") });
     if (this.questions.dance) this.show();
     if ($("#paper").open) this.paper();
   }
@@ -145,7 +163,7 @@ export class Keep {
    */
   #curl({ path, query, body }, item) {
     const base = new URL("./", location.href).href;
-    if (item?.job) return this.#curl({ path: "jobs", body: { question: path, request: body, accept: TYPES[item.forms[0]] } });
+    if (item?.job) return this.#curl({ path: "jobs", body: { question: path.replaceAll("-", "_"), request: body, accept: TYPES[item.forms[0]] } });
     const url = query ? `${path}?${new URLSearchParams(query)}` : path;
     const sent = body ? ` -H 'Content-Type: application/json' -d '${JSON.stringify(body).replaceAll("'", "'\\''")}'` : "";
     const form = item?.forms[0];
@@ -165,7 +183,8 @@ export class Keep {
   }
 
   async #save(item, form) {
-    if (!this.questions.dance) return;
+    if (!this.questions.dance || $(`#${item.key}-${form}`).classList.contains("going")) return;
+    if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("kitUniform"));
     try {
       if (item.job) return await this.#begin(item, form);
       announce(() => say("making", { name: say(item.key) }), true);
@@ -185,11 +204,35 @@ export class Keep {
     return form === "JSON" ? new Blob([JSON.stringify(answer, null, 2)], { type: TYPES.JSON }) : form === "GeoJSON" ? new Blob([JSON.stringify(answer)]) : answer;
   }
 
-  /** Start a job; its result appears among the jobs. */
-  async #begin({ ask }, form) {
-    const { path, query, body } = REQUESTS[ask](this.questions, form);
+  /** Start a job, which is among the jobs too. */
+  async #begin(item, form) {
+    const { path, query, body } = REQUESTS[item.ask](this.questions, form);
     const headers = { Prefer: "respond-async", ...bearer() };
-    this.jobs.add(await this.service.ask(`keep ${form}`, path, { query, body, headers, accept: `${TYPES[form]}, application/json;q=0.1` }), { question: path, over: {} });
+    const status = await this.service.ask(`keep ${form}`, path, { query, body, headers, accept: `${TYPES[form]}, application/json;q=0.1` });
+    this.jobs.add(status, { question: path, over: {} }, (now) => this.#follow(item, form, now));
+  }
+
+  /** Show on its button how far a job is; then a film opens there, and any other result is saved. */
+  #follow({ key, file }, form, { jobID, status, progress, problem }) {
+    const button = $(`#${key}-${form}`);
+    const going = UNFINISHED.includes(status);
+    button.classList.toggle("going", going);
+    button.style.setProperty("--share", `${progress}%`);
+    button.querySelector(".share").textContent = going ? ` ${progress} %` : "";
+    nameButton(button);
+    if (problem) announce(() => refusalWords(problem).textContent, true);
+    if (status !== "successful") return;
+    const result = `jobs/${jobID}/result`;
+    const name = named(file, form);
+    if (key !== "keepFilm") {
+      make("a", { href: result, download: name }).click();
+      return announce(() => say("saved", { name }));
+    }
+    const row = button.closest("li");
+    row.querySelector(".film")?.remove();
+    row.append(form === "GIF" ? make("img", { className: "film", src: result }) : make("video", { className: "film", src: result, controls: true }));
+    this.translate();
+    announce(() => say("filmReady"));
   }
 
   async #picture() {

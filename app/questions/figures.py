@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from pydantic import Field
+
+from app.files.tables import Language
 from app.questions.pitch_scan import ScanFields
 from app.wire.dances import DragonFields, PlacedDance
-from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, measure
+from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, Wire, measure
 from core.design.pitch_scan import scan_near_minimum
 
 
@@ -21,13 +24,23 @@ FORMATS = {one.media_type: one.value for one in Format}
 FORMS = tuple(FORMATS)
 
 
-class TrajectoryFigureQuery(DanceQuery):
-    """Every handle at one instant, drawn."""
+class Worded(Wire):
+    """The words of a figure."""
+
+    language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
+
+
+class TimeQuery(DanceQuery):
+    """The dance at one instant."""
 
     time: Instant = measure("s", "Instant of the poses", 300.0)
 
 
-class TrajectoryFigureRequest(PlacedDance):
+class TrajectoryFigureQuery(Worded, TimeQuery):
+    """Every handle at one instant, drawn."""
+
+
+class TrajectoryFigureRequest(Worded, PlacedDance):
     """Every handle at one instant, drawn on any path."""
 
     time: Instant | None = measure(
@@ -41,11 +54,15 @@ class ContactQuery(DanceQuery):
     margin: Margin = 0.0
 
 
-class InstantQuery(TrajectoryFigureQuery, ContactQuery):
+class InstantQuery(TimeQuery, ContactQuery):
     """The dance at one instant, and what counts as a contact."""
 
 
-class ContactFigureRequest(PlacedDance):
+class ContactFigureQuery(Worded, ContactQuery):
+    """The dance at first contact, drawn."""
+
+
+class ContactFigureRequest(Worded, PlacedDance):
     """The dance at first contact, drawn on any path."""
 
     margin: Margin = 0.0
@@ -55,11 +72,11 @@ class ContactFigureRequest(PlacedDance):
     stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
 
-class StaircaseQuery(ScanFields, UniformDragon):
+class StaircaseQuery(Worded, ScanFields, UniformDragon):
     """First contact against the pitch, drawn."""
 
 
-class StaircaseRequest(ScanFields, DragonFields, strict=True):
+class StaircaseRequest(Worded, ScanFields, DragonFields, strict=True):
     """First contact against the pitch, of any dragon, drawn."""
 
 
@@ -70,20 +87,21 @@ def trajectory_figure(request: TrajectoryFigureQuery | TrajectoryFigureRequest, 
     dance = request.to_dance(terms.settings.drawn_benches_max)
     venue = request.to_place(dance.dragon).venue if isinstance(request, PlacedDance) else None
     time = dance.default_start if request.time is None else request.time
-    return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form])
+    return figures.trajectory_figure(dance, venue=venue, time=time, format=FORMATS[form], language=request.language)
 
 
-def contact_figure(request: ContactQuery | ContactFigureRequest, terms: Terms, form: str) -> bytes:
+def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Terms, form: str) -> bytes:
     """The dance at first contact, with the pair that touches or is too near marked and enlarged."""
     from app.files import figures
 
     placed: dict[str, Any] = {}
-    if isinstance(request, ContactQuery):
+    if isinstance(request, ContactFigureQuery):
         dance = request.to_dance(terms.settings.drawn_benches_max)
     else:
         dance = request.to_dance(terms.settings.checked_benches_max)
         placed = {"venue": request.to_place(dance.dragon).venue, "start": request.start, "stop": request.stop}
-    return figures.contact_figure(dance, margin=request.margin, format=FORMATS[form], budget=terms.budget, **placed)
+    look = {"format": FORMATS[form], "language": request.language}
+    return figures.contact_figure(dance, margin=request.margin, budget=terms.budget, **look, **placed)
 
 
 def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
@@ -94,10 +112,10 @@ def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, 
     result = scan_near_minimum(
         dragon, samples=request.samples, progress=terms.progress, budget=terms.budget, **request.to_circle()
     )
-    return figures.pitch_scan_figure(*result, format=FORMATS[form], **request.to_circle())
+    return figures.pitch_scan_figure(*result, format=FORMATS[form], language=request.language, **request.to_circle())
 
 
 DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}
 TRAJECTORY = Question(trajectory_figure, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, **DRAWN)
-CONTACT = Question(contact_figure, flat=ContactQuery, body=ContactFigureRequest, **DRAWN)
+CONTACT = Question(contact_figure, flat=ContactFigureQuery, body=ContactFigureRequest, **DRAWN)
 PITCH_SCAN = Question(pitch_scan_figure, flat=StaircaseQuery, body=StaircaseRequest, **DRAWN)

@@ -10,6 +10,7 @@ from app.questions import (
     clearance,
     collision_time,
     contact_probability,
+    contest_kit,
     course,
     envelope,
     figures,
@@ -59,6 +60,7 @@ _ALL = (
     films.QUESTION,
     maps.QUESTION,
     plan.QUESTION,
+    contest_kit.QUESTION,
 )
 QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}
 CALLS: dict[str, Call] = {call.name: call for question in _ALL for call in calls_of(question)}

@@ -23,9 +23,9 @@ from tests.support.depth import examples
 from tests.support.renew_examples import text
 
 EXAMPLES_PER_CALL = examples(5, 25)
-# Examples with right values for the calls that take up to a second each, and with wrong ones for films, maps and plans,
+# Examples with right values for the calls that take up to a second each, and with wrong ones for files,
 # some of which are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
-SLOW = ("POST /films", "POST /maps.{format}", "POST /plan")
+SLOW = ("POST /contest-kit", "POST /films", "POST /maps.{format}", "POST /plan")
 EXAMPLES_OF_SLOW = examples(3, 8)
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
@@ -43,11 +43,12 @@ def document(client: httpx.Client) -> Any:
 
 
 def can_be_asked(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for scans, curves, samples, envelopes, proposals and plans of arbitrary dragons
-    and films of any size, which take up to ten seconds each; with wrong ones if it takes any."""
+    """Every call with right values, but for scans, curves, samples, envelopes, proposals, kits and plans of arbitrary
+    dragons and films of any size, which take up to ten seconds each; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
-        slow = "pitch-scan pitch-scan.{format} tolerance-curve contact-probability envelope films plan proposals"
+        slow = "pitch-scan pitch-scan.{format} tolerance-curve contact-probability envelope proposals"
+        slow += " contest-kit films plan"
         return not path.endswith(tuple(slow.split()))
     description = SCHEMA.raw_schema["paths"][path][method.lower()]
     return "requestBody" in description or "parameters" in description
@@ -269,7 +270,9 @@ def same(got: Any, documented: Any) -> bool:
 def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
     calls = {(method, path): call for path, methods in document["paths"].items() for method, call in methods.items()}
     for (method, path), call in calls.items():
-        if path.startswith(("/figures", "/films", "/grade", "/healthz", "/maps", "/places", "/plan", "/readyz")):
+        if path.startswith(
+            ("/contest-kit", "/figures", "/films", "/grade", "/healthz", "/maps", "/places", "/plan", "/readyz")
+        ):
             continue
         # Answers about jobs are never the same.
         of_job = path.startswith(("/jobs", "/sweeps"))

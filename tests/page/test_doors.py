@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
+from zipfile import ZipFile
 
 import pytest
 from playwright.sync_api import expect
@@ -13,6 +15,7 @@ from tests.support.pending import settled
 from tests.support.qr_reader import read_qr
 
 EASY = "?benches=5&time=end"
+KIT = 300_000  # [ms]; a kit without films takes 6 s of a core
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 FEW = {
     "contest": ["pitch", "turning_diameter", "benches", "stray"],
@@ -107,6 +110,73 @@ def test_a_village_keeps_film_plan_and_map_and_sees_there_how_far_they_are(open_
     page.locator("#jobs li button", has_text="Cancel").click()
     expect(page.locator("#jobs li")).to_contain_text("cancelled")
     expect(page.locator("#sweep")).to_be_hidden()
+
+
+def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page: Any) -> None:
+    page = open_page("?door=contest&benches=5&turning_diameter=8.5&time=end")
+    settled(page)
+    button, jobs = page.locator("#kept li:visible button").first, page.locator("#jobs li", has_text="contest kit")
+    expect(button).to_have_text("The whole contest kit")
+
+    def without_films(route: Any) -> None:
+        """Films take a minute, and are tested elsewhere."""
+        assert route.request.post_data_json.items() >= {"benches": 5, "turning_diameter": 8.5, "language": "en"}.items()
+        route.continue_(post_data=json.dumps({**route.request.post_data_json, "films": False}))
+
+    page.route("**/contest-kit", without_films)
+    with page.expect_download(timeout=KIT) as download:
+        button.click()
+        expect(button).to_have_text(re.compile(r"^The whole contest kit \d+ %$"))
+        expect(button).to_have_accessible_name(re.compile(r"^The whole contest kit, ZIP \d+ %$"))
+        assert serious(page, "#keep") == []
+        expect(jobs).to_have_count(1)
+        button.click()  # a second click starts no second job
+    assert download.value.suggested_filename == "contest-kit.zip"
+    with ZipFile(download.value.path()) as archive:
+        assert {"result1.xlsx", "figures/positions.pdf", "report.md"} <= set(archive.namelist())
+        assert "turning circle 8.5 m" in archive.read("report.md").decode()
+    expect(button).to_have_text("The whole contest kit")
+    expect(jobs).to_have_attribute("data-state", "successful")
+
+
+def test_the_kit_is_for_equal_benches_and_behind_no_village(visit: Any) -> None:
+    page = visit(f"?door=village{ROUTE}")
+    expect(page.locator("#keepKit-ZIP")).to_be_hidden()
+    page = visit(f"?door=contest&time=0&csv={'%0A'.join(['2.2,0.3,0.2'] * 5)}")
+    settled(page)
+    wanted: list[str] = []
+    page.on("request", lambda request: wanted.append(request.url))
+    page.locator("#keepKit-ZIP").click()
+    expect(page.locator("#status")).to_contain_text("The kit is for equal benches")
+    assert [url for url in wanted if "contest-kit" in url] == []
+
+
+@pytest.mark.chinese_font
+def test_figures_have_the_language_of_the_page(visit: Any) -> None:
+    for language in ("zh", "en"):
+        page = visit(f"{EASY}&lang={language}")
+        for button in ("keepContact-SVG", "keepInstant-SVG", "keepStairs-SVG"):
+            with page.expect_download() as download:
+                page.locator(f"#{button}").click()
+            text = download.value.path().read_text(encoding="utf-8")
+            assert ("没有碰撞" in text or "首次碰撞" in text or "各把手" in text) is (language == "zh"), button
+
+
+def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page: Any) -> None:
+    page = open_page(f"?door=village{ROUTE}")
+    settled(page)
+    page.route(
+        "**/films", lambda route: route.continue_(post_data=json.dumps({**route.request.post_data_json, "height": 90}))
+    )
+    page.locator("#keepFilm-GIF").click()
+    expect(page.locator("#keepFilm-GIF")).to_have_text(re.compile(r"^GIF \d+ %$"))
+    film = page.locator("#kept li:has(#keepFilm-GIF) img")
+    film.wait_for()
+    page.wait_for_function("document.querySelector('#kept img').naturalWidth === 160")
+    expect(page.locator("#keepFilm-GIF")).to_have_text("GIF")
+    expect(film).to_have_attribute("alt", "Film of the dance")
+    page.locator("[data-lang=zh]:visible").click()
+    expect(film).to_have_attribute("alt", "舞龙影片")
 
 
 def test_the_dragon_on_a_long_route_is_no_hairline(visit: Any, picture: Any) -> None:

@@ -148,6 +148,7 @@ export const WHOLE = {
   "within s file": ["The file was not read within {then}. Try again, or leave out everything that does not belong to the square", "文件在 {then} 内没有读完：请重试，或删去与场地无关的内容"],
   "within work": ["No answer was found within the work limit of one question. Take fewer benches", "在一个问题允许的计算量内没有算完：请减少板凳节数"],
   "instants x handles must be at most {most} here": ["There would be {got} instants times handles, and there may be {most} here. Take a larger step, a shorter time or fewer benches", "时刻数乘以把手数在此处最多为 {most}，现为 {got}，请加大步长、缩短时段或减少板凳"],
+  "cells of a sheet must be at most {most} here": ["A sheet of the kit would have {got} cells, and it may have {most} here. Take fewer benches", "结果文件的一张工作表将有 {got} 个单元格，此处最多 {most} 个，请减少板凳"],
   "benches must be at most {most} here": ["“Benches” must be at most {most}; it is {got}. Shorten the dragon", "“板凳节数”最多为 {most}，现为 {got}（请缩短队伍）"],
   "{field} must be at least {least}, when the whole dragon is on the path": ["The whole dragon is on the path only from {least} on, which is later than {got}", "整条队伍自 {least} 起才都在路径上，{got} 早于该时刻"],
   ...Object.fromEntries(OUTSIDE),

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import fcntl
+import io
 import json
+import math
 import os
 import re
 import subprocess
@@ -14,6 +16,7 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
+import httpx
 import numpy as np
 import openpyxl
 import pytest
@@ -26,7 +29,10 @@ from app.contest.solved import ContestRequest, solve
 from app.contest.tables import paper_tables
 from app.files.tables import Language
 from app.files.words import Say
+from app.questions.contest_kit import ContestKitRequest, contest_kit
+from app.settings import Settings
 from app.wire.question import Terms
+from core import Budget, TooMuchWork
 from tests.support.command import COMMAND, run
 from tests.test_docs import KITS, assert_alike
 
@@ -273,7 +279,58 @@ def test_an_english_report_is_in_english_and_leads_to_no_figure_that_was_not_dra
     assert {link for link in links if not (english / link).is_file()} == set()
     assert len(links) > 15
     assert "| 2 | first contact | 412.473837682 s |" in page
+    assert "Not in this kit: figures and films, because" in page.splitlines()[-1]
     assert "板凳" not in page
+
+
+def test_the_service_makes_the_same_files_in_one_archive(chinese: Path, patient: str) -> None:
+    body = {"language": "zh", "films": False}
+    got = httpx.post(f"{patient}/contest-kit", json=body, timeout=600).raise_for_status()
+    assert got.headers["content-type"] == "application/zip"
+    with ZipFile(io.BytesIO(got.content)) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    written = [file for file in chinese.rglob("*") if file.is_file() and not file.name.startswith(".")]
+    assert files == {file.relative_to(chinese).as_posix(): file.read_bytes() for file in written}
+    assert list(files)[-1] == "report.md"
+
+
+@pytest.mark.parametrize(
+    ("body", "place", "words"),
+    [
+        ({"benches": 2001}, "/benches", "benches must be at most 2000 here, got 2001: shorten the dragon"),
+        ({"stop": 1e5}, "/stop", "cells of a sheet must be at most 200000 here, got 44800448"),
+        ({"span": 1e5}, "/span", "cells of a sheet must be at most 200000 here, got 89600448"),
+        ({"seconds": 120}, "/seconds", "millions of pixels must be at most 4000 here, got 14930: take shorter films"),
+        ({"overhang": 2}, "/overhang", "overhang must be less than half of head_length"),
+        ({"language": "fr"}, "/language", 'language must be "en" or "zh"'),
+        ({"folder": "kit"}, "/folder", '"folder" is unknown here'),
+    ],
+)
+def test_a_kit_beyond_a_limit_is_refused_before_any_work(
+    client: httpx.Client, body: dict[str, Any], place: str, words: str
+) -> None:
+    got = client.post("/contest-kit", json=body)
+    assert got.status_code == 422
+    [error] = got.json()["errors"]
+    assert error["pointer"] == place
+    assert error["detail"].startswith(words)
+
+
+def test_a_kit_reports_its_progress_and_ends_when_it_is_stopped() -> None:
+    shares: list[float] = []
+    budget = Budget(math.inf)
+
+    def listen(share: float) -> None:
+        shares.append(share)
+        if share > 0.2:
+            budget.stop()
+
+    with pytest.raises(TooMuchWork, match="must be fewer, got 5: the kit was not made before it was stopped"):
+        contest_kit(
+            ContestKitRequest(benches=5, films=False, language=Language.ENGLISH), Terms(Settings(), budget, listen)
+        )
+    assert shares == sorted(shares)
+    assert shares[-1] < 0.5
 
 
 def test_a_second_run_leaves_nothing_of_the_first_and_keeps_what_is_not_ours(tmp_path: Path) -> None:

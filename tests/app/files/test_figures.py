@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 import pytest
 
 from app.files import figures
-from core import Dance, Dragon, Line, OutsideRun, Route, Spiral, first_contact, minimum_pitch
+from app.files.tables import Language
+from core import Area, Dance, Dragon, Line, OutsideRun, Route, Spiral, Venue, first_contact, minimum_pitch
 from core.design.pitch_scan import scan_near_minimum
 from tests.support.depth import some
 
@@ -92,6 +93,36 @@ def test_contact_figure_of_two_parallel_edges_names_no_corner() -> None:
     words = texts(figures.contact_figure(in_line, margin=1.2, start=20.0))
     assert "front edge of bench 2" in words
     assert "corner of bench" not in words
+
+
+@pytest.mark.chinese_font
+def test_figures_in_chinese_have_no_english_word_left_and_the_same_numbers() -> None:
+    square = Venue(Area("bench 3", ([(-20, -20), (20, -20), (20, 20), (-20, 20), (-20, -20)],)))
+    dances = [
+        Dance(SMALL, Spiral()),
+        Dance(Dragon(5), Spiral(9.0, 3.0)),
+        Dance(SMALL, Spiral(0.8)),
+        Dance(Dragon(), Spiral(0.35)),
+    ]
+    for dance in some(dances, 2):
+        for margin in (0.0, 0.05):
+            english, chinese = (figures.contact_figure(dance, margin=margin, language=one) for one in Language)
+            assert_translated(texts(english), texts(chinese))
+    english, chinese = (figures.trajectory_figure(dances[0], venue=square, time=20.0, language=one) for one in Language)
+    assert_translated(texts(english), texts(chinese), "bench 3")
+    for margin in (0.0, 0.05):
+        circle = {"turning_radius": 4.5, "start_turns": 16.0, "margin": margin}
+        result = scan_near_minimum(Dragon(8), samples=5, **circle)
+        english, chinese = (figures.pitch_scan_figure(*result, **circle, language=one) for one in Language)
+        assert_translated(texts(english), texts(chinese))
+
+
+def assert_translated(english: str, chinese: str, kept: str = "") -> None:
+    """No word of English is left but units, axes and names; the same numbers stand in both."""
+    assert re.findall(r"[A-Za-z]{2,}", chinese.replace(kept, "")) == []
+    assert kept in chinese
+    numbers = [sorted(re.findall(r"\d+\.\d+", words)) for words in (english, chinese)]
+    assert numbers[0] == numbers[1]
 
 
 def test_pitch_scan_figure_marks_minimum_pitch_and_circle() -> None:
