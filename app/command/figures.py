@@ -21,12 +21,13 @@ from app.questions import figures as drawn
 from app.questions import films
 from app.questions.figures import Format
 from app.questions.films import FilmFields, FilmRequest
+from app.questions.pitch_scan import ScanFields
 from app.wire.question import Terms
 from app.wire.refusals import refusing
 from core import InvalidValue
 
 
-class FigureOptions(drawn.InstantQuery, drawn.StaircaseQuery):
+class FigureOptions(drawn.InstantQuery, ScanFields, drawn.Worded):
     """The fields of all three GET /figures requests."""
 
 

@@ -53,7 +53,7 @@ const SHOWN = "keepShown";
 const PROOF = "keepProof";
 
 /** A figure with its words in the language of the page. */
-function figure(name, form, { query, body }) {
+function figure(name, form, /** @type {any} */ { query, body }) {
   const words = (values) => ({ ...values, language: language() });
   return { path: `figures/${name}.${form.toLowerCase()}`, ...(query ? { query: words(query) } : { body: words(body) }) };
 }

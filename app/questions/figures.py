@@ -36,11 +36,11 @@ class TimeQuery(DanceQuery):
     time: Instant = measure("s", "Instant of the poses", 300.0)
 
 
-class TrajectoryFigureQuery(Worded, TimeQuery):
+class TrajectoryFigureQuery(TimeQuery, Worded):
     """Every handle at one instant, drawn."""
 
 
-class TrajectoryFigureRequest(Worded, PlacedDance):
+class TrajectoryFigureRequest(PlacedDance, Worded):
     """Every handle at one instant, drawn on any path."""
 
     time: Instant | None = measure(
@@ -58,11 +58,11 @@ class InstantQuery(TimeQuery, ContactQuery):
     """The dance at one instant, and what counts as a contact."""
 
 
-class ContactFigureQuery(Worded, ContactQuery):
+class ContactFigureQuery(ContactQuery, Worded):
     """The dance at first contact, drawn."""
 
 
-class ContactFigureRequest(Worded, PlacedDance):
+class ContactFigureRequest(PlacedDance, Worded):
     """The dance at first contact, drawn on any path."""
 
     margin: Margin = 0.0
@@ -72,11 +72,11 @@ class ContactFigureRequest(Worded, PlacedDance):
     stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
 
-class StaircaseQuery(Worded, ScanFields, UniformDragon):
+class StaircaseQuery(ScanFields, UniformDragon, Worded):
     """First contact against the pitch, drawn."""
 
 
-class StaircaseRequest(Worded, ScanFields, DragonFields, strict=True):
+class StaircaseRequest(ScanFields, DragonFields, Worded, strict=True):
     """First contact against the pitch, of any dragon, drawn."""
 
 
@@ -100,7 +100,7 @@ def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Te
     else:
         dance = request.to_dance(terms.settings.checked_benches_max)
         placed = {"venue": request.to_place(dance.dragon).venue, "start": request.start, "stop": request.stop}
-    look = {"format": FORMATS[form], "language": request.language}
+    look: dict[str, Any] = {"format": FORMATS[form], "language": request.language}
     return figures.contact_figure(dance, margin=request.margin, budget=terms.budget, **look, **placed)
 
 
