@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import doctest
+import inspect
 import json
 import os
 import re
@@ -14,6 +15,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
+import core
+from app.command.main import ROOMS
+from app.questions.registry import QUESTIONS
 from app.settings import Settings
 from tests.support.command import PATIENCE, bin_folder
 
@@ -88,6 +92,14 @@ def test_the_house_is_drawn_as_it_stands() -> None:
     assert all((ROOT / floor / name).exists() for floor, names in drawn.items() for name in names)
     rooms = {f"{path.parent.name}/" for path in (ROOT / "core").glob("*/__init__.py")}
     assert drawn["core/"] == rooms | {path.name for path in (ROOT / "core").glob("*.py")} - {"__init__.py"}
+
+
+def test_every_call_command_and_function_stands_on_its_page() -> None:
+    calls = {question.path.partition(".")[0] for question in QUESTIONS.values()}
+    assert {call for call in calls if call not in PAGES["docs/http.md"]} == set()
+    assert {command for command in ROOMS if f"| `{command}" not in PAGES["docs/command.md"]} == set()
+    functions = {name for name in core.__all__ if inspect.isfunction(getattr(core, name))}
+    assert {name for name in functions if f"`{name}" not in PAGES["docs/library.md"]} == set()
 
 
 def test_each_claim_names_a_test() -> None:

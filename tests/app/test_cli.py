@@ -28,9 +28,10 @@ import pytest
 import typer
 
 import core
-from app.command.main import app
+from app.command.main import ROOMS, app
 from app.command.show import print_answer
 from app.questions.maximum_head_speed import MaximumHeadSpeed
+from app.questions.registry import QUESTIONS
 from app.service.workers import SILENT_SECONDS, START_SECONDS
 from app.settings import Settings
 from core.kernels import COMPILED
@@ -52,6 +53,10 @@ CROSSED = {
     ],
     "chained": False,
 }
+# Questions that commands of another name answer, and two that none does: the page draws with course, and a sweep of
+# collision-time over the pitch is the scan.
+FIGURES = {"trajectory_figure", "contact_figure", "pitch_scan_figure"}
+OTHERWISE = FIGURES | {"films", "proposals", "course", "pitch_scan"}
 
 
 def answer_of(*arguments: str, **keywords: Any) -> str:
@@ -638,10 +643,13 @@ def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> 
 
 
 def test_help_names_every_command_and_unit() -> None:
-    text = answer_of("--help", COLUMNS="100")
-    for name in ("trajectory", "collision-time", "minimum-pitch", "overlaps", "figures", "paper", "serve"):
-        assert name in text
+    assert {*ROOMS} <= {*answer_of("--help", COLUMNS="100").split()}
     assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")
+
+
+def test_every_question_has_its_command() -> None:
+    without = {question.name for question in QUESTIONS.values()} - {name.replace("-", "_") for name in ROOMS}
+    assert without == OTHERWISE, "app/command/main.py needs a line of it"
 
 
 def test_the_version_is_one_line() -> None:

@@ -276,6 +276,7 @@ def test_every_call_has_an_example_and_its_problems(document: Any) -> None:
             continue
         # Answers about jobs are never the same.
         of_job = path.startswith(("/jobs", "/sweeps"))
-        assert of_job or f"{method.upper()} {path}" in EXAMPLES
+        known = of_job or f"{method.upper()} {path}" in EXAMPLES
+        assert known, f"app/service/examples.json needs a request of {method.upper()} {path}, then `make examples`"
         for status in ("422", "500", "503") if of_job else ("406", "422", "500", "503"):
             assert list(call["responses"][status]["content"]) == ["application/problem+json"], (path, status)

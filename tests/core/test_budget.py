@@ -73,6 +73,9 @@ PITCHES = np.linspace(0.5, 0.6, 3)
 LANE = Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))
 CONTACT = first_contact(Dance(Dragon(), Spiral()))
 
+# Functions without a budget: their work grows only with arrays that their caller made.
+SMALL = {"bench_outlines", "bench_poses", "course", "separation", "verdicts"}
+
 Question = Callable[[Budget | None], Any]
 # Every question that takes a budget; the calls here have more work than the short ones that they replace.
 QUESTIONS: dict[str, Question] = {
@@ -196,7 +199,7 @@ def test_every_public_question_about_a_dance_or_a_dragon_takes_a_budget() -> Non
     }
     assert taking == request
     functions = {name for name in core.__all__ if inspect.isfunction(getattr(core, name))}
-    assert functions - taking == {"bench_outlines", "bench_poses", "course", "separation", "verdicts"}
+    assert functions - taking == SMALL, "take `budget`, and decorate it with question_about() of core/errors.py"
 
 
 def stopped_after(seconds: float, question: Callable[[Budget], Any]) -> tuple[TooMuchWork, float]:

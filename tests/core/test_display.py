@@ -139,7 +139,7 @@ def hints(kind: type) -> dict[str, Any]:
 
 def test_every_public_result_is_shown_here(values: list[Any]) -> None:
     shown_kinds = set(map(type, values))
-    assert {kind.__name__ for kind in public()} - {kind.__name__ for kind in shown_kinds} == set()
+    assert set(public()) - shown_kinds == set(), "a call in tests/support/public_calls.py must return one"
 
 
 def test_the_types_of_public_fields_are_public() -> None:
@@ -152,7 +152,7 @@ def test_the_types_of_public_fields_are_public() -> None:
 def test_every_number_of_a_public_result_has_its_unit() -> None:
     for kind in filter(is_dataclass, public()):
         floats = {name for name, hint in hints(kind).items() if {float, np.float64} & set(inside(hint))}
-        assert floats - units_of(kind).keys() == set(), kind
+        assert floats - units_of(kind).keys() == set(), f"{kind.__name__} needs units for them, in its _units"
 
 
 def test_a_number_of_a_bench_or_a_count_has_no_unit() -> None:
