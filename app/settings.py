@@ -78,7 +78,7 @@ def refuse_open_port(settings: Settings) -> None:
 def unknown_variables() -> list[str]:
     """A message for each BENCH_DRAGON_* environment variable that is not a setting, such as a misspelt one.
 
-    Such a variable is no error: Kubernetes gives a program variables that begin with the name of its service.
+    Such a variable is not an error: Kubernetes gives a program variables that begin with the name of its service.
     """
     known = [PREFIX + name.upper() for name in Settings.model_fields]
     messages = []

@@ -231,7 +231,10 @@ class TooMuchWork(BenchDragonError):
 
 
 def too_much(budget: Budget, field: str, rule: str, got: Value, **values: Value) -> TooMuchWork:
-    """The error of a question that ended early. The rule ends with a clause on the missing answer and {then}."""
+    """The error of a question that ended early.
+
+    rule: what must be smaller, then which answer is missing, with {then}: when the budget ended
+    """
     error = TooMuchWork(field, rule, got=got, then=budget.then, **values)
     error.stopped = budget.stopped
     return error

@@ -33,7 +33,7 @@ from tests.support.depth import some
 
 SHARD = load_shard(SAMPLE)
 EVERYTHING = np.ones(len(SHARD), dtype=bool)
-# Queries of the sample that other engines than ours are asked.
+# Queries of the sample that the other engines answer.
 OTHERS = SHARD.taken(np.array(some(range(len(SHARD)), 40)))
 # Largest errors of our own times of contact [s]: the corner comes to a graze of 1e-9 m at 1e-5 m/s, so slowly that what
 # doubles leave of its place, 1e-14 m and more, is 1e-9 s and more.

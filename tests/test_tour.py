@@ -17,7 +17,7 @@ from core.display import Readable
 TOUR = Path(__file__).parents[1] / "examples" / "tour.py"
 NOTEBOOK = jupytext.reads(TOUR.read_text(encoding="utf-8"), fmt="py:percent")
 CODE = [cell.source for cell in NOTEBOOK.cells if cell.cell_type == "code"]
-# A line of an answer that a reader sees under a cell is no longer than this [characters].
+# Longest line of an answer under a cell [characters].
 DISPLAY_MOST = 220
 
 

@@ -41,7 +41,7 @@ def file_content(arguments: dict[str, Any], folder: Path | None, most: int) -> b
     """Content of the file that the arguments give.
 
     folder: where files may be read; None: nowhere; most: limit of the size [bytes]
-    raises: Refused for no file or two, content that is no base64, a name outside the folder, a file that is too large
+    raises: Refused for no file or two, content that is not base64, a name outside the folder, a file that is too large
     """
     name, text = arguments.pop("file", None), arguments.pop("content", None)
     if (name is None) == (text is None):

@@ -104,5 +104,5 @@ async def serve_streams(server: Server[Any]) -> None:
 
 
 def serve_http(server: Server[Any], host: str, port: int) -> None:
-    """Answer assistants at /mcp until this process is told to end."""
+    """Answer assistants at /mcp until a signal ends this process."""
     uvicorn.run(server.streamable_http_app(host=host, stateless_http=True, json_response=True), host=host, port=port)

@@ -14,7 +14,7 @@ from urllib.parse import quote
 
 from app.wire.question import BYTES, JSON
 
-# Calls that are no tools: a stream of events, and the probes of operators.
+# Calls that are not tools: a stream of events, and the probes of operators.
 LEFT_OUT = ("job_events", "healthz", "readyz")
 SCHEMAS = "#/components/schemas/"
 # Where a call offers several formats of a picture, the first one that an assistant can see.

@@ -101,7 +101,7 @@ class _Commands(TyperGroup):
         command = typer.main.get_command(entry)
         command.name = cmd_name
         for one in (command, *getattr(command, "commands", {}).values()):
-            one.help = escape(one.help or "")  # A unit such as [m] is no style of rich.
+            one.help = escape(one.help or "")  # A unit such as [m] must not be read as a style of rich.
             for parameter in one.params:
                 parameter.help = escape(parameter.help or "")
         return command

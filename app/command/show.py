@@ -27,7 +27,7 @@ from core.errors import format_number
 DISPLAY_DECIMALS = 6
 # Width that a table takes beside its entries: for each column, and at both sides together [characters].
 COLUMN_SPACE, TABLE_SPACE = 3, 1
-# Width of a table where standard output is no terminal [characters].
+# Width of a table where standard output is not a terminal [characters].
 PIPE_WIDTH = 120
 # Proven fields, which are shown with all digits; and the words for a null that is an answer.
 PROVEN = frozenset({"clear_until", "proven_from", "proven_up_to"})

@@ -137,7 +137,7 @@ def _parts(
             yield table
     count = sum(map(len, blocks))
     words = f"{len(rows)} of {format_count(number, 'handle')}, {count} of {format_count(instants, 'instant')}"
-    choose = ["--handles"] * (handles is None) + ["--times"] * (not all_instants)
+    choose = [name for name, some in (("--handles", handles is None), ("--times", not all_instants)) if some]
     verb = "choose" if len(choose) > 1 else "chooses"
     advice = ["--output has all", *([f"{' and '.join(choose)} {verb}"] if choose else [])]
     yield f"{words}: {', '.join(advice)}."

@@ -51,8 +51,9 @@ OPTIONAL = (
 
 @dataclass
 class Kit:
-    """The written kit: names of files in order of writing; given: the answers
+    """The written kit.
 
+    files: their names in order of writing; results: the answers
     missing: reason why there are no pictures; no_turn: reason why questions 4 and 5 have no answer
     """
 

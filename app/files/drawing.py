@@ -21,7 +21,7 @@ from core import Venue
 from core.plots import PALE
 from core.values import Floats
 
-Drawn = TypeVar("Drawn")
+Value = TypeVar("Value")
 matplotlib.rcParams["svg.hashsalt"] = "bench-dragon"
 # TrueType: journals refuse fonts of type 3.
 matplotlib.rcParams["pdf.fonttype"] = 42
@@ -36,8 +36,8 @@ SQUARE_MOST = 2.0
 AROUND = 0.6
 
 
-def in_turn(draw: Callable[[], Drawn]) -> Drawn:
-    """The value of a function that draws, called when those before it are done. It must not call this function."""
+def in_turn(draw: Callable[[], Value]) -> Value:
+    """The value of a function that draws, which is called after all earlier ones and must not call in_turn itself."""
     return _DRAWER.submit(draw).result()
 
 
@@ -59,7 +59,8 @@ def file_bytes(figure: Figure, format: str, dpi: int = PNG_DPI) -> bytes:
 def draw_venue(axes: Axes, venue: Venue | None) -> None:
     """Draw the square as an outline and the obstacles hatched, each with its name."""
     for area in venue.areas if venue else ():
-        is_square, rings = venue is not None and area is venue.square, [np.array(ring) for ring in area.rings]
+        is_square = venue is not None and area is venue.square
+        rings = [np.array(ring) for ring in area.rings]
         look: dict[str, Any] = {"facecolor": "none"} if is_square else {"facecolor": PALE, "hatch": "xx"}
         axes.add_collection(PolyCollection(rings, edgecolor="black", linewidth=1.0, zorder=1.5, **look))
         x, y = max(area.rings[0], key=lambda point: point[0] + point[1])

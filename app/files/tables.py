@@ -110,7 +110,8 @@ def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str
     instants, handles = result.speed.shape
     named = bool(result.dance and result.dance.dragon.names)
     names = [_quoted(name) for name in own_names(result)] if named else []
-    yield ",".join([*COLUMNS, *[NAME] * named, *[CLOCK] * bool(start_clock)]).encode() + b"\n"
+    added = [column for column, known in ((NAME, named), (CLOCK, start_clock)) if known]
+    yield ",".join([*COLUMNS, *added]).encode() + b"\n"
     rows = max(CSV_BLOCK // handles, 1)
     for first in range(0, instants, rows):
         columns = [

@@ -29,7 +29,7 @@ from app.grade.words import note
 from core import Budget, Dance
 from core.values import Floats
 
-# Fewest decimals with which errors can be told apart.
+# Fewest decimals with which errors can be distinguished.
 DECIMALS_LEAST = 2
 # Steps of difference quotients to try [s].
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.001)

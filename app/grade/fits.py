@@ -1,7 +1,7 @@
 """How well a known error explains the numbers of a sheet, and whether their digits decide for it.
 
 Input: the judgement of a sheet, and models. Output: the one model that explains it, or none. State: none. Argument: two
-numbers are told apart by the digits of a third one where they differ by more than twice its tolerance, because it
+numbers are distinguished by the digits of a third one where they differ by more than twice its tolerance, because it
 agrees with at most one of them. A model counts only where the digits decide between it and the right motion, and
 between it and every other model that explains the sheet as well, the right numbers with a small bias among them; so
 noise, rounding, cut digits and a slightly wrong constant support none.

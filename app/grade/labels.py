@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from app.grade.grid import Cell, normalized
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "米": 1.0, "厘米": 1e-2, "毫米": 1e-3}
-# Units of angles: numbers with them are no places.
+# Units of angles: numbers with them are not places.
 ANGLE_UNITS = {"rad", "radian", "radians", "deg", "degree", "degrees", "°", "弧度", "度"}
 TIME = re.compile(r"(?:t\s*=?\s*)?([-+]?\d+(?:\.\d+)?)\s*(s|sec|seconds?|秒)?", re.IGNORECASE)
 UNIT = re.compile(r"[(\[]\s*([a-zμ米厘毫°弧度]+)\s*(/\s*(?:s|秒))?\s*[)\]]?$", re.IGNORECASE)
@@ -51,7 +51,7 @@ class Label:
 
 
 def label_of(cell: Cell) -> Label | None:
-    """Meaning of a text beside a line of numbers; None if it is no label."""
+    """Meaning of a text beside a line of numbers; None if it is not a label."""
     if not isinstance(cell, str):
         return None
     text = normalized(cell)

@@ -21,7 +21,7 @@ NUMBER = re.compile(r"\d+")
 
 
 def lists_of(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
-    """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is no list.
+    """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is not a list.
 
     cells: of the grid, as a rectangle
     """

@@ -86,7 +86,7 @@ def _share_consistent(position: JudgedSheet, speed: JudgedSheet) -> float | None
     spans = np.diff(times)[:, None]
     ways = np.linalg.norm(np.diff(position.values[p][:, a], axis=0), axis=-1) / spans
     speeds = speed.values[v][:, b, 0]
-    # Over more than a second a handle turns by too much: its way is no longer its distance.
+    # Over more than a second a handle turns by too much: its way differs from the distance between both places.
     off = np.where(spans <= SPAN_MOST, np.abs(ways - 0.5 * (speeds[1:] + speeds[:-1])), np.nan)
     known = np.isfinite(off)
     return float((off[known] <= MEAN_SPEED).mean()) if known.any() else None

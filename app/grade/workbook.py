@@ -1,4 +1,4 @@
-"""Workbooks (.xlsx) as plain grids of cells, read by openpyxl without trust.
+"""Workbooks (.xlsx) as plain grids of cells, read by openpyxl after each part of the file was checked.
 
 Nothing in a file is run or followed: macros and links are ignored, and a formula counts with its stored value. First
 each part is unpacked in pieces, up to the limit, and must be as long as the directory says, because openpyxl trusts the
@@ -43,13 +43,13 @@ ROWS_MAX, COLUMNS_MAX, SHEETS_MAX = 70_000, 1_000, 20
 # Most cells of all sheets, with the blanks before the last one of each row: a list of result1 has 337,120.
 CELLS_MAX = 2_000_000
 MAIN, MACROS = "xl/workbook.xml", "xl/vbaProject.bin"
-# Names of elements of a sheet; and the beginning of those in Strict Open XML, which openpyxl cannot read.
+# Names of elements of a sheet, and the beginning of all names in Strict Open XML, which openpyxl cannot read.
 ROW, CELL, FORMULA, VALUE, MERGED = (
     "http://schemas.openxmlformats.org/spreadsheetml/2006/main}" + name for name in ("row", "c", "f", "v", "mergeCell")
 )
+STRICT = "http://purl.oclc.org/ooxml/"
 # Most cells of a row in any spreadsheet program; openpyxl keeps those of a row in memory.
 ROW_CELLS_MAX = 16_384
-STRICT = "http://purl.oclc.org/ooxml/"
 
 
 class _Watched(io.BytesIO):
@@ -121,7 +121,7 @@ def _refuse_traps(archive: zipfile.ZipFile, budget: Budget) -> list[Note]:
         remarks, more = _survey(part.filename, pieces, ELEMENTS_MAX - elements)
         notes, elements = notes + remarks, elements + more
         for _ in pieces:
-            pass  # What is no XML, such as a picture, counts too.
+            pass  # A part that is not XML, such as a picture, counts too.
     return notes
 
 

@@ -24,7 +24,7 @@ SAG = 0.005
 RADIUS_MAX = 1e9
 # Highest degree of a spline; programs write 3, seldom 5.
 DEGREE_MAX = 25
-# Vertex of a POLYLINE that is no place on it: a control point of the curve that others follow.
+# Vertex of a POLYLINE that does not lie on it: a control point of the curve that others follow.
 CONTROL_POINT = 16
 
 

@@ -29,7 +29,7 @@ from core.values import Point
 DEPTH_MAX, ENTITIES_MAX = 4, 20_000
 CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "ELLIPSE", "SPLINE")
 TEXTS = ("TEXT", "MTEXT", "ATTRIB")
-# Layer of marks, whose crosses are no things; and the layer whose entities take that of their block.
+# Layer of marks, whose crosses are not things; and the layer whose entities take that of their block.
 MARKS, OF_BLOCK = "MARKS", "0"
 # Meshes and surfaces that DXF stores as polylines, by the name under which they are left out.
 MESHES = (("is_polygon_mesh", "POLYMESH"), ("is_poly_face_mesh", "POLYFACE"))

@@ -5,12 +5,13 @@ import { isWhole } from "./drawing.js";
 import { radiiOf } from "./judgement.js";
 import { say } from "./text.js";
 
+// Widths of lines, radius of a ring, and height of a name on the screen [px].
 const BEND_WIDTH = 7;
 const FAULT_WIDTH = 4;
 const RING = 14;
 const FONT = "600 12px system-ui, sans-serif";
 const NAME_HEIGHT = 13;
-/** Largest difference between a time and that of a failure that it shows [s]. */
+/** A failure is drawn at times that differ from its own by at most this [s]. */
 const SAME_TIME = 1e-6;
 
 function drawThing(pen, colours, thing) {
@@ -31,8 +32,8 @@ function drawThing(pen, colours, thing) {
 }
 
 /**
- * A name beside its place. It must not overlap the names so far, whose boxes are taken: without room it is left out until
- * the picture is enlarged, unless its colour marks it.
+ * Draw a name beside its place, where it overlaps none of the names before it, whose boxes are in `taken`. Without room a
+ * name in the colour of text is left out until the picture is enlarged; one in another colour is drawn nevertheless.
  */
 function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours, taken, away = 8) {
   const { context } = pen;
@@ -55,7 +56,7 @@ function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours,
 }
 
 /** Place of a thing's name: its middle, or the first corner of an area. */
-function labelled({ kind, points }) {
+function labelPlace({ kind, points }) {
   if (kind === "area") return points[0];
   const [x, y] = points.reduce(([a, b], [c, d]) => [a + c, b + d], [0, 0]);
   return [x / points.length, y / points.length];
@@ -79,7 +80,7 @@ export function layers(dance, get) {
     for (const [k, thing] of drawing.things.entries()) {
       if (!thing.points.length) continue;
       const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;
-      label(pen, dance.view, thing.name, labelled(thing), colour, colours, names);
+      label(pen, dance.view, thing.name, labelPlace(thing), colour, colours, names);
       if (failure?.area === thing.name && isWhole(thing)) pen.stroke(trace(thing.points, new Path2D(), thing.kind !== "wall"), colours.pick, FAULT_WIDTH);
     }
     for (const { points, ...bend } of drawn.course?.bends ?? []) {

@@ -56,6 +56,6 @@ class Hosts(Layer):
 
     @staticmethod
     def _name(scope: Scope) -> str:
-        """The host that is asked, without its port; empty if it is none."""
+        """The host of a request, without its port; empty if the header holds none."""
         match = HOST.fullmatch(Headers(scope=scope).get("host", "").lower())
         return match[1].rstrip(".") if match else ""

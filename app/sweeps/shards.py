@@ -52,7 +52,7 @@ class ShardPiece:
         return cls(spec, question, core.__version__, shard, *spec.shard(shard))
 
     def halves(self) -> tuple[ShardPiece, ShardPiece]:
-        """The two halves of more than one design."""
+        """The two halves of a piece, which must have more than one design."""
         middle = (self.start + self.stop) // 2
         own = (self.spec, self.question, self.version, self.shard)
         return ShardPiece(*own, self.start, middle), ShardPiece(*own, middle, self.stop)
@@ -143,7 +143,7 @@ def write_durably(file: Path, data: bytes) -> None:
 
 @contextmanager
 def written(file: Path) -> Iterator[BinaryIO]:
-    """A file to write to, which has its name, safe on the disk, when it is complete. raises: OSError"""
+    """A file to write to; it gets its name, safe on the disk, when it is complete. raises: OSError"""
     target = file.resolve()
     with new_file(target.parent, TEMPORARY, target) as sink:
         yield sink

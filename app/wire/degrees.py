@@ -1,4 +1,4 @@
-"""Longitude and latitude, told apart from metres and projected onto a plane in metres.
+"""Longitude and latitude, distinguished from metres and projected onto a plane in metres.
 
 Core knows only metres. GeoJSON (RFC 7946) uses degrees: read as metres, a square of 200 m would be 2 mm wide.
 """

@@ -203,7 +203,7 @@ class Strays(Wire):
 
     @property
     def has_stray(self) -> bool:
-        """Whether any stray is asked for, which makes a search slower."""
+        """True if people or holes may stray, which makes a search slower."""
         return self.stray > 0.0 or self.hole > 0.0
 
     @property

@@ -49,7 +49,7 @@ def text_of_cell(cell: str) -> str:
 
 
 class Unreadable(InvalidValue):
-    """Bytes that are no text, or text in no known form; {text} in the template is the name of what was read."""
+    """Bytes that are not text, or text in an unknown form; {text} in the template is the name of what was read."""
 
     @classmethod
     def that(cls, words: str, reason: str = "", **values: Value) -> Self:

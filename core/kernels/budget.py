@@ -11,7 +11,7 @@ class Budget:
         its docstring names; math.inf: no limit
     brief: True ends a search before work that takes a tenth of a second, such as exact decimals near a graze
     left: remaining work [1]; stopped: True if the budget was stopped
-    raises: ValueError for a work that is no number or below zero
+    raises: ValueError for a work that is not a number, or is below zero
     A question whose budget is spent or stopped ends with TooMuchWork. A spent budget does not interrupt a step, but
     refuses the next one. A search notices a stopped budget within milliseconds, or after the chain of handles that it
     lays out (25 ms for 100,000 benches), and ends like one that gave up: its caller looks at the budget too, and uses

@@ -105,7 +105,7 @@ SINE_LIMIT = 0.97
 ROUTE_SINE_LIMIT = 0.999
 
 # Larger than any step or distance, with a square that does not overflow [m]. As a radius or a place: nothing lies
-# beyond it. As a lower bound of a gap: there is no pair.
+# beyond it. As a lower bound of a gap it means that there is no pair.
 FREE = 1e150
 # A lower bound of a gap of which nothing is known [m].
 NO_BOUND = -1e150

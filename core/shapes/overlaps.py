@@ -243,7 +243,7 @@ def checked_columns(subject: str, columns: Floats, names: tuple[str, ...]) -> No
 def checked_array(name: str, values: ArrayLike, shape: str, last: int | None) -> Floats:
     """The values as float64 with a last axis of that length (a plain list if None).
 
-    raises: InvalidValue if they are no numbers or have another shape
+    raises: InvalidValue if they are not numbers or have another shape
     """
     try:
         array = np.asarray(values, dtype=np.float64)

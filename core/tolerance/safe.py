@@ -9,7 +9,7 @@ way already passed is clear with the larger stray, and so with the smaller one.
 
 All of that takes benches to stray independently. If two benches with one between them limit the stray, it may be proven
 that the bench between holds all such pairs apart with a larger one (core/tolerance/between.py); then only the other
-pairs are asked about again.
+pairs are searched again.
 """
 
 from __future__ import annotations

@@ -103,8 +103,8 @@ def test_the_first_contact_of_any_dragon_on_any_path_is_that_of_core(client: htt
     assert (until["outcome"], until["end"]["reason"]) == ("clear", "stop")
 
 
-def test_the_highest_head_speed_is_found_where_the_dance_says(client: httpx.Client) -> None:
-    """The same stretch of a path, told in seconds at another head speed."""
+def test_the_times_of_a_highest_head_speed_are_those_of_the_given_dance(client: httpx.Client) -> None:
+    """The same stretch of a path has other times at another head speed."""
     body = {"dragon": BENCHES, "path": CROSSING, "speed_limit": 3}
     slow = client.post("/maximum-head-speed", json=body | {"start": 20, "stop": 30}).raise_for_status().json()
     fast = client.post("/maximum-head-speed", json=body | {"head_speed": 2, "start": 10, "stop": 15})

@@ -159,7 +159,7 @@ def _stops_at_the_end(certificate: Certificate, stop: float) -> bool:
 def disagreement(certificate: Certificate) -> str:
     """How the two checkers disagree about a certificate; empty if they agree."""
     first, other = proven_by_core(certificate), proven_by_second(certificate)
-    # The end of a route is a double that core rounds on its way: a stop one digit later is no disagreement.
+    # The end of a route is a double that core rounds on its way: a stop one digit later is not a disagreement.
     stop = certificate.get("claim", {}).get("stop") if isinstance(certificate.get("claim"), dict) else None
     edge = "when the path ends, got" in first[1] and isinstance(stop, float)
     if first[0] == other[0] or (edge and _stops_at_the_end(certificate, stop)):

@@ -44,7 +44,7 @@ def wanted(chance: random.Random) -> Any:
 
 
 def post(service: JobService, request: Any) -> str:
-    """Address of a new job, also where a process dies while it is asked for."""
+    """Address of a new job, also if a process dies during the request."""
     while True:
         try:
             return service.post(request)

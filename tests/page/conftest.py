@@ -37,7 +37,7 @@ DEADLINE = 50.0
 # Share of pixels in which two equal pictures may differ [1]: Chromium does not always smooth an edge in the same way.
 PIXELS_UNLIKE = 1e-3
 
-# From one address of the page to another as by the browser's back button; nothing moves or is drawn any more.
+# Stops playing and drawing, and leads to another address of the page as the browser's back button does.
 GO = """(query) => {
   if (document.querySelector("#play").textContent.startsWith("❚❚")) document.querySelector("#play").click();
   if (document.querySelector("#edit[aria-pressed=true]"))
@@ -48,7 +48,7 @@ GO = """(query) => {
   document.querySelector("#rows").scrollTop = 0;
   return new Promise((resolve) => {
     addEventListener("popstate", resolve, { once: true });
-    // The second entry takes what the page still has to write about the address before.
+    // If the page still writes the address that it leaves, it does so in the second entry.
     for (let k = 0; k < 2; k++) history.pushState(null, "", query);
     history.back();
   });
@@ -56,7 +56,7 @@ GO = """(query) => {
 
 # Chromium's own message about a failed request; only tests that make one fail may see it.
 FAILED_REQUEST = "Failed to load resource"
-# But where many tests share a machine, any request may find the service busy: the page then comes again by itself.
+# Where many tests share a machine, the service may refuse any request because it is busy; the page then repeats it.
 REFUSED = f"{FAILED_REQUEST}: the server responded with a status of "
 BUSY = (f"{REFUSED}503 (Service Unavailable)", f"{REFUSED}429 (Too Many Requests)")
 
@@ -80,9 +80,9 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @dataclass
 class Watched:
-    """A tab with a page, and what the page complained of and asked for since the last look.
+    """A tab with a page, and the messages and requests of the page since the last check.
 
-    way: how its context was opened, in JSON
+    way: the options of its context, in JSON
     """
 
     page: Page
@@ -103,7 +103,7 @@ class Watched:
         assert strangers == []
 
     def leave(self) -> None:
-        """Empty the tab, which is then as a new one."""
+        """Empty the tab, so that it is like a new one."""
         options = json.loads(self.way)
         self.page.unroute_all()
         self.page.goto("about:blank")
@@ -115,7 +115,7 @@ class Watched:
 
 
 class Tabs:
-    """Tabs of the browser: those that are open and empty, by way of opening; each way has one cache."""
+    """Tabs of the browser, of which the empty ones are used again; tabs with the same options share a cache."""
 
     def __init__(self, browser: Browser) -> None:
         self.browser = browser
@@ -143,7 +143,7 @@ class Tabs:
         page.on("request", lambda request: one.requests.append(request.url))
         return one
 
-    def left(self, one: Watched, base: str) -> None:
+    def take_back(self, one: Watched, base: str) -> None:
         """Take a tab back, and check its page. base: of the service to which tabs return; others are closed"""
         if one.base == base:
             one.leave()
@@ -178,7 +178,7 @@ def open_page(tabs: Tabs, server: str) -> Iterator[Callable[..., Page]]:
 
     yield opened
     for one in pages:
-        tabs.left(one, server)
+        tabs.take_back(one, server)
 
 
 @pytest.fixture(scope="session")
@@ -192,7 +192,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
     """visit(query, failing=False, **options of the context): the page at this address, at rest.
 
     Tests share it: it is loaded once, and goes from address to address as by the browser's buttons. A page whose slow
-    charts were looked at asks for them at every address: another one takes its place.
+    charts were looked at asks for them at every address, so a new one takes its place.
     """
     pages: set[str] = set()
 
@@ -218,7 +218,7 @@ def visit(tabs: Tabs, kept: dict[str, Watched], server: str) -> Iterator[Callabl
     for key in pages:
         one = kept[key]
         if any("/pitch-scan" in url for url in one.requests):
-            tabs.left(kept.pop(key), server)
+            tabs.take_back(kept.pop(key), server)
             continue
         if one.failing:
             # A request of this test that is refused only now is not the fault of the next one.

@@ -23,7 +23,7 @@ FINGER = 44  # [px]: the least height of what a finger should hit
 SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
   .filter((one) => one.checkVisibility() && !["checkbox", "file"].includes(one.type))
   .filter((one) => one.getBoundingClientRect().height < least - 0.5).map((one) => one.outerHTML)"""
-# Latin letters that are no unit, no name and no symbol.
+# Latin letters that are not a unit, a name or a symbol.
 ENGLISH = re.compile(r"[A-Za-z]{4,}")
 # Claims in Chinese, as the page words them.
 CHINESE = "claims => import('/page/proofs.js').then((one) => claims.map(one.claimInChinese))"

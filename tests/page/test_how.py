@@ -39,7 +39,7 @@ def figures(tabs: Any, server: str) -> Iterator[Any]:
     one = tabs.opened("how?lang=en", server)
     drawn(one.page)
     yield one
-    tabs.left(one, server)
+    tabs.take_back(one, server)
 
 
 def test_dragged_numbers_get_the_answers_of_the_service(figures: Any, server: str) -> None:

@@ -20,7 +20,7 @@ from tests.support.every_kind import CLAIMS, SENTENCES
 from tests.support.pending import settled
 
 ROOT = Path(__file__).parent.parent.parent
-# Latin letters that are no unit, no name and no symbol, outside of quotes.
+# Latin letters that are not a unit, a name or a symbol, outside of quotes.
 ENGLISH = re.compile(
     r"(?<![A-Za-z])(?!GeoJSON|HTTP|TOML|JSON|KMZ?|DXF|DWG|ASCII|XML|name|length|width|overhang)[A-Za-z]{3,}"
 )

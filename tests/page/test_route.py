@@ -215,7 +215,7 @@ def test_every_preset_can_be_danced_and_leaves_a_square_of_ones_own(visit: Any) 
         settled(page)
         verdict(page, "Can be danced")
     assert page.locator("#things li").count() == 0
-    # The run ends at one time, wherever it is told.
+    # Both places show the same end of the run.
     text, end = (page.locator(place).inner_text() for place in ("#clock", "#run-end .value"))
     assert text == end
     page = visit("?path=route&route=0,0_30,0_60,9&things=a.court..-99,-99_99,-99_99,99_-99,99~c.elm.1.40,40")
@@ -253,7 +253,7 @@ def test_a_dance_that_begins_later_can_begin_at_time_0(visit: Any) -> None:
     verdict(page, "Can be danced")
     page.go_back()
     offer.wait_for()
-    # A path on which the dragon has no room is no dance that begins later.
+    # A path too short for the dragon is refused; the dance does not begin later instead.
     page.locator("#benches").fill("200")
     verdict(page, "Cannot be danced")
     offer.wait_for(state="hidden")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-# Nothing of these kinds is pending for some frames: what comes into sight is asked for a frame later.
+# Nothing of these kinds is pending for some frames: the page requests what comes into sight one frame later.
 QUIET = """async (kinds) => {
   const root = document.documentElement;
   const isQuiet = () => root.dataset.pending?.split(" ").some((one) => one && (kinds?.includes(one) ?? true)) === false;

@@ -130,8 +130,8 @@ def test_the_turn_that_the_command_writes_is_graded_right(tmp_path: Path, ending
     assert (result["workbook"], result["verdict"]) == ("result4", "right")
 
 
-# Number, as it is typed, and the shortcut that gives it, with digits enough for a diagnosis or only for a guess; empty:
-# none is told.
+# Kind of a number, the number as it is typed, and the shortcut that gives it: the one that is certain with so many
+# digits, and the one that is only a guess; empty: none.
 TYPED = [
     ("collision_time", "412.48000", "", "time_steps"),
     ("collision_time", "406.43", "", "loose_angle"),
@@ -191,7 +191,7 @@ def test_a_number_is_traced_to_its_shortcut_as_far_as_its_digits_go(
     ],
 )
 def test_a_pitch_that_is_a_little_too_small_is_reported_where_benches_overlap(text: str, words: str) -> None:
-    """Many ways to sample the way give such a pitch, so that none of them is told."""
+    """Many ways to sample the dance give such a pitch, so none of them is the diagnosis."""
     result = typed("pitch", text, Language.ENGLISH)
     assert (result.diagnosis, result.possible) == ([], [])
     assert all(part in " ".join(result.notes) for part in words.split(" ... "))

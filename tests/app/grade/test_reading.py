@@ -340,7 +340,7 @@ def test_a_budget_ends_the_reading() -> None:
 
 
 def test_a_budget_ends_a_reading_that_has_begun() -> None:
-    # There are no rows between which the budget is looked at, and openpyxl takes seconds for all the rest.
+    # The budget is checked between rows; here there are none, and openpyxl takes seconds for the other elements.
     data, budget = repeated(b"<x/>", 500_000), Budget()
     timer = Timer(0.1, budget.stop)
     timer.start()

@@ -1,4 +1,4 @@
-"""A full disk: every call about jobs says so, nothing is half there, and room that is made is used."""
+"""A full disk: every call about jobs says so, no file is incomplete, and freed space is used."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def fill(folder: Path, name: str = "filler") -> Path:
 
 
 @pytest.mark.root
-def test_a_full_disk_is_reported_and_room_that_is_made_is_used(small_disk: Path) -> None:
+def test_a_full_disk_is_reported_and_freed_space_is_used(small_disk: Path) -> None:
     with JobService(small_disk / "data") as service:
         first = service.post(SHORT)
         assert service.finished(first)["status"] == "successful"

@@ -77,7 +77,7 @@ def test_only_what_is_missing_is_answered_again(shared: Shared, tmp_path: Path) 
     assert missing_shards(tmp_path / "a", spec) == [0, 7]
 
     def engine() -> Processes:
-        assert [one.designs for one in reports] == [48]  # what is kept is said before the engine starts
+        assert [one.designs for one in reports] == [48]  # The kept rows are reported before the engine starts.
         return shared
 
     run(spec, tmp_path / "a", question=LAND, progress=reports.append, engine=engine)

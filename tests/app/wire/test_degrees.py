@@ -53,7 +53,7 @@ METRES = {"type": "Polygon", "coordinates": [ring(-40, -40, 40, 40)]}
 DANCE = {"dragon": {"benches": 20}, "path": {"pitch": 1.7, "start_turns": 6}, "stop": 20}
 
 
-# -- told from metres ----------------------------------------------------------------------------------------
+# -- degrees or metres ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("call", ["check", "figures/trajectory.svg", "figures/contact.svg"])

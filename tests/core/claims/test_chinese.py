@@ -9,7 +9,7 @@ import pytest
 from core.claims.certificate import claim_words
 from tests.support.every_kind import CLAIMS, SENTENCES
 
-# Latin letters that are no unit and no name.
+# Latin letters that are neither a unit nor a name.
 ENGLISH = re.compile(r"(?<![A-Za-z])(?!Clopper|Pearson)[A-Za-z]{4,}")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 

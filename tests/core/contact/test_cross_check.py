@@ -120,7 +120,7 @@ def test_a_start_in_the_middle_of_a_contact_is_judged_there(contact: FirstContac
     check = contact_check(result)
     assert check is not None
     assert check.agree
-    # that is no first contact of the whole dance, which a different claim shows
+    # The whole dance has an earlier contact, so the claim of a first one must fail the check.
     forged = contact_check(replace(result, outcome=Outcome.CONTACT))
     assert forged is not None
     assert all(verdict.before for verdict in forged.engines.values())

@@ -21,7 +21,7 @@ from core import (
 )
 
 ANGLE_ERROR = 1e-12  # [rad]
-ONSET_ERROR = 1e-5  # [s]: the root of the error of the angle, some times over
+ONSET_ERROR = 1e-5  # [s]: some times the square root of ANGLE_ERROR
 ROUNDING = 1e-12  # [s]
 TURN = Turn(1.7)
 
@@ -41,7 +41,7 @@ def test_a_bend_on_an_arc_is_half_of_both_chords_angles() -> None:
     head, body = (math.asin(0.5 * chord / 4.0) for chord in dragon.chords[:2])
     assert result.angle == pytest.approx(head + body, abs=ANGLE_ERROR)
     assert result.benches == (0, 1)
-    # once all three handles are on it; until then it falls short by the square of the arc left
+    # It is reached when all three handles are on the arc; before, the error is the square of the arc length to go.
     assert result.time == pytest.approx(4.0 * 2.0 * (head + body), abs=ONSET_ERROR)
 
 
@@ -61,7 +61,7 @@ def dense_bends(dragon: Dragon, path: Spiral | Route, times: np.ndarray) -> np.n
         (Dragon.of([2.6, 1.9, 2.2, 2.0, 2.4] * 4, [0.3, 0.5] * 10, [0.2] * 20), TURN, 0.0, 40.0),
         (Dragon(benches=40), Spiral(), 0.0, 400.0),
     ],
-    ids=["turn", "turn behind the head", "a moment", "a short head", "benches of many sizes", "spiral"],
+    ids=["turn", "turn behind the head", "less than a second", "a short head", "benches of many sizes", "spiral"],
 )
 def test_no_dense_sample_bends_more_sharply(dragon: Dragon, path: Spiral | Route, start: float, stop: float) -> None:
     result = sharpest_bend(Dance(dragon, path), start=start, stop=stop)
@@ -81,5 +81,5 @@ def test_in_a_dance_with_passages_the_same_bend_comes_at_its_own_time() -> None:
     assert expected is not None
     assert (result.angle, result.benches) == (expected.angle, expected.benches)
     assert expected.time > 8.0
-    # 8 m at 2 m/s and the pause are over after 10 s instead of 8 s
+    # The first 8 m take 10 s, 4 s at 2 m/s and then the pause, instead of 8 s.
     assert result.time == pytest.approx(expected.time + 2.0, rel=0, abs=ROUNDING)

@@ -62,7 +62,7 @@ def test_a_leg_takes_few_cubics(points: Points, most: float) -> None:
 
 
 def assert_bounded(route: Route) -> None:
-    """Between its two bounds on every row, and monotonic where they are said to be ends."""
+    """The curvature of every row lies between its bounds, and is monotonic where these are its values at the ends."""
     checked = 0
     for row in route.table:
         places = np.linspace(row[S_START], row[S_END], 34)[1:]

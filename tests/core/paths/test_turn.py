@@ -27,7 +27,7 @@ from core.errors import Quantity
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "turn.json").read_text())
 TURN = Turn(1.7, 4.5, 2.0)
 BARELY_OUTSIDE = 4.5 / 1.7 * (1 + 1e-12)  # [turns]: from there to the circle a coil is shorter than any piece may be
-REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: what was asked of the reference values
+REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: accuracy of the reference values
 
 
 @pytest.mark.parametrize(

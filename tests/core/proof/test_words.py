@@ -19,7 +19,7 @@ def test_runs_of_equal_benches_are_counted() -> None:
     assert [count for count, *_ in runs(mixed(3))] == [2, 2, 2]
 
 
-def test_a_dragon_is_told_run_by_run_until_there_are_too_many() -> None:
+def test_a_dragon_is_described_run_by_run_until_there_are_too_many() -> None:
     assert dragon_words(mixed(1)) == "A dragon of 2 benches (2 of 2 m by 0.3 m, overhang 0.2 m)"
     assert dragon_words(mixed(RUNS_LISTED)).count("overhang") == RUNS_LISTED
     more = dragon_words(mixed(RUNS_LISTED + 1))

@@ -1,4 +1,4 @@
-"""Figures: closed ones close, each is as long as it says, and impossible sizes are none."""
+"""Figures: closed ones close, each is as long as its parts, and impossible sizes give none."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_figures_are_as_long_as_their_parts() -> None:
     assert length_of(serpentine(3.0, 6.0, 2.0) or []) == pytest.approx(36.0 + 4.0 * math.pi)
 
 
-def test_impossible_sizes_are_no_figure() -> None:
+def test_impossible_sizes_give_no_figure() -> None:
     assert ring(3.0, 2.0, 2.5) is None
     assert eight(4.0, 1.0) is None
     assert serpentine(3.0, 0.0, 2.0) is None

@@ -1,4 +1,4 @@
-"""Gates and streets: where they lie, and what has no room."""
+"""Gates and streets: the ground that they add, and the places where they have no room."""
 
 from __future__ import annotations
 
