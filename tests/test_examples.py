@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +11,9 @@ import core
 from app.maps.dances import read_dance
 from app.questions.check import CheckRequest
 from core import FailureKind, Outcome, Report, check
+from tests.support.reference import reference, reference_cases
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
-REFERENCE = Path(__file__).parent / "reference"
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 
 
@@ -54,8 +53,7 @@ def test_the_turn_with_clothoids_is_that_of_the_library_and_passes() -> None:
 
 
 def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:
-    cases = json.loads((REFERENCE / "first_contact.json").read_text())["cases"]
-    time = next(case["time"] for case in cases if case["name"] == "default")
+    time = reference_cases("first_contact")["default"]["time"]
     result = report("paper_dance")
     assert not result.passed
     assert [(failure.kind, failure.benches) for failure in result.failures] == [(FailureKind.CONTACT, (0, 8))]
@@ -64,8 +62,8 @@ def test_the_papers_dance_ends_where_the_head_touches_bench_8() -> None:
 
 
 def test_the_contests_turn_passes_below_2_metres_a_second() -> None:
-    clearance = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
-    speed = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
+    clearance = reference("turn")["clearance"]
+    speed = reference("maximum_head_speed")
     result = report("contest_turn")
     assert result.passed
     assert result.least_clearance is not None

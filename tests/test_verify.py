@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import copy
-import importlib.util
 import io
 import itertools
 import json
@@ -19,7 +18,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import numpy as np
 import pytest
 from flint import arb, ctx, fmpz
 
@@ -32,17 +30,15 @@ from core.proof import (
     prove_minimum_pitch,
 )
 from core.proof import verify as core_verify
-from tests.campaigns.differential import MAKERS, hunt, made
+from tests.campaigns.differential import MAKERS, hunt, made, second
 from tests.support.depth import DEEP, examples, some
 from tests.support.forgeries import FORGERIES, edit, put_at, stretches
+from tests.support.reference import reference_cases
+from tests.support.reference_contacts import proof_of, random_contact
 
 ROOT = Path(__file__).parents[1]
 VERIFY = ROOT / "examples" / "verify.py"
-CASES = {
-    case["name"]: case
-    for file in ("first_contact", "minimum_pitch")
-    for case in json.loads((ROOT / "tests/reference" / f"{file}.json").read_text())["cases"]
-}
+CASES = reference_cases("first_contact") | reference_cases("minimum_pitch")
 PITCH_ROUNDING = 1e-9  # the reference pitches are rounded: this much more is free of contact [m]
 CODE_LINES_MOST = 1_150  # of code: what has a token besides docstrings and comments
 PATIENCE = 600.0  # [s]: only against a run that would hang
@@ -90,10 +86,7 @@ def refusal(done: subprocess.CompletedProcess[str], code: int = 1) -> str:
 
 
 def collision(name: str, **changes: Any) -> Certificate:
-    case = CASES[name]
-    path = Spiral(case["pitch"], case["start_turns"])
-    dragon = Dragon(**case["dragon"])
-    return prove_collision_time(Dance(dragon, path, case["head_speed"]), case["time"], **changes)
+    return proof_of(CASES[name], head_speed=CASES[name]["head_speed"], **changes)
 
 
 @cache
@@ -112,14 +105,7 @@ def graze() -> Certificate:
 
 
 def bench_by_bench(seed: int) -> Certificate:
-    random = np.random.default_rng(seed)
-    benches = int(random.integers(4, 12))
-    lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
-    dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
-    path = Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0))
-    time = first_contact(Dance(dragon, path)).time
-    assert time is not None
-    return prove_collision_time(Dance(dragon, path), time)
+    return prove_collision_time(*random_contact(seed))
 
 
 def every_pair() -> Certificate:
@@ -147,12 +133,7 @@ def small() -> Certificate:
 @pytest.fixture(scope="module")
 def verify() -> ModuleType:
     """verify.py as a module, to look inside."""
-    spec = importlib.util.spec_from_file_location("verify", VERIFY)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return second()
 
 
 def test_its_code_imports_the_standard_library_alone() -> None:

@@ -8,9 +8,6 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urldefrag, urlsplit
 
-# Elements whose address a browser loads by itself.
-LOADED = {"script", "img", "source", "iframe", "audio", "video"}
-
 
 class Page(HTMLParser):
     """Addresses and anchors of a page. links: addresses that a reader follows; loaded: those that the browser loads"""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import httpx
@@ -14,8 +13,8 @@ import pytest
 from scipy.special import fresnel
 
 import core
+from tests.support.reference import reference
 
-REFERENCE = Path(__file__).parent.parent / "reference"
 REFERENCE_TOLERANCE = 1e-9  # [m], [rad], [s] and [m/s]
 SAME_PATH_TOLERANCE = 1e-10  # [m] and [m/s]
 BEGIN_TOLERANCE = 1e-7  # [s]: the first place with room for the whole dragon is bisected
@@ -24,10 +23,6 @@ TURN_QUERY = "pitch=1.7&turning_diameter=9&ratio=2"
 LANE = {"kind": "line", "start": [0, 0], "end": [60, 0]}
 BEND = {"kind": "arc", "centre": [60, 20], "radius": 20, "start_angle": -math.pi / 2, "sweep": math.pi / 2}
 SHORT = {"benches": 4}
-
-
-def reference(name: str) -> Any:
-    return json.loads((REFERENCE / f"{name}.json").read_text())
 
 
 def posted(client: httpx.Client, call: str, **body: Any) -> Any:

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import hashlib
-import json
-from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
-REFERENCE = Path(__file__).parent.parent / "reference"
+from tests.support.reference import reference
+
 POSITION_TOLERANCE = 1e-11  # [m], and [m/s] for speeds
 CONTACT_TOLERANCE = 1e-9  # [s], [m] and [rad]
 PITCH_TOLERANCE = 1e-9  # [m]
 # At a graze the clearance is flat along the way, so its place is known to the square root of the accuracy [m].
 GRAZE_RADIUS_TOLERANCE = 1e-6
 PATH_NAMES = ("pitch", "start_turns", "head_speed")
-
-
-def reference(name: str) -> Any:
-    return json.loads((REFERENCE / f"{name}.json").read_text())
 
 
 TRAJECTORY = reference("trajectory")

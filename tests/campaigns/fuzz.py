@@ -44,7 +44,7 @@ class Tally:
         return f"answers by status: {dict(sorted(self.statuses.items()))}; slowest {self.slowest}"
 
     def add(self, status: int, headers: Mapping[str, Any], text: str, seconds: float, request: str) -> None:
-        """Count an answer. raises: AssertionError for a fault of the service, or an error that is not a problem document"""
+        """Count an answer. raises: AssertionError for a fault of the service, or one without problem details"""
         self.statuses[status] += 1
         self.slowest = max(self.slowest, (seconds, request[:200]))
         assert status < 500 or (status == 503 and "retry-after" in headers), (request, text[:500])

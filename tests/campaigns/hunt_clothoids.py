@@ -6,6 +6,8 @@ with none there, where the curvature jumps.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from core import Clothoid, Line, Route
@@ -39,11 +41,7 @@ def fault(seed, case):
     return hunt_contacts.fault(seed, case, blended_route)
 
 
-def hunt(seed, seconds):
-    """(cases, faults) of a campaign of some seconds."""
-    found = hunting.hunt(fault, seed, seconds)
-    return found.cases, found.faults
-
+hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
     hunting.main(fault, "dances on clothoids")

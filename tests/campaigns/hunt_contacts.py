@@ -7,6 +7,7 @@ margins are chosen so that benches only graze, and so meet slowly.
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -244,11 +245,7 @@ def found_words(contact):
     return f"undecided from {contact.time_bracket[0]} s on"
 
 
-def hunt(seed, seconds):
-    """(cases, faults) of a campaign of some seconds."""
-    result = hunting.hunt(fault, seed, seconds)
-    return result.cases, result.faults
-
+hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
     hunting.main(fault, "dances")

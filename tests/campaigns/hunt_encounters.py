@@ -7,6 +7,8 @@ margins are chosen so that benches only graze, and so meet slowly.
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from core import (
@@ -144,11 +146,7 @@ def encounter_fault(met, margin, look):
     return ""
 
 
-def hunt(seed, seconds):
-    """(cases, faults) of a campaign of some seconds."""
-    found = hunting.hunt(fault, seed, seconds)
-    return found.cases, found.faults
-
+hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
     hunting.main(fault, "encounters")

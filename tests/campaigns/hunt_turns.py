@@ -8,6 +8,7 @@ that share an overlap (core/design/turn_overlap.py), random turns are laid out s
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -115,11 +116,7 @@ def fault(seed, case):
     return f"{kind}: {outcome}", wrong
 
 
-def hunt(seed, seconds):
-    """(cases, faults) of a campaign of some seconds."""
-    result = hunting.hunt(fault, seed, seconds)
-    return result.cases, result.faults
-
+hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
     hunting.main(fault, "turns, long spirals and boxes")

@@ -6,6 +6,8 @@ passes, many of them in the last metres before the fold; spirals stand anywhere,
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import shapely
 
@@ -180,11 +182,7 @@ def area_fault(tree, margin, look):
     return ""
 
 
-def hunt(seed, seconds):
-    """(cases, faults) of a campaign of some seconds."""
-    result = hunting.hunt(fault, seed, seconds)
-    return result.cases, result.faults
-
+hunt = partial(hunting.hunt, fault)
 
 if __name__ == "__main__":
     hunting.main(fault, "venues")

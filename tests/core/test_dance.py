@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import math
 import pickle
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import core
 from core import (
@@ -34,29 +31,13 @@ from core import (
     venue_clearance,
 )
 from core.passages import HEAD_SPEED_MAX, HEAD_SPEED_MIN
+from tests.support.random_dances import DANCES
+from tests.support.reference import reference
 from tests.support.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
 # The slow dance finds the end by bisecting on whether a chain exists: as good as the crest is flat [m of travel].
 SLOW_END = 1e-8
-SIZES = st.floats(0.3, 3.0)
-DRAGONS = st.one_of(
-    st.builds(
-        Dragon, st.integers(1, 25), st.floats(0.5, 4.0), st.floats(0.5, 4.0), st.floats(0.05, 1.0), st.floats(0, 0.2)
-    ),
-    st.lists(SIZES, min_size=1, max_size=12).map(lambda c: Dragon.of(c, [0.2] * len(c), [0.1] * len(c))),
-)
-SPIRALS = st.builds(Spiral, pitch=st.floats(0.2, 3.0), start_turns=st.floats(3.0, 20.0))
-
-
-def stands(dragon: Dragon, spiral: Spiral) -> bool:
-    try:
-        return Dance(dragon, spiral).end.time > 1.0
-    except InvalidValue:
-        return False
-
-
-DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
 
 
 def test_the_default_run_ends_at_the_fold_of_the_head() -> None:
@@ -76,7 +57,7 @@ def test_a_wide_spiral_is_danced_to_its_centre() -> None:
 
 
 def test_the_reference_agrees_on_every_fold() -> None:
-    cases = json.loads((Path(__file__).parents[1] / "reference" / "first_contact.json").read_text())["cases"]
+    cases = reference("first_contact")["cases"]
     folding = [case for case in cases if case.get("fold_time")]
     assert folding
     for case in folding:

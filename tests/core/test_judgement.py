@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import math
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -43,12 +41,9 @@ from core import (
     venue_clearance,
 )
 from core.contact.search import ContactSearch
+from tests.support.reference import reference
 
-BEND_LIMIT = 0.999  # half a chord over the radius of the tightest bend that a route may have [1]
-REFERENCE = Path(__file__).parents[1] / "reference"
-CLEARANCE = json.loads((REFERENCE / "turn.json").read_text())["clearance"]
-SPEED = json.loads((REFERENCE / "maximum_head_speed.json").read_text())
-
+CLEARANCE, SPEED = reference("turn")["clearance"], reference("maximum_head_speed")
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]
 
 TURN = Turn(1.7)

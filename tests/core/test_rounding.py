@@ -247,7 +247,7 @@ def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_speed_above_a_limit_by_the_kernel_is_above_it(seed: int) -> None:
-    """Limits around the speed at an instant, down to its rounding: a speed above one by the kernel is above it with 50 digits."""
+    """Limits around the speed at an instant, down to its rounding: what exceeds one in the kernel does to 50 digits."""
     dragon, spiral = Dragon(5, 3.0, np.random.default_rng(seed).uniform(2.0, 2.6)), Spiral(1.2, 3.0)
     end = Dance(dragon, spiral).end
     for left in (1e-1, 1e-3, 1e-5):

@@ -14,7 +14,6 @@ from core import Area, Dragon, Gate, Proposal, Proposals, Venue, bench_outlines,
 
 # Distance of two samples of a dance [s], and rounding of distances at coordinates of some hundred metres [m].
 STEP, ROUNDING = 0.1, 1e-9
-POLYGON_TRIES = 50
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 from core import Arc, Dance, Dragon, Legs, Line, Part, Performance, Route, Spiral
+from tests.support.reference import reference_cases
 
-CASES: dict[str, dict[str, Any]] = {
-    case["name"]: case
-    for case in json.loads((Path(__file__).parents[1] / "reference" / "encounters.json").read_text())["cases"]
-}
+CASES = reference_cases("encounters")
 PIECES = {"arc": Arc, "line": Line}
 
 

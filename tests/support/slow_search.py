@@ -183,12 +183,12 @@ class SlowDance:
         middle = 0.5 * (front + rear)
         return Polygon([middle + u + v, middle + u - v, middle - u - v, middle - u + v])
 
-    def first_touch(self, margin=0.0, until=None):
+    def first_touch(self, margin=0.0):
         """Time and pair of the first instant with a separation <= margin, None if there is none."""
         gaps, pairs = self.clearance([0.0])
         if gaps[0] <= margin:
             return 0.0, tuple(pairs[0])
-        stop = RUN * self.end() if until is None else until
+        stop = RUN * self.end()
         steps = 3 + int(stop / (STEP * self.chords.min()))
         last_two = np.empty(0)
         for times in np.array_split(np.linspace(0.0, stop, steps), 1 + steps // 400):

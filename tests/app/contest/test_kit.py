@@ -34,19 +34,15 @@ from app.settings import Settings
 from app.wire.question import Terms
 from core import Budget, TooMuchWork
 from tests.support.command import COMMAND, run
+from tests.support.reference import reference
 from tests.test_docs import KITS, assert_alike
 
-REFERENCE = Path(__file__).parents[2] / "reference"
 # Half of the last of six decimals, and the rounding of that decimal text [m and m/s].
 SIX_DECIMALS = 0.5e-6 + 1e-14
 WORKBOOKS = ("result1", "result2", "result4")
 FIGURES = ("positions", "snapshots", "clearance", "staircase", "geometry", "amplification", "sensitivity")
 CHINESE = ("--language", "zh", "--no-films")
 TABLES = ("positions", "speeds", "contact", "turn-positions", "turn-speeds")
-
-
-def reference(name: str) -> Any:
-    return json.loads((REFERENCE / f"{name}.json").read_bytes())
 
 
 # matplotlib's own fonts alone, as on a machine without one for Chinese.

@@ -175,36 +175,23 @@ def test_a_broken_file_is_reported(tmp_path: Path) -> None:
 
 
 # The tables of earlier versions as they wrote them; the second without the table that came later in the same layout.
+EVENTS = """
+CREATE INDEX jobs_by_state ON jobs (state, created);
+CREATE TABLE events (
+    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
+    PRIMARY KEY (job, number)
+) WITHOUT ROWID;
+"""
+COLUMNS = """
+    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
+    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
+    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
+    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0"""
 LAYOUTS = {
-    1: """
-CREATE TABLE jobs (
-    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
-    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
-    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
-    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0
-);
-CREATE INDEX jobs_by_state ON jobs (state, created);
-CREATE TABLE events (
-    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
-    PRIMARY KEY (job, number)
-) WITHOUT ROWID;
-""",
-    2: """
-CREATE TABLE jobs (
-    id TEXT PRIMARY KEY, question TEXT NOT NULL, call BLOB NOT NULL, client TEXT NOT NULL, state TEXT NOT NULL,
-    created REAL NOT NULL, started REAL, finished REAL, updated REAL NOT NULL, message TEXT NOT NULL,
-    progress INTEGER NOT NULL DEFAULT 0, rate REAL, time_left REAL, deaths INTEGER NOT NULL DEFAULT 0,
-    media_type TEXT, size INTEGER NOT NULL DEFAULT 0, problem BLOB, expired INTEGER NOT NULL DEFAULT 0,
-    done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0
-);
-CREATE INDEX jobs_by_state ON jobs (state, created);
-CREATE TABLE events (
-    job TEXT NOT NULL REFERENCES jobs ON DELETE CASCADE, number INTEGER NOT NULL, data BLOB NOT NULL,
-    PRIMARY KEY (job, number)
-) WITHOUT ROWID;
-CREATE TABLE removals (id INTEGER PRIMARY KEY CHECK (id = 0), made INTEGER, cleared INTEGER);
-INSERT INTO removals VALUES (0, 4, 4);
-""",
+    1: f"CREATE TABLE jobs ({COLUMNS});{EVENTS}",
+    2: f"CREATE TABLE jobs ({COLUMNS}, done INTEGER, total INTEGER, kept INTEGER NOT NULL DEFAULT 0);{EVENTS}"
+    "CREATE TABLE removals (id INTEGER PRIMARY KEY CHECK (id = 0), made INTEGER, cleared INTEGER);"
+    "INSERT INTO removals VALUES (0, 4, 4);",
 }
 
 

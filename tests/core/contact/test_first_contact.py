@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,9 +32,10 @@ from core.contact.march import BRACKET
 from core.contact.search import MARGIN_MAX
 from core.design.pitch_bands import BORDER_WIDTH
 from tests.support.depth import some
+from tests.support.reference import reference
 from tests.support.slow_search import SlowDance
 
-CASES = json.loads((Path(__file__).parents[2] / "reference" / "first_contact.json").read_text())["cases"]
+CASES = reference("first_contact")["cases"]
 # Times are promised to this [s] and places to what the head moves meanwhile [m].
 ACCURACY = 1e-9
 # Rounding of a separation at some ten metres from the centre [m].

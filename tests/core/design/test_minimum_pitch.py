@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -27,10 +25,11 @@ from core import (
 )
 from tests.campaigns.sweep_pitch import random_case
 from tests.support.depth import examples, some
+from tests.support.reference import reference
 from tests.support.slow_pitch import SlowWay
 from tests.support.slow_search import SlowDance, chord_squared
 
-CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
+CASES = reference("minimum_pitch")["cases"]
 # Pitches are promised to this [m].
 ACCURACY = 1e-9
 # Within this of its minimum a pitch is neither surely feasible nor surely not [m].

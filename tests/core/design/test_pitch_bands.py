@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,8 +14,9 @@ from core.design.pitch_bands import Bands
 from core.kernels import Ended
 from core.kernels.constants import MX, MY, SHIFT_CENTRE, SHIFT_CORNER, SHIFT_OMEGA, SHIFT_PULL, UX, UY
 from core.values import Floats
+from tests.support.reference import reference
 
-CASES = json.loads((Path(__file__).parents[2] / "reference" / "minimum_pitch.json").read_text())["cases"]
+CASES = reference("minimum_pitch")["cases"]
 GRAZES = [case for case in CASES if case["limited_by"] != "start"]
 # Pitches are promised to this [m].
 ACCURACY = 1e-9

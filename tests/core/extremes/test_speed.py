@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -33,8 +30,9 @@ from core import (
 )
 from core.contact.search import ContactSearch
 from core.extremes.speed import RATE_TOLERANCE
+from tests.support.reference import reference
 
-SPEED = json.loads((Path(__file__).parents[2] / "reference" / "maximum_head_speed.json").read_text())
+SPEED = reference("maximum_head_speed")
 REFERENCE_ERROR = 1e-9  # [m/s] and [s]
 ROUNDING = 1e-12  # of a speed ratio, relative [1]
 TURN = Turn(1.7)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,39 +23,22 @@ from core import (
 )
 from core.error_free import paired
 from core.kernels import LANES_PER_BLOCK
+from tests.support.random_dances import DANCES
+from tests.support.reference import reference
 from tests.support.slow_search import SlowDance
 
 pytestmark = pytest.mark.uncompiled
 
-REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "trajectory.json").read_text())
+REFERENCE = reference("trajectory")
 # Positions and speeds are promised to this [m] and [m/s].
 ACCURACY = 1e-11
 # Rounding of a position, relative to the largest coordinate [1].
 ROUNDING = 1e-12
 
-SIZES = st.floats(0.3, 3.0)
-DRAGONS = st.one_of(
-    st.builds(
-        Dragon, st.integers(1, 25), st.floats(0.5, 4.0), st.floats(0.5, 4.0), st.floats(0.05, 1.0), st.floats(0, 0.2)
-    ),
-    st.lists(SIZES, min_size=1, max_size=12).map(lambda c: Dragon.of(c, [0.2] * len(c), [0.1] * len(c))),
-)
-SPIRALS = st.builds(Spiral, pitch=st.floats(0.2, 3.0), start_turns=st.floats(3.0, 20.0))
-
 
 def instant(dragon: Dragon, spiral: Spiral, share: float) -> float:
     """The time at a share of the run, 1 at its end [s]; negative before the start."""
     return share * Dance(dragon, spiral).end.time
-
-
-def stands(dragon: Dragon, spiral: Spiral) -> bool:
-    try:
-        return Dance(dragon, spiral).end.time > 1.0
-    except InvalidValue:
-        return False
-
-
-DANCES = st.tuples(DRAGONS, SPIRALS).filter(lambda dance: stands(*dance))
 
 
 def test_the_selected_handles_are_those_of_the_reference() -> None:

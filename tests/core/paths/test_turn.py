@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,8 +21,9 @@ from core import (
     trajectory,
 )
 from core.errors import Quantity
+from tests.support.reference import reference
 
-REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "turn.json").read_text())
+REFERENCE = reference("turn")
 TURN = Turn(1.7, 4.5, 2.0)
 BARELY_OUTSIDE = 4.5 / 1.7 * (1 + 1e-12)  # [turns]: from there to the circle a coil is shorter than any piece may be
 REFERENCE_ERROR = 1e-9  # [m], [m/s], [s]: accuracy of the reference values

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 from flint import ctx
 
-from core import Dance, Dragon, Spiral, first_contact
+from core import Dragon
 from core.errors import InvalidValue, ProofRefused
 from core.proof import (
     Certificate,
@@ -25,12 +23,11 @@ from core.proof import (
 from tests.support.depth import examples
 from tests.support.forgeries import FORGERIES, edit, through_json
 from tests.support.forgeries import put_at as at
-from tests.support.reference_contacts import CONTACTS, SMALL, proof_of
+from tests.support.reference import reference_cases
+from tests.support.reference_contacts import CONTACTS, SMALL, proof_of, random_contact
 
 ROOT = Path(__file__).parents[3]
-PITCHES = {
-    case["name"]: case for case in json.loads((ROOT / "tests/reference/minimum_pitch.json").read_text())["cases"]
-}
+PITCHES = reference_cases("minimum_pitch")
 # The reference pitches are rounded: this much more is free of contact [m].
 PITCH_ROUNDING = 1e-9
 # A delta from doubles, where F is steep, is this near to the true one [rad].
@@ -84,19 +81,13 @@ def test_a_reference_pitch_is_proven_and_checked(name: str, benches: int, start_
 
 @pytest.mark.parametrize("seed", [0, 2, 8, 17, 26, 35, 42, 55])
 def test_the_contact_of_a_random_dragon_given_bench_by_bench_is_proven_and_its_neighbourhood_refused(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    benches = int(random.integers(4, 12))
-    lengths, overhangs = random.uniform(1.2, 3.6, benches), random.uniform(0.0, 0.4, benches)
-    dragon = Dragon.of(lengths, random.uniform(0.1, 0.4, benches), overhangs)
-    path = Spiral(random.uniform(0.5, 0.8), random.uniform(5.0, 9.0))
-    time = first_contact(Dance(dragon, path)).time
-    assert time
-    certificate = through_json(prove_collision_time(Dance(dragon, path), time))
-    assert certificate["repeats_from"] == benches - 3
+    dance, time = random_contact(seed)
+    certificate = through_json(prove_collision_time(dance, time))
+    assert certificate["repeats_from"] == dance.dragon.benches - 3
     verify(certificate)
     for wrong in (time - 1e-8, time + 1e-8):
         with pytest.raises(ProofRefused):
-            prove_collision_time(Dance(dragon, path), wrong)
+            prove_collision_time(dance, wrong)
 
 
 @pytest.mark.parametrize("name", FORGERIES)

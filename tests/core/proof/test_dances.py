@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +12,7 @@ import pytest
 import shapely
 from flint import arb
 
-from core import Arc, Coil, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
+from core import Arc, Dance, Dragon, Line, Route, Spiral, Turn, Waypoints, bench_poses, first_contact, trajectory
 from core.contact.clearance import least_clearance
 from core.errors import InvalidValue, OutsideRun, ProofRefused
 from core.proof import Certificate, prove_clear, prove_collision_time, prove_contact, prove_minimum_pitch, verify
@@ -22,11 +21,10 @@ from core.shapes.rectangles import corners
 from tests.support.depth import examples, some
 from tests.support.forgeries import edit, places, refusal, stretches, through_json
 from tests.support.forgeries import put_at as at
+from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
+from tests.support.reference_contacts import CONTACTS
 
 ROOT = Path(__file__).parents[3]
-CONTACTS = {
-    case["name"]: case for case in json.loads((ROOT / "tests/reference/first_contact.json").read_text())["cases"]
-}
 # Chains in doubles, as trajectory() has them, are this near to the true ones [m].
 DOUBLES = 1e-11
 # Differences that are refused: of a time from a contact [s], and of a margin from the least clearance [m].
@@ -38,18 +36,6 @@ HALF_BRACKET = 5e-10
 START, STOP = -8.0, 18.0
 INSTANTS = np.linspace(START + 0.1, STOP - 0.1, 40)
 
-LOOP = Route(
-    [
-        Line((-90.0, 0.0), (0.0, 0.0)),
-        Arc((0.0, 5.0), 5.0, -math.pi / 2, 1.5 * math.pi),
-        Line((-5.0, 5.0), (-5.0, -20.0)),
-    ]
-)
-HAIRPIN = Route(
-    [Line((0.0, 0.0), (40.0, 0.0)), Arc((40.0, 1.5), 1.5, -math.pi / 2, math.pi), Line((40.0, 3.0), (0.0, 3.0))]
-)
-OUTWARDS = Route([Coil(0.9, 3.0, 9.0)])
-TURNED = Route([Coil(0.7, 9.0, 3.5, centre=(2.0, -1.0), rotation=0.4)], start=10.0)
 SMALL = Dragon(14)
 SHORT = Dragon(10, 2.0, 1.4, 0.3, 0.2)
 # Each with the span of a proof [s].

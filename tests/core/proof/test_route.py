@@ -2,32 +2,19 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 from flint import arb, ctx
 
-from core import Arc, Coil, Dance, Dragon, Line, Route, Turn, trajectory
+from core import Dance, Dragon, Turn, trajectory
 from core.proof.chain import delta
 from core.proof.pairs import Unproven
 from core.proof.paths import chain_on, recorded_path
 from core.proof.route import RouteChain
+from tests.support.proof_routes import HAIRPIN, LOOP, OUTWARDS, TURNED
 
 # Chains in doubles, as trajectory() has them, are this near to the true ones [m].
 DOUBLES = 1e-11
-LOOP = Route(
-    [
-        Line((-90.0, 0.0), (0.0, 0.0)),
-        Arc((0.0, 5.0), 5.0, -math.pi / 2, 1.5 * math.pi),
-        Line((-5.0, 5.0), (-5.0, -20.0)),
-    ]
-)
-HAIRPIN = Route(
-    [Line((0.0, 0.0), (40.0, 0.0)), Arc((40.0, 1.5), 1.5, -math.pi / 2, math.pi), Line((40.0, 3.0), (0.0, 3.0))]
-)
-OUTWARDS = Route([Coil(0.9, 3.0, 9.0)])
-TURNED = Route([Coil(0.7, 9.0, 3.5, centre=(2.0, -1.0), rotation=0.4)], start=10.0)
 SMALL = Dragon(14)
 ROUTES = {"loop": LOOP, "hairpin": HAIRPIN, "outwards": OUTWARDS, "inwards": TURNED, "turn": Turn(1.7)}
 
