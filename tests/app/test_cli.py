@@ -56,7 +56,7 @@ CROSSED = {
 # Questions that commands of another name answer, and two that none does: the page draws with course, and a sweep of
 # collision-time over the pitch is the scan.
 FIGURES = {"trajectory_figure", "contact_figure", "pitch_scan_figure"}
-OTHERWISE = FIGURES | {"films", "proposals", "course", "pitch_scan"}
+OTHERWISE = FIGURES | {"films", "proposals", "contest_kit", "course", "pitch_scan"}
 
 
 def answer_of(*arguments: str, **keywords: Any) -> str:
