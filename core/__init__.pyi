@@ -20,9 +20,10 @@ from .course import Course, TightBend, course
 from .dance import Dance, EndReason, RunEnd
 from .design.deepest_turn import DeepestTurn, TurnLimit, deepest_turn
 from .design.dubins_turn import DubinsTurn, dubins_turn
-from .design.minimum_pitch import JustifiedBy, LimitedBy, MinimumPitch, minimum_pitch
+from .design.minimum_pitch import MinimumPitch, minimum_pitch
 from .design.pitch_check import pitch_check
 from .design.pitch_scan import PitchScan, pitch_scan
+from .design.pitch_search import JustifiedBy, LimitedBy
 from .design.quickest_turn import TurnTime, quickest_turn, turn_time
 from .design.shortest_turn import ShortestTurn, shortest_turn
 from .design.turn_length import turn_length_bounds

@@ -17,9 +17,11 @@ from app.wire.question import (
     Strays,
     Terms,
     UniformDragon,
+    Whole,
     measure,
 )
 from core import Dragon, InvalidValue, LimitedBy
+from core.design.minimum_pitch import DRAGONS_MAX
 from core.errors import Quantity, quantities
 
 # Shortest chord and largest circle of a search that takes 20 ms [m].
@@ -29,6 +31,13 @@ CHORD_ORDINARY, CIRCLE_ORDINARY = 0.5, 30.0
 class PitchFields(Strays, Circle):
     """Smallest pitch such that every larger one reaches the circle."""
 
+    dragons: Whole = Field(
+        1,
+        ge=1,
+        le=DRAGONS_MAX,
+        description="Number of equal dragons in the one spiral, which start at once, each turned against the next by a "
+        "turn over this number: no benches of any two of them touch either",
+    )
     cross_check: CrossCheck = "dragon"
 
 
@@ -69,11 +78,14 @@ class MinimumPitch(Answer):
     evaluations: int = Field(
         description="Number of runs to the circle computed, for single pitches or for whole bands of pitches"
     )
+    dragons: Pair | None = Field(
+        description="The dragons of the two benches, the first bench that of dragon 0; null if both are of one dragon"
+    )
     stray: float | None = TOTAL_STRAY
     cross_check: PairCheck | None = Field(
         description="Verdicts of the engines at a pitch 1e-6 m larger and smaller, with the head where the pair is in "
-        "contact (with a stray shapely's alone, for the areas that benches may cover); null without a pair or if not "
-        "requested"
+        "contact (with a stray shapely's alone, for the areas that benches may cover); of several dragons bench b of "
+        "dragon k has the number k times the benches of one, plus b; null without a pair or if not requested"
     )
 
 
@@ -86,6 +98,9 @@ def checked_pitch(result: core.MinimumPitch, request: WayToCircle, dragon: Drago
     if result.limited_by is LimitedBy.START and result.benches is None:
         values |= quantities("turns", got=request.start_turns, least=request.turning_diameter / 2 / PITCH_MAX)
         raise InvalidValue("start_turns", f"must be at least {{least}}, or the turning circle smaller: {why}", **values)
+    if result.dragons is not None:
+        rule = f"must be fewer, or the turning circle larger: {why}"
+        raise InvalidValue("dragons", rule, got=getattr(request, "dragons", None), **values)
     if result.benches is None or result.benches[1] - result.benches[0] > 2:
         got = Quantity(request.turning_diameter, "m")
         raise InvalidValue("turning_diameter", f"must be larger: {why}", got=got, **values)
@@ -102,18 +117,26 @@ def minimum_pitch(request: MinimumPitchQuery | MinimumPitchRequest, terms: Terms
     """The smallest pitch such that at every larger one the head reaches the circle without a contact."""
     dragon = request.to_dragon(request.most_benches(terms.settings))
     stray, check = request.to_stray(), None
-    least = core.minimum_pitch(dragon, **request.to_circle(), stray=stray, budget=terms.budget)
+    least = core.minimum_pitch(dragon, **request.to_circle(), stray=stray, dragons=request.dragons, budget=terms.budget)
     result = checked_pitch(least, request, dragon)
     if request.cross_check != "none":
         whole = request.cross_check == "dragon"
-        check = core.pitch_check(result, dragon, margin=request.margin, stray=stray, whole=whole, budget=terms.budget)
+        check = core.pitch_check(
+            result,
+            dragon,
+            margin=request.margin,
+            stray=stray,
+            dragons=request.dragons,
+            whole=whole,
+            budget=terms.budget,
+        )
     return MinimumPitch.from_result(result, stray=request.total_stray, cross_check=check)
 
 
 def _cost(request: MinimumPitchQuery | MinimumPitchRequest) -> float:
     """Estimated time [s]: very short benches on a large circle take thousands of times as long as ordinary ones."""
     dragon = request if isinstance(request, MinimumPitchQuery) else request.dragon
-    if request.has_stray or not isinstance(dragon, UniformDragon):
+    if request.has_stray or request.dragons > 1 or not isinstance(dragon, UniformDragon):
         return UNKNOWN_COST
     chord = min(dragon.head_length, dragon.body_length) - 2 * dragon.overhang
     if chord < CHORD_ORDINARY or request.turning_diameter > CIRCLE_ORDINARY:

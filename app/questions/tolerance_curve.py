@@ -33,8 +33,8 @@ class CurveFields(WayToCircle):
         """raises: InvalidValue for a highest pitch that is not above the lowest one"""
         low, high = self.from_pitch, self.to_pitch
         if low is None:
-            circle = {"turning_radius": self.turning_diameter / 2, "start_turns": self.start_turns}
-            least = core.minimum_pitch(dragon, **circle, budget=terms.budget)
+            radius = self.turning_diameter / 2
+            least = core.minimum_pitch(dragon, turning_radius=radius, start_turns=self.start_turns, budget=terms.budget)
             low = checked_pitch(least, self, dragon).pitch * (1.0 + ABOVE_MINIMUM)
         if high is not None and high <= low:
             values = quantities("m", got=high, low=low)

@@ -181,20 +181,23 @@ def judged_grounds(
     *,
     margin: float = 0.0,
     at_start: bool = False,
+    owners: Indices | None = None,
     budget: Budget | None = None,
 ) -> ContactCheck:
-    """Shapely's verdict on the ground that benches may cover, as judged_contact() for the whole dragon.
+    """Shapely's verdict on the ground that benches may cover, as judged_contact() for the whole dragon, or for several
+    equal ones.
 
     together: pairs that meet between the two instants. The search uses the largest gap along a direction as the
     distance, which is up to SHORT less than the true one. So the grounds must be apart by the margin before, and within
     the margin and SHORT after.
     """
     sizes = np.stack([ground.bounds.lengths, ground.bounds.widths], axis=-1)
+    sizes = np.tile(sizes, (len(poses[0]) // len(sizes), 1))
     judged = judged_benches(poses[1], sizes, pair, margin)
     before, after = (
         _grounds_met(pose, ground, within, near)
         for pose, within in zip(poses, (margin, margin * (1.0 + SHORT)), strict=True)
-        for near in _pairs_of(Engine.SHAPELY, pose[None, judged], sizes[judged], within, judged, budget)
+        for near in _pairs_of(Engine.SHAPELY, pose[None, judged], sizes[judged], within, judged, budget, owners)
     )
     together = set() if at_start else after - before - {pair}
     verdict = _verdict([pair in before, pair in after], at_start) if at_start else Verdict(bool(before), pair in after)
@@ -208,7 +211,8 @@ def _grounds_met(pose: Floats, ground: Reach, margin: float, near: set[Pair]) ->
     placed = []
     for benches in np.array(sorted(near)).T:
         x, y, heading = pose[benches].T[:, :, None, None]
-        along, left = np.moveaxis(ground.hulls[ground.kinds[np.minimum(benches, len(ground.kinds) - 1)]], -1, 0)
+        kinds = ground.kinds[np.minimum(benches % len(ground.bounds.lengths), len(ground.kinds) - 1)]
+        along, left = np.moveaxis(ground.hulls[kinds], -1, 0)
         c, s = np.cos(heading), np.sin(heading)
         placed.append(np.stack([x + along * c - left * s, y + along * s + left * c], axis=-1))
     meet = unions_meet(placed[0], placed[1], margin)

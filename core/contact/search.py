@@ -20,7 +20,7 @@ from core.kernels import Budget, Ended
 from core.kernels.results import Marched
 from core.paths.route import Route
 from core.paths.spiral import Spiral
-from core.shapes.reach import Reach, directions, reach
+from core.shapes.reach import Reach, directions, reach, ring_bounds
 from core.values import Floats
 
 # End of a march, its result, and the half width of the bracket around its contact [m].
@@ -40,6 +40,8 @@ SAMPLED_SHARE = 0.1
 class ContactSearch:
     """The kernels' arrays for one dragon, with the current path and margin.
 
+    copies: dragons in one spiral, each turned by a part of a turn; with several, every pair is a bench of the first and
+        one of another: bench b of dragon k has the bench number k * (room + 1) + b
     dragon: in the search: with a stray each bench is as large as the ground that it may cover; nominal: as given
     stray: [m]; kinds: the hulls of that ground, none without a stray
     rings: lengths of the benches for the kernels, with bounds for the current path and margin
@@ -61,6 +63,7 @@ class ContactSearch:
 
     margin: float
     clear_radius: float
+    copies = 1
 
     def __init__(
         self,
@@ -75,28 +78,31 @@ class ContactSearch:
         covered: Callable[[Dragon, float], Reach] = reach,
     ) -> None:
         self.work, self.budget, self.nominal, self.stray = work, budget or Budget(), dragon, stray
-        self.timing, self.kinds, self.between = 0.0, kernels.Kinds(), 1
-        ground = covered(dragon, stray) if stray > 0.0 else None
+        self.timing, self.kinds, self.between, copies = 0.0, kernels.Kinds(), 1, self.copies
+        self.apart, outer = (0.0, 2) if copies == 1 else (math.tau / copies, 0)
+        self.ground = ground = covered(dragon, stray) if stray > 0.0 else None
         if ground is not None:
             self.kinds.lay(ground.hulls.reshape(-1, 2), ground.kinds, directions())
             dragon = ground.bounds
         self.dragon = dragon
         self.edges = np.empty((0, 4)) if edges is None else edges
         self.rings = rings = kernels.Rings()
-        rings.measure(dragon.chords, dragon.overhangs, dragon.widths, dragon.lengths, dragon.uniform_from, 2)
+        rings.measure(dragon.chords, dragon.overhangs, dragon.widths, dragon.lengths, dragon.uniform_from, outer)
         rings.all_radius = math.hypot(0.5 * rings.all_length, rings.all_half_width)
         if ground is not None:
             rings.lay(ground.corners, ground.middle_half_width, ground.within)
+            if copies > 1:
+                rings.lay(*ring_bounds(dragon.chords[: len(ground.kinds)], ground.hulls, ground.kinds, outer))
         self.room = 0
         self.use(path, margin)
         # no benches are known to be out of reach
-        everyone = len(self.edges) > 0 or (path.spiral is None and rings.clear_place >= kernels.FREE)
+        everyone = len(self.edges) > 0 or copies > 1 or (path.spiral is None and rings.clear_place >= kernels.FREE)
         self.resize(dragon.benches if everyone else min(dragon.benches, 255))
 
     @property
     def pairs(self) -> bool:
         """True if any two can touch: three benches or more, or a bench and an edge."""
-        return self.dragon.benches >= 3 or len(self.edges) > 0
+        return self.dragon.benches >= 3 or len(self.edges) > 0 or self.copies > 1
 
     def use(self, path: Spiral | Route, margin: float) -> None:
         """Change the path and the margin of the search."""
@@ -111,7 +117,7 @@ class ContactSearch:
         elif len(self.edges):  # no radius is clear of edges
             self.clear_radius = kernels.FREE
         else:
-            self.clear_radius = float(kernels.clear_radius(path.growth, margin, self.rings))
+            self.clear_radius = float(kernels.clear_radius(path.growth, margin, self.rings, self.apart))
         self.rings.clear_radius = self.clear_radius
         if self.room:
             self._set_scene()
@@ -137,9 +143,9 @@ class ContactSearch:
         self.sizes = self._sizes(self.dragon, benches)
         self.own_sizes = self._sizes(self.nominal, benches) if self.kinds.some else self.sizes
         # A chain writes every entry before its first use, except the speed of handle 1, which march() reads first.
-        chains = self.chains = np.empty((5, benches + 1 + len(edges), kernels.CHAIN_COLUMNS))
+        chains = self.chains = np.empty((5, len(self.sizes), kernels.CHAIN_COLUMNS))
         chains[:, :2] = 0.0
-        self.motion = np.zeros((benches + 1 + len(edges), kernels.MOTION_COLUMNS))
+        self.motion = np.zeros((len(self.sizes), kernels.MOTION_COLUMNS))
         self.room = benches
         self.scene = kernels.Scene(self.curve, self.place, self.rings, self.sizes, self.dragon.benches, len(edges))
         if len(edges):
@@ -151,20 +157,31 @@ class ContactSearch:
             chains[:, benches + 1 :] = 0.0
             chains[:, benches + 1 :, kernels.MX : kernels.UY + 1] = walls[:, kernels.FRAME_X : kernels.FRAME_UY + 1]
             self.scene.lay_walls(walls)
+        self.copy(self.scene)
+        if self.ground is not None and self.copies > 1:
+            known = np.minimum(np.arange(benches + 1), len(self.ground.kinds) - 1)
+            of = np.tile(self.ground.kinds[known], self.copies)
+            self.kinds.lay(self.ground.hulls.reshape(-1, 2), of, directions())
         self._set_scene()
         self.placed, self.tried, self.probed, self.probed_later, self.opening = chains
         self.interval = kernels.Interval(self.scene, self.placed, self.tried, self.motion)
         self.probe = kernels.Interval(self.scene, self.probed, self.probed_later, self.motion)
         self._march = kernels.March(self.interval, self.probe, self.opening)
 
+    def copy(self, scene: kernels.Scene) -> None:
+        """Let the benches of a scene meet those of the other dragons, if there are any."""
+        if self.copies > 1:
+            turns = math.tau * (np.arange(self.copies) / self.copies)
+            scene.lay_copies(np.stack([np.cos(turns), np.sin(turns)], axis=-1))
+
     def _sizes(self, dragon: Dragon, benches: int) -> Floats:
-        """Rows for a number of leading benches of a dragon, and empty ones for the edges at rest."""
+        """Rows for a number of leading benches of every dragon, and empty ones for the edges at rest."""
         lengths, widths = dragon.lengths[:benches], dragon.widths[:benches]
         sizes = np.zeros((benches + 1 + len(self.edges), kernels.SIZE_COLUMNS))
         sizes[:benches, kernels.CHORD] = dragon.chords[:benches]
         sizes[:benches, kernels.HALF_LENGTH], sizes[:benches, kernels.HALF_WIDTH] = 0.5 * lengths, 0.5 * widths
         sizes[:benches, kernels.RADIUS] = 0.5 * np.hypot(lengths, widths)
-        return sizes
+        return np.tile(sizes, (self.copies, 1))
 
     def spend(self, work: float) -> None:
         """Subtract work done from the work left [1]."""

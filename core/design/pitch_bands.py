@@ -14,6 +14,7 @@ import numpy as np
 from core import kernels
 from core.contact.march import TRAVEL_ROUNDING
 from core.contact.search import ContactSearch
+from core.design.spread import Spread
 from core.design.straight import Straight
 from core.kernels import Ended
 from core.kernels.results import Marched
@@ -78,7 +79,7 @@ class Bands:
         self.search, self.radius, self.start_turns, self.margin = search, radius, start_turns, margin
         self.work, self.marches = 0.0, 0
         self.graze: tuple[tuple[int, int], float] | None = None
-        self.straight = Straight(search.dragon)
+        self.straight = Straight(search.dragon) if search.copies == 1 else Spread(search.dragon, search.copies)
         # outside the circle the path curves so little that no handle moves backwards and no bench folds
         most = 0.5 * kernels.SPIRAL_CURVATURE_MOST * float(search.rings.all_chord) / radius
         self.curved_little = most <= kernels.SINE_LIMIT
@@ -90,18 +91,23 @@ class Bands:
 
     def ring_clears(self, low: float, high: float, radius: float) -> bool:
         """True if the ring bound excludes contacts from a head radius outwards for all growths in [low, high]."""
+        if self.search.copies > 1:
+            least = kernels.spirals_least(high, self.search.apart, radius, self.search.rings, low)
+            return bool(least > self.margin + kernels.ring_rounding(high, radius, self.search.rings))
         return bool(kernels.ring_clears(low, high, radius, self.margin, self.search.rings, self.straight.total))
 
     def _make_room(self, benches: int) -> None:
-        self.rows = np.zeros((2, 2, benches + 1, kernels.CHAIN_COLUMNS))
-        self.motions = np.zeros((2, benches + 1, kernels.MOTION_COLUMNS))
-        self.shifts = np.zeros((benches + 1, kernels.SHIFT_COLUMNS))
+        rows = self.search.copies * (benches + 1)
+        self.rows = np.zeros((2, 2, rows, kernels.CHAIN_COLUMNS))
+        self.motions = np.zeros((2, rows, kernels.MOTION_COLUMNS))
+        self.shifts = np.zeros((rows, kernels.SHIFT_COLUMNS))
 
     def march_to(self, growth_high: float) -> kernels.BandMarch:
         """The march of the band from the growth of the search to a higher one [m/rad]."""
         search, curve = self.search, kernels.spiral_curve(growth_high)
         high = kernels.Scene(curve, search.place, search.rings, search.sizes, search.dragon.benches, 0)
         high.kinds = search.kinds
+        search.copy(high)
         (before, after), (before_high, after_high) = self.rows
         low_interval = kernels.Interval(search.scene, before, after, self.motions[0])
         high_interval = kernels.Interval(high, before_high, after_high, self.motions[1])

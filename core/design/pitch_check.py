@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from core.contact.cross_check import ContactCheck, judged_contact, judged_grounds, judged_poses
 from core.contact.search import MARGIN_MAX
 from core.dance import Dance
-from core.design.minimum_pitch import LimitedBy, MinimumPitch
+from core.design.minimum_pitch import MinimumPitch, checked_dragons
+from core.design.pitch_search import LimitedBy
 from core.dragon import Dragon, Stray, checked_stray
 from core.errors import InvalidValue, checked_number, checked_type, question_about
 from core.kernels import Budget
@@ -25,6 +28,7 @@ def pitch_check(
     *,
     margin: float = 0.0,
     stray: float | Stray = 0.0,
+    dragons: int = 1,
     whole: bool = True,
     budget: Budget | None = None,
 ) -> ContactCheck | None:
@@ -32,26 +36,37 @@ def pitch_check(
 
     The head is where the pair meets just below that pitch, or at the start if the start limits the pitch.
     whole: True judges the whole dragon, False only the reported pair; with a stray shapely always judges the ground
-        that benches may cover
-    dragon, margin, stray: those of the search
+        that benches may cover. A pair of two dragons is judged among all pairs of two; in the answer bench b of dragon
+        k has the number k * benches + b
+    dragon, margin, stray, dragons: those of the search
     returns: None if no pair limits the pitch
     raises: InvalidValue; TooMuchWork
     """
     checked_type("dragon", dragon, Dragon)
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
-    strayed = checked_stray(stray, dragon)
+    strayed, count = checked_stray(stray, dragon), checked_dragons(dragons, dragon)
     if minimum.benches is None or minimum.head_radius is None:
         return None
     if minimum.benches[1] >= dragon.benches:
         rule, got = "must be that of the search, with bench {bench}", f"one of {dragon.benches} benches"
         raise InvalidValue("dragon", rule, got=got, bench=minimum.benches[1])
-    poses = []
+    count, pair = count if minimum.dragons else 1, minimum.benches
+    if minimum.dragons:
+        if minimum.dragons[1] >= count:
+            rule = "must be that of the search, with dragon {k}"
+            raise InvalidValue("dragons", rule, got=count, k=minimum.dragons[1])
+        pair = pair[0], minimum.dragons[1] * dragon.benches + pair[1]
+    owners = np.repeat(np.arange(count), dragon.benches) if minimum.dragons else None
+    front = dragon if whole or strayed or minimum.dragons else dragon.leading(minimum.benches[1] + 1)
+    rows = []
     for pitch in (minimum.pitch + CHECK_PITCH, minimum.pitch - CHECK_PITCH):
         # On a spiral that starts at this radius, the head is there at time 0.
         turns = minimum.head_radius / (minimum.pitch if minimum.limited_by is LimitedBy.START else pitch)
-        front = dragon if whole or strayed else dragon.leading(minimum.benches[1] + 1)
-        poses.append(judged_poses(Dance(front, Spiral(pitch, turns)), [0.0], budget)[0])
+        turned = [Dance(front, Spiral(pitch, turns, rotation=math.tau * (k / count))) for k in range(count)]
+        rows.append(np.concatenate([judged_poses(dance, [0.0], budget)[0] for dance in turned]))
+    poses = np.array(rows)
     if strayed:
-        return judged_grounds(np.array(poses), reach(dragon, strayed), minimum.benches, margin=margin, budget=budget)
-    size = np.stack([dragon.lengths, dragon.widths], axis=-1)[: len(poses[0])]
-    return judged_contact(np.array(poses), size, minimum.benches, margin=margin, whole=whole, budget=budget)
+        ground = reach(dragon, strayed)
+        return judged_grounds(poses, ground, pair, margin=margin, owners=owners, budget=budget)
+    size = np.tile(np.stack([dragon.lengths, dragon.widths], axis=-1), (count, 1))[: len(poses[0])]
+    return judged_contact(poses, size, pair, margin=margin, whole=whole, owners=owners, budget=budget)

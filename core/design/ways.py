@@ -31,20 +31,41 @@ NEARER = 0.8
 LOOKED_AT = 2
 
 
+class SearchBetween(ContactSearch):
+    """The search for contacts between dragons: `copies` of one dragon on spirals, each turned by a part of a turn."""
+
+    def __init__(
+        self, dragon: Dragon, path: Spiral, copies: int, margin: float, *, work: float, budget: Budget, stray: float
+    ) -> None:
+        self.copies = copies
+        super().__init__(dragon, path, margin, work=work, budget=budget, stray=stray)
+
+
 class Ways:
     """The ways of one dragon from the start to the circle, one for each pitch.
 
+    dragons: with several, each turned by a part of a turn, only benches of different dragons count
     lowest: the pitch whose way begins on the circle, or SIZE_MIN [m]; marched: number of marched ways; tried: the pitch
         of the last way [m]; bands: proofs for whole intervals of pitches
     """
 
     def __init__(
-        self, dragon: Dragon, radius: float, start_turns: float, margin: float, stray: float, budget: Budget | None
+        self,
+        dragon: Dragon,
+        radius: float,
+        start_turns: float,
+        margin: float,
+        stray: float,
+        budget: Budget | None,
+        dragons: int = 1,
     ) -> None:
         self.radius, self.start_turns, self.margin = radius, start_turns, margin
         self.lowest = max(radius / start_turns, SIZE_MIN)
         path, budget = Spiral(self.lowest, start_turns), (budget or Budget()).within(PITCH_WORK)
-        self.search = ContactSearch(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
+        if dragons == 1:
+            self.search = ContactSearch(dragon, path, margin, work=WAY_WORK, budget=budget, stray=stray)
+        else:
+            self.search = SearchBetween(dragon, path, dragons, margin, work=WAY_WORK, budget=budget, stray=stray)
         self.bands = Bands(self.search, radius, start_turns, margin)
         self.marched, self.tried = 0, self.lowest
 
@@ -74,7 +95,7 @@ class Ways:
             gap, pair = search.clearance(travel, min(LOOKED_AT, search.room))
             if gap <= self.margin and search.surely_within(travel, pair):
                 return state, Marched(0.0, travel, pair)
-        if bench is None or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
+        if bench is None or search.copies > 1 or search.travel_at(fold) - stop > FINE_NEAR_FOLD:
             return search.march(stop, width)
         last = min(stop, before_fold(search.travel_at(fold)))
         state, result = search.march(last, CONTACT_WIDTH if width == NO_BRACKET else width)
@@ -110,6 +131,7 @@ class Ways:
         place, curve = growth * kernels.spiral_arc(radius / growth), kernels.spiral_curve(growth)
         scene = kernels.Scene(curve, place, search.rings, search.sizes, search.dragon.benches, 0)
         scene.kinds = search.kinds
+        search.copy(scene)
         return float(kernels.gap_at(scene, place, a, b, search.placed)) <= self.margin
 
     def _start_nearer(self, path: Spiral) -> None:

@@ -9,6 +9,7 @@ from core.kernels.scene cimport Scene
 cdef Py_ssize_t BLOCK
 cdef double LIMIT_ROUNDING
 
+cdef bint at_rest(Scene scene, Py_ssize_t j) noexcept nogil
 cdef double row_gap(Scene scene, Py_ssize_t i, Py_ssize_t j, Rows chain) noexcept nogil
 cdef double row_gap_within(Scene scene, Py_ssize_t i, Py_ssize_t j, double limit, Rows chain) noexcept nogil
 cpdef void meet(Scene scene, Py_ssize_t i, Py_ssize_t j, Rows chain) noexcept nogil
@@ -21,7 +22,9 @@ cdef Closest least_with(
     Scene scene, Py_ssize_t i, Py_ssize_t first, Py_ssize_t end, Closest best, Rows chain
 ) noexcept nogil
 
-@cython.locals(i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t)
+@cython.locals(
+    i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, k=cython.Py_ssize_t, row=cython.Py_ssize_t
+)
 cdef Closest row_clearance(
     Scene scene, Py_ssize_t active, Py_ssize_t handles, Closest best, Rows chain, Rows boxes
 ) noexcept nogil

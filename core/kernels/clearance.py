@@ -10,6 +10,11 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.rectangles import bench_gap_within, row_separation
 
 
+def at_rest(scene, j):
+    """Whether a row holds an edge at rest."""
+    return scene.edges > 0 and j > scene.room
+
+
 def row_gap(scene, i, j, chain):
     """Separation of benches i and j of a chain, or of a bench and an edge at rest [m]."""
     return row_gap_within(scene, i, j, NO_LIMIT, chain)
@@ -25,14 +30,14 @@ def row_gap_within(scene, i, j, limit, chain):
     raised = limit + LIMIT_ROUNDING * (limit + scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS])
     gap = bench_gap_within(i, j, raised, scene.sizes, chain)
     if scene.kinds.some and gap < limit:
-        return nearest_hulls(scene.kinds, i, j, j > scene.room, limit, scene.sizes, chain).gap
+        return nearest_hulls(scene.kinds, i, j, at_rest(scene, j), limit, scene.sizes, chain).gap
     return gap
 
 
 def meet(scene, i, j, chain):
     """Fill the witnesses of a scene for benches i and j of a chain."""
     if scene.kinds.some:
-        hulls_met(scene.kinds, i, j, j > scene.room, scene.sizes, chain, scene.met)
+        hulls_met(scene.kinds, i, j, at_rest(scene, j), scene.sizes, chain, scene.met)
     else:
         row_separation(i, j, scene.sizes, chain, scene.met)
 
@@ -101,6 +106,15 @@ def row_clearance(scene, active, handles, best, chain, boxes):
                 break
             best = least_with(scene, i, scene.room + 1, scene.room + 1 + scene.edges, best, chain)
         return best
+    if scene.copies > 1:
+        scene.copy_chain(handles, chain)
+        for i in range(active):
+            if scene.budget.stopped:
+                break
+            for k in range(1, scene.copies):
+                row = k * scene.stride
+                best = least_with(scene, i, row + i, row + handles, best, chain)
+        return best
     if active > 0:  # a first value to compare with
         best = least_with(scene, 0, scene.between + 1, handles, best, chain)
     blocks = block_boxes(handles, scene.sizes, chain, boxes)
@@ -159,6 +173,8 @@ def clearance_at(scene, place, benches, leaders, chain, boxes):
 
 def last_handle(scene, a, b):
     """Number of the last handle that benches a and b need, or bench a and the edge at rest in row b."""
+    if scene.copies > 1:
+        return max(a, b % scene.stride) + 1
     return b + 1 if b < scene.room else a + 1
 
 
@@ -167,6 +183,7 @@ def gap_at(scene, place, a, b, chain):
     if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return FREE
     scene.turn_edges(chain)
+    scene.copy_chain(last_handle(scene, a, b), chain)
     return row_gap(scene, a, b, chain)
 
 
@@ -178,9 +195,10 @@ def gap_rate_at(scene, place, a, b, chain):
     if place_chain(scene.curve, place, last_handle(scene, a, b), scene.sizes, chain) == FOLDED:
         return 0.0
     scene.turn_edges(chain)
+    scene.copy_chain(last_handle(scene, a, b), chain)
     meet(scene, a, b, chain)
     rate = -speed_along(scene, a, scene.met.ax, scene.met.ay, chain)
-    if b < scene.room:
+    if not at_rest(scene, b):
         rate += speed_along(scene, b, scene.met.bx, scene.met.by, chain)
     return rate
 

@@ -35,7 +35,7 @@ def hulls_least(scene, interval, i, j, enough, curvature, curvature_back):
     curvature, curvature_back: K along axes fixed in i and in j [1/m]
     """
     h = interval.h
-    edge = j > scene.room
+    edge = scene.edges > 0 and j > scene.room
     best = FREE
     start = view_of(j, i, interval.before)
     end = view_of(j, i, interval.after)
@@ -95,7 +95,7 @@ def hulls_most(scene, interval, a, b, distance):
 
     See corner_beyond(); distance: upper bound of the distance between their centres [m]
     """
-    faced = nearest_hulls(scene.kinds, a, b, b > scene.room, FREE, scene.sizes, interval.after)
+    faced = nearest_hulls(scene.kinds, a, b, scene.edges > 0 and b > scene.room, FREE, scene.sizes, interval.after)
     i = b if faced.swapped else a
     j = a if faced.swapped else b
     hulls = hulls_in(scene.kinds, i, j, faced.own, faced.other, scene.sizes)

@@ -10,6 +10,7 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
     from core.kernels.rings import RING_ROUNDING, coil_radius, drift, leaders_reach, radius_beyond
     from core.kernels.rounding import spiral_error
     from core.kernels.route import stands_first
+    from core.kernels.scene import COPIED
 
 
 # Input:  an interval whose chains are laid out, and the number of benches that lead pairs (`active`).
@@ -31,6 +32,8 @@ def interval_least(scene, interval, active):
     if not interval.bound(False):
         return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
     rounding = interval_rounding(scene, interval)
+    interval.copy()
+    others = 1 if scene.copies > 1 else 0  # the first copy of which benches count: of the dragon itself without copies
     reach = scene.margin * (1.0 + 1e-12) + 16.0 * (rounding.point + scene.wall_error)  # of centres
     if not stays_beyond(scene, interval, active, rounding.point):
         return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
@@ -38,7 +41,7 @@ def interval_least(scene, interval, active):
         if scene.budget.stopped:
             return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
         far = reach_of(scene, interval, i, rounding.point)
-        first = i + scene.between + 1
+        first = i if scene.copies > 1 else i + scene.between + 1
         end = interval.handles
         if scene.edges > 0:  # they follow the last handle's row, which holds no bench
             first = scene.room + 1
@@ -46,30 +49,33 @@ def interval_least(scene, interval, active):
         for j in range(first, end):
             if far < FREE and innermost(scene, interval, j, motion[j, HANDLE_SPEED]) - rounding.point > far:
                 break
-            dx = before[j, MX] - before[i, MX]
-            dy = before[j, MY] - before[i, MY]
-            distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
-            square = dx * dx + dy * dy
-            near = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
-            if square > near * near or (i == scene.left_out and j == scene.left_out_too):
-                continue
-            tried += 1
-            least, k = proven_gap(scene, interval, i, j, distance + sqrt(square), rounding.gap)
-            if isnan(least):
-                return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
-            width2 = 8.0 * (least - scene.margin) / k + interval.h * interval.h
-            widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
-            if least < best:
-                best = least
-                curvature = k
-                a = i
-                b = j
+            for copy in range(others, scene.copies):
+                row = j + copy * scene.stride
+                dx = before[row, MX] - before[i, MX]
+                dy = before[row, MY] - before[i, MY]
+                distance = (motion[i, CENTRE_SPEED] + motion[j, CENTRE_SPEED]) * interval.h
+                square = dx * dx + dy * dy
+                near = sizes[i, RADIUS] + sizes[j, RADIUS] + reach + distance
+                if square > near * near or (i == scene.left_out and j == scene.left_out_too):
+                    continue
+                tried += 1
+                least, k = proven_gap(scene, interval, i, row, distance + sqrt(square), rounding.gap)
+                if isnan(least):
+                    return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+                width2 = 8.0 * (least - scene.margin) / k + interval.h * interval.h
+                widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
+                if least < best:
+                    best = least
+                    curvature = k
+                    a = i
+                    b = row
     return PairBounds(best, curvature, a, b, widest, rounding.point, tried)
 
 
 def interval_rounding(scene, interval):
     """Largest errors of points and gaps of a bounded interval."""
-    if scene.curve.is_spiral and scene.edges == 0 and interval.motion[interval.handles, RATE_LOW] > 0.0:
+    fast = scene.curve.is_spiral and scene.edges == 0 and scene.copies == 1
+    if fast and interval.motion[interval.handles, RATE_LOW] > 0.0:
         error = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.before)
         end = spiral_error(scene.curve.growth, interval.handles, scene.rings.all_chord, interval.after)
         error = max(error, end)
@@ -78,7 +84,15 @@ def interval_rounding(scene, interval):
             return Rounding(error, gap)
     interval.round()
     error = max(interval.before[interval.handles - 1, ERROR], interval.after[interval.handles - 1, ERROR])
-    return Rounding(error, FREE)
+    return Rounding(error + copied_error(scene, interval), FREE)
+
+
+def copied_error(scene, interval):
+    """Largest error that turning adds to points of the copies [m]; |x| + |y| is below twice the outermost radius."""
+    if scene.copies == 1:
+        return 0.0
+    outermost = max(interval.before[interval.handles, THETA], interval.after[interval.handles, THETA])
+    return 2.0 * COPIED * scene.curve.growth * outermost
 
 
 def innermost(scene, interval, k, rate):
@@ -143,7 +157,7 @@ def band_rounding(scene, band):
     growth = scene.curve.growth
     growth_high = band.high.scene.curve.growth
     handles = band.low.handles
-    if band.low.motion[handles, RATE_LOW] > 0.0 and band.high.motion[handles, RATE_LOW] > 0.0:
+    if scene.copies == 1 and band.low.motion[handles, RATE_LOW] > 0.0 and band.high.motion[handles, RATE_LOW] > 0.0:
         error = spiral_error(growth, handles, scene.rings.all_chord, band.low.after)
         error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.after))
         error = max(error, spiral_error(growth_high, handles, scene.rings.all_chord, band.high.before))
@@ -154,7 +168,7 @@ def band_rounding(scene, band):
     band.high.round()
     error = max(band.low.before[handles - 1, ERROR], band.low.after[handles - 1, ERROR])
     error = max(error, max(band.high.before[handles - 1, ERROR], band.high.after[handles - 1, ERROR]))
-    return Rounding(error, FREE)
+    return Rounding(error + max(copied_error(scene, band.low), copied_error(band.high.scene, band.high)), FREE)
 
 
 # Input:  a band whose four chains are laid out, with bounds on the motion and on the shift, and the number of benches
@@ -168,6 +182,8 @@ def band_least(scene, band, leaders):
     growth = scene.curve.growth
     growth_high = band.high.scene.curve.growth
     rounding = band_rounding(scene, band)
+    band.copy()
+    others = 1 if scene.copies > 1 else 0
     error = rounding.point
     if error > CLEAR_SPARE * growth * band.low.after[leaders, THETA]:  # the spare length of the chains of a band
         return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
@@ -177,27 +193,29 @@ def band_least(scene, band, leaders):
         beyond = growth_high * band.high.before[i + 1, THETA]
         beyond = leaders_reach(growth_high, growth * band.low.after[i, THETA], beyond, scene.rings)
         beyond = radius_beyond(growth_high, beyond + 2.0 * error + scene.margin, scene.rings) + error
-        for j in range(i + 2, band.low.handles):
+        for j in range(i if scene.copies > 1 else i + 2, band.low.handles):
             if growth * band.low.after[j, THETA] > beyond:
                 break  # handles stand in order, so all further ones lie outside too
-            dx = band.low.after[j, MX] - band.low.after[i, MX]
-            dy = band.low.after[j, MY] - band.low.after[i, MY]
-            distance = sqrt(dx * dx + dy * dy)
-            slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
-            shifted = band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE]
-            slack += shifted * (growth_high - growth) * (1.0 + BAND_ROUNDING)
-            slack += 16.0 * error
-            if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
-                continue  # far apart
-            tried += 1
-            least, k = proven_band_gap(scene, band, i, j, distance + slack, rounding.gap)
-            if isnan(least):
-                return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
-            if least < best:
-                best = least
-                curvature = k
-                a = i
-                b = j
-            width2 = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
-            widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
+            for copy in range(others, scene.copies):
+                row = j + copy * scene.stride
+                dx = band.low.after[row, MX] - band.low.after[i, MX]
+                dy = band.low.after[row, MY] - band.low.after[i, MY]
+                distance = sqrt(dx * dx + dy * dy)
+                slack = (band.low.motion[i, CENTRE_SPEED] + band.low.motion[j, CENTRE_SPEED]) * band.low.h
+                shifted = band.shifts[i, SHIFT_CENTRE] + band.shifts[j, SHIFT_CENTRE]
+                slack += shifted * (growth_high - growth) * (1.0 + BAND_ROUNDING)
+                slack += 16.0 * error
+                if distance - slack > (scene.sizes[i, RADIUS] + scene.sizes[j, RADIUS] + scene.margin) * (1.0 + 1e-12):
+                    continue  # far apart
+                tried += 1
+                least, k = proven_band_gap(scene, band, i, row, distance + slack, rounding.gap)
+                if isnan(least):
+                    return PairBounds(NO_BOUND, 0.0, 0, 0, 0.0, 0.0, 0)
+                if least < best:
+                    best = least
+                    curvature = k
+                    a = i
+                    b = row
+                width2 = 8.0 * (least - scene.margin) / k + band.low.h * band.low.h
+                widest = min(widest, sqrt(width2) if width2 > 0.0 else 0.0)
     return PairBounds(best, curvature, a, b, widest, error, tried)

@@ -30,14 +30,19 @@ cdef double inward_bow(double q, double slope, Rings rings) noexcept nogil
 cdef (double, double) ring_foot(double growth, double radius, Rings rings) noexcept nogil
 cdef double ring_gap(double growth, double angle, double d2, double rho, Rings rings) noexcept nogil
 cpdef double ring_least(double growth_low, double growth, double radius, Rings rings, double total=*) noexcept nogil
-cpdef double spirals_least(double growth, double angle, double radius, Rings rings) noexcept nogil
+
+cpdef double spirals_least(
+    double growth, double angle, double radius, Rings rings, double growth_low=*
+) noexcept nogil
+
 cpdef double ring_rounding(double growth, double radius, Rings rings) noexcept nogil
 
 cpdef bint ring_clears(
     double growth_low, double growth, double radius, double margin, Rings rings, double total=*
 ) noexcept nogil
 
-cpdef double clear_radius(double growth, double margin, Rings rings) noexcept nogil
+cdef bint apart_from(double growth, double radius, double margin, Rings rings, double angle) noexcept nogil
+cpdef double clear_radius(double growth, double margin, Rings rings, double angle=*) noexcept nogil
 cdef double coil_radius(Pieces pieces, double x, double y) noexcept nogil
 cdef double coil_place(Pieces pieces, double radius) noexcept nogil
 cdef double coil_reach(Pieces pieces, Py_ssize_t leaders, Rows sizes, Rows chain) noexcept nogil

@@ -227,17 +227,19 @@ def ring_least(growth_low, growth, radius, rings, total=FREE):
 # centre and sense, of which one is turned by an angle against the other: radii are growth psi + E and growth (psi' +
 # angle + 2 pi m) + E', at polar angles psi and psi' whose difference is x up to whole turns. No benches of one turn
 # count here.
-def spirals_least(growth, angle, radius, rings):
+def spirals_least(growth, angle, radius, rings, growth_low=FREE):
     """Lower bound of the separation of benches of two dragons on such spirals, all with their front handles at `radius`
     or further out [m]; NO_BOUND where nothing is known.
 
+    It holds for every growth from the lesser of growth_low and growth up to growth [m/rad].
     angle: least difference of the turn between both spirals from a whole number of turns [rad]
     rings: of the benches of both, each of which can be the outer one
     """
     d2, rho = ring_foot(growth, radius, rings)
     if rho <= 0.0:
         return NO_BOUND
-    gap = ring_gap(growth, angle, d2, rho, rings) / sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
+    gap = min(ring_gap(growth, angle, d2, rho, rings), ring_gap(min(growth_low, growth), angle, d2, rho, rings))
+    gap /= sqrt(1.0 + PI * PI * growth * growth / (4.0 * rho * rho))
     return gap if gap > 0.0 else NO_BOUND
 
 
@@ -259,18 +261,28 @@ def ring_clears(growth_low, growth, radius, margin, rings, total=FREE):
     return ring_least(growth_low, growth, radius, rings, total) > margin + ring_rounding(growth, radius, rings)
 
 
-def clear_radius(growth, margin, rings):
+def apart_from(growth, radius, margin, rings, angle):
+    """Whether the bound of ring_least(), or with an angle that of spirals_least(), certainly exceeds the margin."""
+    if angle == 0.0:
+        return ring_clears(growth, growth, radius, margin, rings)
+    return spirals_least(growth, angle, radius, rings) > margin + ring_rounding(growth, radius, rings)
+
+
+def clear_radius(growth, margin, rings, angle=0.0):
     """The least radius, within CLEAR_WIDTH, from which the ring bound exceeds the margin, and CLEAR_SPARE more, so that
-    a handle computed there is truly beyond it [m]; FREE if none."""
+    a handle computed there is truly beyond it [m]; FREE if none.
+
+    angle: for benches of two dragons, see spirals_least() [rad]; 0 for those of one
+    """
     low = 0.0
     high = 1.0
-    while not ring_clears(growth, growth, high, margin, rings):
+    while not apart_from(growth, high, margin, rings, angle):
         high *= 4.0
         if high > CLEAR_MOST:
             return FREE
     while high - low > CLEAR_WIDTH * high:
         middle = 0.5 * (low + high)
-        if ring_clears(growth, growth, middle, margin, rings):
+        if apart_from(growth, middle, margin, rings, angle):
             high = middle
         else:
             low = middle

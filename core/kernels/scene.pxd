@@ -7,21 +7,26 @@ from core.kernels.rectangles cimport Witnesses
 from core.kernels.rings cimport Rings
 from core.kernels.hulls cimport Kinds
 
-cdef double WIDTH_ROUNDING, TURNED_ROUNDING
+cdef double WIDTH_ROUNDING, TURNED_ROUNDING, COPIED
 
 @cython.final
 cdef class Scene:
     cdef public Curve curve
     cdef public double place
     cdef public Rings rings
-    cdef Rows sizes, walls
+    cdef Rows sizes, walls, turns
     cdef readonly double wall_error
-    cdef readonly Py_ssize_t benches, room, edges
+    cdef readonly Py_ssize_t benches, room, edges, copies, stride
     cdef public Kinds kinds
     cdef public double margin
     cdef public Budget budget
     cdef public Py_ssize_t left_out, left_out_too, between
     cdef readonly Witnesses met
+
+    @cython.locals(k=cython.Py_ssize_t, i=cython.Py_ssize_t, row=cython.Py_ssize_t)
+    cdef void copy_chain(self, Py_ssize_t last, Rows chain) noexcept nogil
+    @cython.locals(k=cython.Py_ssize_t, i=cython.Py_ssize_t)
+    cdef void copy_bounds(self, Py_ssize_t last, Rows rows) noexcept nogil
 
     @cython.locals(e=cython.Py_ssize_t, j=cython.Py_ssize_t)
     cdef void turn_edges(self, Rows chain) noexcept nogil
@@ -36,6 +41,7 @@ cdef class Interval:
     cdef void swap(self) noexcept nogil
     cdef void widen(self, double h, double rounding) noexcept nogil
     cdef void round(self) noexcept nogil
+    cdef void copy(self) noexcept nogil
     cpdef bint bound(self, bint climbing) noexcept nogil
     cpdef bint lay_out(self, double place, double h, Py_ssize_t last) noexcept nogil
 
@@ -56,3 +62,5 @@ cdef class Band:
     cdef readonly Interval low, high
     cdef Rows shifts
     cdef double width, slack
+
+    cdef void copy(self) noexcept nogil

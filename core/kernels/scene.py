@@ -16,6 +16,8 @@ if not cython.compiled:  # the .pxd imports the same names for the compiler
 
 # Largest error of a turned vector, as a part of the sum of its coordinates [1].
 TURNED_ROUNDING = 6.0 * ULP
+# The same of a vector turned for a copy of the dragon [1].
+COPIED = 32.0 * ULP
 # Part by which the width of an interval is widened, for the rounding of numbers that a step computes only once [1].
 WIDTH_ROUNDING = 1e-12
 
@@ -34,6 +36,7 @@ class Scene:
     kinds: the hulls of benches that are not rectangles; sizes then hold the rectangles around them
     margin: the clearance required [m]; left_out, left_out_too: a pair of benches that does not count, or NO_BENCH
     between: least number of benches between the two of a pair that counts, 1 at least
+    copies: dragons in all; 1: benches meet those of their own dragon, see lay_copies()
     """
 
     def __init__(self, curve, place, rings, sizes, benches, edges):
@@ -51,6 +54,46 @@ class Scene:
         self.between = 1
         self.budget = Budget()
         self.met = Witnesses()
+        self.copies = 1
+        self.stride = sizes.shape[0]
+
+    # Copies. Copy k is the dragon turned by 2 pi k / copies about the spiral's centre. Its rows follow those of the
+    # dragon itself, k times `stride` further on. What a turn leaves as it is is equal: lengths, radii, speeds and their
+    # bounds. The angle is good to 16 u, its sin and cos to 2 u more, and each coordinate is the sum of two products: to
+    # (16 + 4) u (|x| + |y|). COPIED exceeds both coordinates' errors together.
+    def lay_copies(self, turns):
+        """Let benches meet those of copies of the dragon, and none of its own.
+
+        turns: (copies, 2) cos and sin of their angles, the dragon itself first; sizes then has that many times the rows
+        """
+        self.turns = turns
+        self.copies = turns.shape[0]
+        self.stride = self.sizes.shape[0] // self.copies
+        self.room = min(self.benches, self.stride - 1)
+
+    def copy_chain(self, last, chain):
+        """Fill in the copies of a chain up to handle `last`, with their errors."""
+        for k in range(1, self.copies):
+            c = self.turns[k, X]
+            s = self.turns[k, Y]
+            for i in range(last + 1):
+                row = k * self.stride + i
+                chain[row, RATE] = chain[i, RATE]
+                chain[row, TX] = c * chain[i, TX] - s * chain[i, TY]
+                chain[row, TY] = s * chain[i, TX] + c * chain[i, TY]
+                if i < last:
+                    chain[row, MX] = c * chain[i, MX] - s * chain[i, MY]
+                    chain[row, MY] = s * chain[i, MX] + c * chain[i, MY]
+                    chain[row, UX] = c * chain[i, UX] - s * chain[i, UY]
+                    chain[row, UY] = s * chain[i, UX] + c * chain[i, UY]
+                    chain[row, ERROR] = chain[i, ERROR] + COPIED * (fabs(chain[i, MX]) + fabs(chain[i, MY]))
+                    chain[row, SWAY] = chain[i, SWAY] + COPIED * (fabs(chain[i, UX]) + fabs(chain[i, UY]))
+
+    def copy_bounds(self, last, rows):
+        """Fill in the copies of bounds on the motion of the first handles."""
+        for k in range(1, self.copies):
+            for i in range(last + 1):
+                rows[k * self.stride + i] = rows[i]
 
     def lay_walls(self, walls):
         """Set the edges at rest."""
@@ -110,6 +153,13 @@ class Interval:
         chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.before)
         chain_rounding(self.scene.curve, self.handles, self.scene.sizes, self.after)
 
+    def copy(self):
+        """Fill in the copies of both chains and of the bounds on their motion."""
+        if self.scene.copies > 1:
+            self.scene.copy_chain(self.handles, self.before)
+            self.scene.copy_chain(self.handles, self.after)
+            self.scene.copy_bounds(self.handles, self.motion)
+
     def bound(self, climbing):
         """Bound the motion; False where no bound is known. climbing: see route_bounds(), which alone uses it."""
         if self.scene.curve.is_spiral:
@@ -136,7 +186,9 @@ class Interval:
         self.scene.turn_edges(self.before)
         self.scene.turn_edges(self.after)
         self.round()
-        return self.bound(False)
+        bounded = self.bound(False)
+        self.copy()
+        return bounded
 
 
 class MarchState:
@@ -189,3 +241,10 @@ class Band:
         self.high = high
         self.shifts = shifts
         self.width = self.slack = 0.0
+
+    def copy(self):
+        """Fill in the copies of all four chains and of all bounds."""
+        if self.low.scene.copies > 1:
+            self.low.copy()
+            self.high.copy()
+            self.low.scene.copy_bounds(self.low.handles, self.shifts)

@@ -144,18 +144,18 @@ def _reach(dragon: Dragon, stray: float, supports: Callable[..., Floats]) -> Rea
     return Reach(bounds, hulls, kinds, *ring_bounds(dragon.chords[:alike], hulls, kinds))
 
 
-def ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64]) -> tuple[Floats, float, float]:
+def ring_bounds(chords: Floats, hulls: Floats, kinds: NDArray[np.int64], outer: int = 2) -> tuple[Floats, float, float]:
     """Reach.corners, middle_half_width and within.
 
     Only the first quarter of the corners of front ends counts: no other corner is both further out and further aside.
-    Benches from the third on, or the last, can be the outer one of a pair.
+    Benches from `outer` on, or the last, can be the outer one of a pair.
     """
     chord = np.empty((len(hulls), 1))
     chord[kinds, 0] = chords
     further, aside = np.moveaxis(hulls[:, 0, : DIRECTIONS // 4], -1, 0)
     further = np.maximum(further - 0.5 * chord, 0.0)
     corners = np.stack([0.5 * further * (further + chord), aside], axis=-1).reshape(-1, 2)
-    outer = min(2, len(kinds) - 1)
+    outer = min(outer, len(kinds) - 1)
     outers = hulls[kinds[outer:]]
     within = 0.5 * float(chords[outer:].max()) - float(outers[:, 0, :, 0].min())
     return corners, float(outers[:, 1, :, 1].max()), within

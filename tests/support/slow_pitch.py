@@ -33,9 +33,9 @@ class SlowWay:
     radius: float
 
     @classmethod
-    def of(cls, dragon, pitch, start_turns, radius):
+    def of(cls, dragon, pitch, start_turns, radius, *more):
         lengths, overhangs = np.array(dragon.lengths), np.array(dragon.overhangs)
-        return cls(lengths, np.array(dragon.widths), lengths - 2.0 * overhangs, pitch, start_turns, radius)
+        return cls(lengths, np.array(dragon.widths), lengths - 2.0 * overhangs, pitch, start_turns, radius, *more)
 
     @property
     def growth(self):
@@ -100,3 +100,31 @@ class SlowWay:
             heads, first = np.unique(np.append(heads, finer), return_index=True)
             gaps = np.append(gaps, more)[first]
         return float(gaps.min())
+
+
+@dataclass
+class SlowWays(SlowWay):
+    """Several equal dragons, each turned by a part of a turn: only benches of two dragons count."""
+
+    dragons: int = 2
+
+    def clearance(self, heads):
+        """(T,) least separation of any two benches of two dragons [m]."""
+        handles = self.handles(heads)
+        centres = 0.5 * (handles[:, 1:] + handles[:, :-1])
+        along = handles[:, :-1] - handles[:, 1:]
+        along /= np.linalg.norm(along, axis=-1, keepdims=True)
+        sides = 0.5 * np.stack([self.lengths, self.widths], axis=-1)
+        half_diagonals = np.hypot(*sides.T)
+        best = np.full(heads.size, np.inf)
+        for k in range(1, self.dragons):
+            c, s = np.cos(2.0 * np.pi * k / self.dragons), np.sin(2.0 * np.pi * k / self.dragons)
+            turn = np.array([[c, s], [-s, c]])
+            away = np.linalg.norm((centres @ turn)[:, None] - centres[:, :, None], axis=-1)
+            spare = away - half_diagonals[:, None] - half_diagonals
+            t, a, b = np.nonzero(spare <= np.maximum(spare.min(axis=(1, 2)), 0.0)[:, None, None] + half_diagonals.max())
+            exact = np.full(away.shape, np.inf)
+            turned = (centres @ turn)[t, b], (along @ turn)[t, b]
+            exact[t, a, b] = rectangles_gap(centres[t, a], along[t, a], sides[a], *turned, sides[b])
+            best = np.minimum(best, exact.min(axis=(1, 2)))
+        return best

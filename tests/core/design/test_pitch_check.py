@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from core import Dance, Dragon, InvalidValue, Spiral, Verdict, clearance_profile, minimum_pitch
-from core.design.minimum_pitch import LimitedBy
 from core.design.pitch_check import pitch_check
+from core.design.pitch_search import LimitedBy
 from core.shapes.engines import Engine
 
 AS_REPORTED = Verdict(before=False, after=True)
@@ -81,3 +81,23 @@ def test_with_a_stray_the_minimum_pitch_is_that_at_which_grounds_meet() -> None:
     for shift in (-1e-4, 1e-4):
         wrong = replace(result, pitch=result.pitch + shift)
         assert not pitch_check(wrong, DRAGON, stray=0.02, margin=0.01).agree
+
+
+@pytest.mark.parametrize("options", [{}, {"margin": 0.05}, {"stray": 0.02}], ids=["plain", "margin", "stray"])
+@pytest.mark.parametrize("whole", [True, False], ids=["dragons", "pair"])
+def test_engines_agree_on_the_minimum_pitch_of_two_dragons(options: dict[str, float], whole: bool) -> None:
+    dragon = Dragon(40)
+    result = minimum_pitch(dragon, dragons=2, **options)
+    check = pitch_check(result, dragon, dragons=2, whole=whole, **options)
+    assert check is not None
+    assert check.agree
+    assert check.judged == (
+        tuple(range(80)) if whole or "stray" in options else (result.benches[0], 40 + result.benches[1])
+    )
+    wrong = replace(result, pitch=result.pitch - WRONG)
+    assert not pitch_check(wrong, dragon, dragons=2, whole=whole, **options).agree
+
+
+def test_a_minimum_pitch_of_more_dragons_is_refused() -> None:
+    with pytest.raises(InvalidValue, match="dragons must be that of the search, with dragon 1, got 1"):
+        pitch_check(minimum_pitch(Dragon(40), dragons=2), Dragon(40))

@@ -7,6 +7,7 @@ import pytest
 
 from core import Dragon, Spiral, kernels
 from core.contact.search import ContactSearch
+from core.design.ways import SearchBetween
 from core.shapes.rectangles import corners
 
 
@@ -69,3 +70,14 @@ def test_the_clear_radius_is_the_least_from_which_the_ring_bound_exceeds_the_mar
 
 def test_no_radius_is_clear_where_rings_are_narrower_than_benches() -> None:
     assert ContactSearch(Dragon(), Spiral(0.29), 0.0).clear_radius == kernels.FREE
+
+
+@pytest.mark.parametrize("angle", [3.0, 2.0])
+def test_the_bound_for_two_spirals_over_a_range_of_growths_is_none_above_that_of_a_growth_in_it(angle: float) -> None:
+    search = SearchBetween(Dragon(40), Spiral(), 2, 0.0, work=1e7, budget=kernels.Budget(), stray=0.0)
+    for low, high in ((0.2, 0.21), (0.2, 0.4), (0.5, 0.9)):
+        least = kernels.spirals_least(high, angle, 20.0, search.rings, low)
+        inside = [kernels.spirals_least(growth, angle, 20.0, search.rings) for growth in np.linspace(low, high, 9)]
+        assert 0.0 < least <= min(inside)
+    clear = kernels.clear_radius(0.3, 0.1, search.rings, angle)
+    assert 0.1 < kernels.spirals_least(0.3, angle, clear, search.rings) < 0.101
