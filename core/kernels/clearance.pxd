@@ -22,9 +22,12 @@ cdef Closest least_with(
     Scene scene, Py_ssize_t i, Py_ssize_t first, Py_ssize_t end, Closest best, Rows chain
 ) noexcept nogil
 
-@cython.locals(
-    i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t, k=cython.Py_ssize_t, row=cython.Py_ssize_t
-)
+@cython.locals(i=cython.Py_ssize_t, row=cython.Py_ssize_t)
+cdef Closest clearance_between(
+    Scene scene, Py_ssize_t active, Py_ssize_t handles, Closest best, Rows chain
+) noexcept nogil
+
+@cython.locals(i=cython.Py_ssize_t, a=cython.Py_ssize_t, b=cython.Py_ssize_t)
 cdef Closest row_clearance(
     Scene scene, Py_ssize_t active, Py_ssize_t handles, Closest best, Rows chain, Rows boxes
 ) noexcept nogil

@@ -107,14 +107,7 @@ def row_clearance(scene, active, handles, best, chain, boxes):
             best = least_with(scene, i, scene.room + 1, scene.room + 1 + scene.edges, best, chain)
         return best
     if scene.copies > 1:
-        scene.copy_chain(handles, chain)
-        for i in range(active):
-            if scene.budget.stopped:
-                break
-            for k in range(1, scene.copies):
-                row = k * scene.stride
-                best = least_with(scene, i, row + i, row + handles, best, chain)
-        return best
+        return clearance_between(scene, active, handles, best, chain)
     if active > 0:  # a first value to compare with
         best = least_with(scene, 0, scene.between + 1, handles, best, chain)
     blocks = block_boxes(handles, scene.sizes, chain, boxes)
@@ -134,6 +127,24 @@ def row_clearance(scene, active, handles, best, chain, boxes):
                 if not beyond_box(i, b, scene.sizes[i, RADIUS] + max(best.gap, 0.0), boxes, chain):
                     first = max(i + scene.between + 1, b * BLOCK)
                     best = least_with(scene, i, first, min(b * BLOCK + BLOCK, handles), best, chain)
+    return best
+
+
+def clearance_between(scene, active, handles, best, chain):
+    """row_clearance() among the dragon and its copies."""
+    scene.copy_chain(handles, chain)
+    for i in range(active):
+        if scene.budget.stopped:
+            break
+        for row in range(scene.stride, scene.copies * scene.stride):
+            if i <= row % scene.stride < handles:
+                dx = chain[row, MX] - chain[i, MX]
+                dy = chain[row, MY] - chain[i, MY]
+                far = scene.sizes[i, RADIUS] + scene.sizes[row, RADIUS] + max(best.gap, 0.0)
+                if dx * dx + dy * dy <= far * far:
+                    gap = row_gap_within(scene, i, row, best.gap, chain)
+                    if gap < best.gap:
+                        best = Closest(gap, i, row)
     return best
 
 

@@ -43,7 +43,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.highest_speed: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.least_clearance: {"dance": DANCE, "start": 0.0, "stop": 9.0},
     core.maximum_head_speed: {"dance": DANCE, "speed_limit": 2.0, "start": 0.0, "stop": 9.0},
-    core.minimum_pitch: {"dragon": DRAGON, "turning_radius": 4.5, "start_turns": 16.0, "margin": 0.0},
+    core.minimum_pitch: {"dragon": DRAGON, "turning_radius": 4.5, "start_turns": 16.0, "dragons": 2},
     core.overlaps: {
         "poses": POSES,
         "lengths": COLUMN,
