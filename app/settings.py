@@ -152,6 +152,9 @@ class Settings(BaseModel):
         "collision_time, minimum_pitch, pitch_scan and GET /clearance; in these, except the trajectory, if the dragon "
         "is not uniform or the path is no spiral",
     )
+    performed_benches_max: int = Field(
+        10_000, ge=1, description="Most benches of all dragons of a performance [benches]"
+    )
     drawn_benches_max: int = Field(5_000, ge=1, description="Longest dragon in a figure [benches]")
     film_megapixels_max: int = Field(
         4_000, ge=1, description="Largest film: millions of pixels of all frames; 20 s at 1080p have 1,244"

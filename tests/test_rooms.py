@@ -40,6 +40,7 @@ TOGETHER = {
     " maps/lines maps/marks maps/places questions/maps",
     "plan/test_plan.py": "files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
     "processes/test_pool.py": "processes/child processes/messages processes/parent",
+    "questions/test_encounter.py": "command/encounter files/performances wire/performances",
     "questions/test_envelope.py": "command/envelope files/outlines",
     "questions/test_paper.py": "grade/paper",
     "questions/test_proposals.py": "command/propose files/proposals",

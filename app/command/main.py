@@ -36,6 +36,7 @@ ROOMS = {
     "maps": "places",
     "plan": "places",
     "collision-time": "contacts",
+    "encounter": "encounter",
     "clearance": "contacts",
     "minimum-pitch": "designs",
     "turn": "designs",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from types import UnionType
@@ -15,10 +15,10 @@ import typer
 from pydantic import BaseModel
 
 from app.command.usage import path_argument
-from app.files.disk import object_words
+from app.files.disk import display_name, object_words
 from app.maps.dances import read_dance
 from app.settings import Settings
-from app.wire.dances import DanceFields, SpanFields, TimeRange
+from app.wire.dances import DanceFields, PathFields, SpanFields, TimeRange
 from app.wire.messages import checked
 from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
@@ -71,6 +71,7 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     described = [name for name in DanceQuery.model_fields if "path" in own or name not in own]
     unused(context, described, "cannot be combined with FILE, which describes the dance")
     held = read_dance(file)
+    _refuse_other(file, held, own)
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
     values = {name: value for name, value in held.items() if name in own or name not in CheckRequest.model_fields}
@@ -82,6 +83,23 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     elif "time" in own and "start" in held:
         values.setdefault("time", held["start"])
     return checked(body, values, object_words(file))
+
+
+def _refuse_other(file: Path, held: dict[str, Any], own: Collection[str]) -> None:
+    """Refuse a file of several dragons to a question about one, and a file of one to a question about several.
+
+    own: fields of the question
+    """
+    if "dances" in held and "dances" not in own:
+        why = "ask encounter about it, or give a file with dragon and path"
+        words = "{file} holds the dances of several dragons, and this question is about one"
+        raise InvalidValue.in_words("dances", words, reason=why, file=display_name(file))
+    if "dances" in own and "dances" not in held:
+        words = "{file} must hold dances, each with a dragon and a path"
+        raise InvalidValue.in_words("dances", words, file=display_name(file))
+    if "dances" in held and (beside := [name for name in PathFields.model_fields if name in held]):
+        words = "must stand in each of the dances, got it beside them"
+        raise InvalidValue(beside[0], words)
 
 
 def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) -> dict[str, Any]:

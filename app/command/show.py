@@ -173,14 +173,19 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
         label = prefix + name.replace("_", " ")
         if isinstance(value, answers.Feature):
             yield label, ", ".join(f"{word} {value_text(number)}" for word, number in value)
-        elif isinstance(value, answers.PairCheck):
+        elif isinstance(value, answers.PairCheck | answers.EncounterCheck):
             yield from ((f"{label}: {word}", text) for word, text in _check_words(value, benches))
         elif isinstance(value, answers.Polygon | answers.MultiPolygon):
             yield label, _polygon_words(value)
         elif isinstance(value, list) and len(value) > LISTED_MOST:
             yield label, f"{len(value)}, listed by --json"
+        elif isinstance(value, answers.DragonPair):
+            yield label, _pair_text(value)
         elif isinstance(value, BaseModel):
             yield from _flat(value, f"{label}: ", benches=benches)
+        elif isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+            for k, one in enumerate(value):
+                yield from _flat(one, f"{label}[{k}]: ", benches=benches)
         elif isinstance(value, float) and name in SEPARATIONS:
             yield label, separation(value, " m")
         elif value is not None:
@@ -206,25 +211,34 @@ def separation(metres: float, unit: str = "", decimals: int = 9) -> str:
     return (f"overlap by {words[1:]}" if words.startswith("-") else words) + unit
 
 
-def _check_words(check: answers.PairCheck, benches: int) -> Iterator[tuple[str, str]]:
+def _pair_text(pair: answers.Pair | answers.DragonPair) -> str:
+    if isinstance(pair, answers.DragonPair):
+        return ", ".join(f"{b} of dragon {k}" for b, k in zip(pair.benches, pair.dragons, strict=True))
+    return value_text(pair)
+
+
+def _check_words(check: answers.PairCheck | answers.EncounterCheck, benches: int) -> Iterator[tuple[str, str]]:
     yield "agree", value_text(check.agree)
     yield "judged", judged_words(check.judged, benches)
     for engine, verdict in check.engines.items():
         before = "" if verdict.before is None else f"before {value_text(verdict.before)}, "
         yield engine.value, f"{before}after {value_text(verdict.after)}"
     if check.together:
-        yield "together", "; ".join(map(value_text, check.together))
+        yield "together", "; ".join(map(_pair_text, check.together))
     if check.left_out:
         yield "left out", value_text(check.left_out)
 
 
-def judged_words(judged: Sequence[int], benches: int) -> str:
-    """Short description of the benches that the engines judged. benches: of the dragon"""
-    if len(judged) == benches:
+def judged_words(judged: Sequence[int] | Sequence[Sequence[int]], benches: int) -> str:
+    """Short description of the benches that the engines judged, one list or one for each dragon. benches: of all"""
+    several = [one for one in judged if not isinstance(one, int)]
+    known = [bench for own in several for bench in own] or [one for one in judged if isinstance(one, int)]
+    if len(known) == benches:
         return f"all {benches} benches"
-    if len(judged) == len(("a", "b")):
-        return f"only benches {value_text(judged)}"
-    return f"{len(judged)} of {benches:,} benches, from {judged[0]} to {judged[-1]}: those near the pair"
+    if len(known) == len(("a", "b")):
+        return f"only benches {value_text(known)}"
+    ends = "" if several else f", from {known[0]} to {known[-1]}"
+    return f"{len(known)} of {benches:,} benches{ends}: those near the pair"
 
 
 def value_text(value: Any, decimals: int = 9) -> str:
@@ -232,6 +246,8 @@ def value_text(value: Any, decimals: int = 9) -> str:
         return ", ".join(value_text(entry, 12) for entry in value) or "none"
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if value is None:
+        return "none"
     # Adding 0.0 turns a rounded -0.0 into 0.0.
     return f"{round(value, decimals) + 0.0:.{decimals}f}" if isinstance(value, float) else str(value)
 

@@ -41,30 +41,40 @@ def read_dance(file: Path) -> dict[str, Any]:
     if not request:
         print(f"{display_name(file)} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}
-    for name in ("venue", "path"):
-        if isinstance(request.get(name), str):
-            request[name] = _drawn(file, name, file.parent / request[name], seen)
+    parts = {"": request} | _parts(request)
+    for before, part in parts.items():
+        for name in ("path",) if before else ("venue", "path"):
+            if isinstance(part.get(name), str):
+                part[name] = _drawn(file, before + name, file.parent / part[name], seen)
     for place, drawing in seen.items():
         for note in drawing.notes:
             print(f"{place}: {note}", file=sys.stderr)
-    if isinstance(request.get("dragon"), str):
-        request["dragon"] = {"csv": _table(file, file.parent / request["dragon"])}
+    for before, part in parts.items():
+        if isinstance(part.get("dragon"), str):
+            part["dragon"] = {"csv": _table(file, f"{before}dragon", file.parent / part["dragon"])}
     for name in ("start_clock", "begin_clock"):
         if isinstance(clock := request.get(name), time):  # TOML has times of day
             request[name] = clock.replace(microsecond=0).isoformat()
     return request
 
 
-def _table(file: Path, table: Path) -> str:
-    """The benches of a CSV file or a workbook that a dance names, as CSV. raises: InvalidValue"""
+def _parts(request: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The dances of several dragons, by the beginning of their places, such as "dances.0."."""
+    dances = request.get("dances")
+    entries = enumerate(dances if isinstance(dances, list) else ())
+    return {f"dances.{k}.": part for k, part in entries if isinstance(part, dict)}
+
+
+def _table(file: Path, field: str, table: Path) -> str:
+    """The benches of a CSV file or a workbook that a dance names at a field, as CSV. raises: InvalidValue"""
     try:
         data = table.read_bytes()
-        text, notes = _of_workbook(table, data) if is_workbook(data) else _of_text(data)
+        text, notes = _of_workbook(table, field, data) if is_workbook(data) else _of_text(data)
     except OSError as error:
         values = {"file": str(file), "table": str(table), "why": str(error.strerror)}
-        raise InvalidValue("dragon", "of {file}: {table}: {why}", **values) from error
+        raise InvalidValue(field, "of {file}: {table}: {why}", **values) from error
     except Unreadable as error:
-        raise error.of("dragon", str(table)) from error
+        raise error.of(field, str(table)) from error
     for note in notes:
         print(f"{table}{note}", file=sys.stderr)
     return text
@@ -75,7 +85,7 @@ def _of_text(data: bytes) -> tuple[str, list[str]]:
     return text, [" is not in UTF-8; it was read as GB 18030."] if is_chinese else []
 
 
-def _of_workbook(table: Path, data: bytes) -> tuple[str, list[str]]:
+def _of_workbook(table: Path, field: str, data: bytes) -> tuple[str, list[str]]:
     """The benches of a workbook, and notes. raises: InvalidValue that names the workbook"""
     from app.maps.benches import benches_of  # The import takes time, and most dances name no workbook.
 
@@ -85,17 +95,18 @@ def _of_workbook(table: Path, data: bytes) -> tuple[str, list[str]]:
     except InvalidValue as error:
         words, values = f"{{table}}: {error.template}", {"table": str(table)}
         raise InvalidValue.in_words(
-            "dragon", words, got=error.got, reason=error.reason, **error.values, **values
+            field, words, got=error.got, reason=error.reason, **error.values, **values
         ) from error
     return text, [f": {note}" for note in notes]
 
 
-def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
-    """The venue or the path in a map, which may have been seen before. raises: InvalidValue"""
+def _drawn(file: Path, field: str, drawing: Path, seen: dict[Path, Any]) -> Any:
+    """The venue or the path in a map, which may have been seen before. field: its place; raises: InvalidValue"""
     # The import takes 0.1 s, and most dances name no map.
     from app.maps.geojson import is_of_polygons
     from app.maps.places import read_map
 
+    name = field.rpartition(".")[2]
     try:
         if name == "venue" and ending_of(drawing) in (".json", ".geojson"):
             values = read_json(drawing)
@@ -104,16 +115,16 @@ def _drawn(file: Path, name: str, drawing: Path, seen: dict[Path, Any]) -> Any:
         parts = seen[drawing] = seen.get(drawing) or read_map(drawing)
     except OSError as error:
         values = {"file": str(file), "drawing": str(drawing), "why": str(error.strerror)}
-        raise InvalidValue(name, "of {file}: {drawing}: {why}", **values) from error
+        raise InvalidValue(field, "of {file}: {drawing}: {why}", **values) from error
     except InvalidValue as error:
         if error.field != "file":
             raise
-        words, values = f"{{part}} of {{dance}}: {error.template}", {"part": Parameter(name), "dance": str(file)}
+        words, values = f"{{part}} of {{dance}}: {error.template}", {"part": Parameter(field), "dance": str(file)}
         raise InvalidValue.in_words(
-            name, words, got=error.got, reason=error.reason, **error.values, **values
+            field, words, got=error.got, reason=error.reason, **error.values, **values
         ) from error
     part = parts.geometry if name == "venue" else parts.path
     if part is None:
         values = {"file": str(file), "drawing": str(drawing), "part": name}
-        raise InvalidValue(name, "of {file}: {drawing} holds no {part}", **values)
+        raise InvalidValue(field, "of {file}: {drawing} holds no {part}", **values)
     return part

@@ -6,9 +6,11 @@ from typing import Any
 
 from pydantic import Field
 
+import core
 from app.files.tables import Language
 from app.questions.pitch_scan import ScanFields
 from app.wire.dances import DragonFields, PlacedDance
+from app.wire.performances import Moment, PerformanceSpan, PlacedPerformance
 from app.wire.question import DanceQuery, FileFormat, Instant, Margin, Question, Terms, UniformDragon, Wire, measure
 from core.design.pitch_scan import scan_near_minimum
 
@@ -72,6 +74,15 @@ class ContactFigureRequest(PlacedDance, Worded):
     stop: Instant | None = measure("s", "End time; default: the end of the run", None)
 
 
+class EncounterFigureRequest(PerformanceSpan, PlacedPerformance, strict=True):
+    """Several dragons at their first encounter, or at another time, drawn."""
+
+    margin: Margin = 0.0
+    time: Moment | None = measure(
+        "s", "Instant to draw; default: the first encounter, without one the end of the time asked about", None
+    )
+
+
 class StaircaseQuery(ScanFields, UniformDragon, Worded):
     """First contact against the pitch, drawn."""
 
@@ -104,6 +115,21 @@ def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Te
     return figures.contact_figure(dance, margin=request.margin, budget=terms.budget, **look, **placed)
 
 
+def encounter_figure(request: EncounterFigureRequest, terms: Terms, form: str) -> bytes:
+    """Several dragons at their first encounter, with the two benches that meet enlarged, or at a given time."""
+    from app.files import performances
+
+    performance, _ = request.to_placed(terms.settings)
+    result = None
+    if request.time is None:
+        result = core.first_encounter(
+            performance, margin=request.margin, start=request.start, stop=request.stop, budget=terms.budget
+        )
+    return performances.encounter_figure(
+        performance, result, time=request.time, format=FORMATS[form], budget=terms.budget
+    )
+
+
 def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, form: str) -> bytes:
     """Radius of the head at first contact, against the pitch, with its jumps and the minimum pitch."""
     from app.files import figures
@@ -117,5 +143,10 @@ def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, 
 
 DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}
 TRAJECTORY = Question(trajectory_figure, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, **DRAWN)
+<<<<<<< HEAD
 CONTACT = Question(contact_figure, flat=ContactFigureQuery, body=ContactFigureRequest, **DRAWN)
+=======
+CONTACT = Question(contact_figure, flat=ContactQuery, body=ContactFigureRequest, **DRAWN)
+ENCOUNTER = Question(encounter_figure, body=EncounterFigureRequest, **DRAWN)
+>>>>>>> 094fda48 (Several dragons: the first encounter over HTTP, in a terminal, as a figure)
 PITCH_SCAN = Question(pitch_scan_figure, flat=StaircaseQuery, body=StaircaseRequest, **DRAWN)

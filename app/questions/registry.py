@@ -12,6 +12,7 @@ from app.questions import (
     contact_probability,
     contest_kit,
     course,
+    encounter,
     envelope,
     figures,
     films,
@@ -37,6 +38,7 @@ from app.wire.question import Call, Question, calls_of
 _ALL = (
     trajectory.QUESTION,
     collision_time.QUESTION,
+    encounter.QUESTION,
     minimum_pitch.QUESTION,
     pitch_scan.QUESTION,
     clearance.QUESTION,
@@ -56,6 +58,7 @@ _ALL = (
     paper.QUESTION,
     figures.TRAJECTORY,
     figures.CONTACT,
+    figures.ENCOUNTER,
     figures.PITCH_SCAN,
     films.QUESTION,
     maps.QUESTION,

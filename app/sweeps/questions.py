@@ -173,6 +173,7 @@ _ALL = {
     "contact_probability": _ways("contact_probability", 3.0, "probability", *_words("")),
     "clearance": _ways("clearance", 0.2, "clearance", answer=clearance_row, model=ClearanceRow),
     "trajectory": _ways("trajectory", 2e-3, "greatest_speed", answer=trajectory_row, model=TrajectoryRow),
+    "encounter": _ways("encounter", 0.1, "time", *_words("certificate.")),
     "overlaps": _ways("overlaps", 1e-2, "separation", answer=overlaps_row, model=OverlapsRow),
 }
 QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in CALLS}

@@ -21,6 +21,7 @@ from app.wire.messages import checked
 from app.wire.question import AS_WHOLE, Whole, measure
 from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
+from core.errors import Given
 
 DESIGNS_MAX = 10**8
 SHARDS_MAX = 10**6
@@ -215,16 +216,30 @@ class Spec(_Strict):
 
 
 def with_values(request: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
-    """A copy of a request with values set at dotted names.
+    """A copy of a request with values set at dotted names; a number is a place in a list that the request has.
 
     >>> with_values({"path": {"kind": "spiral"}, "margin": 0}, {"path.pitch": 0.5})
     {'path': {'kind': 'spiral', 'pitch': 0.5}, 'margin': 0}
+    >>> with_values({"dances": [{"delay": 0}, {"delay": 0}]}, {"dances.1.delay": 9})
+    {'dances': [{'delay': 0}, {'delay': 9}]}
     """
     changed = dict(request)
     for name, value in values.items():
-        inner, (*outer, last) = changed, name.split(".")
+        inner: Any = changed
+        *outer, last = name.split(".")
         for step in outer:
-            old = inner.get(step)
-            inner[step] = inner = dict(old) if isinstance(old, dict) else {}
-        inner[last] = value
+            place = _place(inner, step)
+            old = inner[place] if isinstance(inner, list) else inner.get(place)
+            inner[place] = inner = old.copy() if isinstance(old, (dict, list)) else {}
+        inner[_place(inner, last)] = value
     return changed
+
+
+def _place(inner: dict[str, Any] | list[Any], step: str) -> Any:
+    """The key or index of a step of a dotted name. raises: InvalidValue for an index that the list does not have"""
+    if not isinstance(inner, list):
+        return step
+    if not step.isdecimal() or int(step) >= len(inner):
+        rule = "must name an entry of the list in the request by its number, which is less than {count}"
+        raise InvalidValue("over", rule, got=Given(step), count=len(inner))
+    return int(step)

@@ -6,7 +6,7 @@ A trajectory has 200,000 numbers, so orjson writes tables as whole numpy columns
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 import orjson
@@ -110,6 +110,38 @@ class PairCheck(Answer):
         "within the margin just after"
     )
     left_out: list[Engine] = Field(description=LEFT_OUT)
+
+
+class DragonPair(Answer):
+    """Two benches of two dragons."""
+
+    dragons: Pair = Field(description="The dragons, in the order of the dances")
+    benches: Pair = Field(description="A bench of each")
+
+    @classmethod
+    def of(cls, pair: tuple[Pair, Pair]) -> Self:
+        return cls(dragons=pair[0], benches=pair[1])
+
+
+class EncounterCheck(Answer):
+    """Verdicts of independent engines on the benches of several dragons; within the margin counts as overlapping."""
+
+    agree: bool = Field(description="True if every engine asked finds nothing before, and only the reported pair after")
+    judged: list[list[int]] = Field(
+        description="Benches judged, a list for each dragon: all, or only those near the pair if there are more than "
+        "2,000 or they are very crowded; with cross_check=pair or a stray only the pair"
+    )
+    engines: dict[Engine, Verdict] = Field(
+        description="Verdict of each engine; angle_sum cannot judge a margin, so it is asked only if the margin is 0"
+    )
+    together: list[DragonPair] = Field(
+        description="Other pairs that come within the margin, or touch if it is 0, at the same time as the reported one"
+    )
+    left_out: list[Engine] = Field(description=LEFT_OUT)
+
+    @classmethod
+    def of(cls, check: core.EncounterCheck) -> Self:
+        return cls.from_result(check, together=[DragonPair.of(pair) for pair in check.together])
 
 
 @dataclass(frozen=True, slots=True)

@@ -159,8 +159,8 @@ class DragonFields(Wire, strict=True):
         return settings.benches_max if isinstance(self.dragon, UniformBody) else settings.checked_benches_max
 
 
-class DanceFields(HeadSpeed, DragonFields, strict=True):
-    """A dragon on a path, as the body of a request."""
+class PathFields(HeadSpeed, DragonFields, strict=True):
+    """A dragon on a path."""
 
     passages: list[PassageBody] = Field(
         [],
@@ -171,8 +171,6 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
         "contact is the first time at which the head is there",
     )
     path: AnyPath = Field(default_factory=SpiralPath, description="The path")
-    start_clock: StartClock = None
-    begin_clock: BeginClock = None
 
     def most_benches(self, settings: Settings) -> int:
         return super().most_benches(settings) if self.path.kind == "spiral" else settings.checked_benches_max
@@ -181,6 +179,13 @@ class DanceFields(HeadSpeed, DragonFields, strict=True):
         """raises: TooLarge, InvalidValue"""
         passages = [one.to_passage() for one in self.passages]
         return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed, passages)
+
+
+class DanceFields(PathFields, strict=True):
+    """A dragon on a path, as the body of a request."""
+
+    start_clock: StartClock = None
+    begin_clock: BeginClock = None
 
 
 def clock_of(request: DanceFields, dance: Dance) -> str | None:

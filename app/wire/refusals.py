@@ -24,6 +24,8 @@ from core.paths.following import follows, tightest_bend
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")
 # Fields of a turn that can make it too tight where their defaults would not; otherwise its circle is too small.
 MEND_A_TURN = ("exit_radius", "entry_radius", "ratio", "pitch")
+# A part of a performance is one of the dances of a request.
+PARTS = re.compile(r"^parts(?=\.|$)")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
 
 
@@ -48,6 +50,8 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
         error = error.named(".".join([*outer, "turning_diameter"]), got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
+    if "dances" in names:
+        error = error.renamed(lambda name: PARTS.sub("dances", name))
     # A range of times may exist beside the name `times`, as in the options of the command.
     objects = names - {"times"} if "stop" in names else names
     return error.renamed(lambda name: OUTER.sub(lambda outer: outer[0] * (outer[1] in objects), name))

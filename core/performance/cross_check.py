@@ -52,9 +52,12 @@ class EncounterCheck(Readable):
 
 
 @question_about("encounter", FirstEncounter, "the engines' verdict on the encounter was not found")
-def encounter_check(encounter: FirstEncounter, *, budget: Budget | None = None) -> EncounterCheck | None:
+def encounter_check(
+    encounter: FirstEncounter, *, whole: bool = True, budget: Budget | None = None
+) -> EncounterCheck | None:
     """The engines' verdicts on all benches while the faster head goes CHECK_TRAVEL before and after the bracket.
 
+    whole: True judges the benches of all dragons, False only the reported pair
     An encounter at the start is judged at the start and that much after it, and counts if it is found at one of them.
     returns: None if no dragons meet or nothing is decided
     raises: TooMuchWork
@@ -76,7 +79,7 @@ def encounter_check(encounter: FirstEncounter, *, budget: Budget | None = None) 
     strays = encounter.stray > 0.0 and encounter.gap is not None
     margin = encounter.gap if strays and encounter.gap is not None else encounter.margin
     check = judged_contact(
-        poses, sizes, pair, margin=margin, whole=not strays, at_start=at_start, owners=owners, budget=budget
+        poses, sizes, pair, margin=margin, whole=whole and not strays, at_start=at_start, owners=owners, budget=budget
     )
     together = tuple(
         ((int(owners[a]), int(owners[b])), (a - int(firsts[owners[a]]), b - int(firsts[owners[b]])))

@@ -23,7 +23,10 @@ ROOT = DOCS.parent
 SECTIONS = {
     "everyone": ("Everyone", ["conventions", "command"]),
     "students": ("Students", ["contest", "grade", "method", "paper"]),
-    "organisers": ("Organisers", ["paths-and-venues", "propose", "maps", "plan", "tolerance", "envelope"]),
+    "organisers": (
+        "Organisers",
+        ["paths-and-venues", "propose", "maps", "plan", "performances", "tolerance", "envelope"],
+    ),
     "scientists": ("Scientists", ["library", "proofs", "claims", "sweeps", "performance", "dragon-ccd"]),
     "operators": ("Operators", ["http", "operations", "assistants"]),
     "reference": ("Reference", [*(f"reference/{page}" for page in ROOMS), "http-reference"]),

@@ -1,0 +1,85 @@
+"""Several dances on one clock, in request bodies, and their conversion to core."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated
+
+from pydantic import Field
+
+from app.settings import Settings
+from app.wire.dances import PathFields, VenueFields
+from app.wire.question import Wire, check_limit, measure
+from app.wire.refusals import reworded
+from core import BenchDragonError, Part, Performance
+from core.performance.performance import DELAY_MAX, PARTS_MAX
+
+if TYPE_CHECKING:
+    from app.wire.degrees import Place
+
+# A time of a performance [s]: of a dance, and its delay.
+Moment = Annotated[float, Field(ge=-2 * DELAY_MAX, le=2 * DELAY_MAX)]
+
+
+class PartBody(PathFields, strict=True):
+    """One dragon of a performance, on its path."""
+
+    name: str | None = Field(None, description="Name of the dragon, in answers and messages; each has its own")
+    delay: float = measure(
+        "s", "Time of the performance at time 0 of this dance", 0.0, ge=-DELAY_MAX, le=DELAY_MAX
+    )  # fmt: skip
+
+    def to_part(self, benches_max: int) -> Part:
+        """raises: TooLarge, InvalidValue"""
+        return Part(self.to_dance(benches_max), self.delay, self.name)
+
+
+class PerformanceFields(Wire, strict=True):
+    """The dances of a performance, as the body of a request."""
+
+    dances: list[PartBody] = Field(
+        min_length=1,
+        max_length=PARTS_MAX,
+        fail_fast=True,
+        description="The dragons, each with its path. Before the whole dragon is on its path it stands at the "
+        "beginning, after the end of its path it stays there; the performance ends when a bench of any dragon folds",
+    )
+
+    @property
+    def benches(self) -> int:
+        """Number of the benches of all dragons."""
+        return sum(part.benches for part in self.dances)
+
+    def to_performance(self, settings: Settings) -> Performance:
+        """raises: TooLarge, InvalidValue"""
+        most = settings.performed_benches_max
+        check_limit("dances", "benches of all dragons", self.benches, most, "take fewer or shorter dragons")
+        return Performance([self._part(k, most) for k in range(len(self.dances))])
+
+    def _part(self, k: int, most: int) -> Part:
+        try:
+            return self.dances[k].to_part(most)
+        except BenchDragonError as error:
+            raise reworded(error, self.dances[k]).renamed(lambda name: f"dances.{k}.{name}") from error
+
+
+class PlacedPerformance(VenueFields, PerformanceFields, strict=True):
+    """The dances of a performance and its venue."""
+
+    def to_placed(self, settings: Settings) -> tuple[Performance, Place]:
+        """The performance in its venue, and the place of this. raises: TooLarge, InvalidValue"""
+        performance = self.to_performance(settings)
+        dragons = [part.dance.dragon for part in performance.parts]
+        place = self.to_place(max(dragons, key=lambda dragon: float(dragon.lengths.max())))
+        return replace(performance, venue=place.venue), place
+
+
+class PerformanceSpan(Wire):
+    """A stretch of a performance."""
+
+    start: Moment | None = measure(
+        "s", "Start time; default: when the first dragon dances, with all of it on its path", None
+    )
+    stop: Moment | None = measure(
+        "s", "End time; default: the end of the performance, at the first fold or the end of the last path", None
+    )
