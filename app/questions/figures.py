@@ -143,10 +143,6 @@ def pitch_scan_figure(request: StaircaseQuery | StaircaseRequest, terms: Terms, 
 
 DRAWN: dict[str, Any] = {"model": None, "forms": FORMS, "formats": Format}
 TRAJECTORY = Question(trajectory_figure, flat=TrajectoryFigureQuery, body=TrajectoryFigureRequest, **DRAWN)
-<<<<<<< HEAD
 CONTACT = Question(contact_figure, flat=ContactFigureQuery, body=ContactFigureRequest, **DRAWN)
-=======
-CONTACT = Question(contact_figure, flat=ContactQuery, body=ContactFigureRequest, **DRAWN)
 ENCOUNTER = Question(encounter_figure, body=EncounterFigureRequest, **DRAWN)
->>>>>>> 094fda48 (Several dragons: the first encounter over HTTP, in a terminal, as a figure)
 PITCH_SCAN = Question(pitch_scan_figure, flat=StaircaseQuery, body=StaircaseRequest, **DRAWN)
