@@ -1,36 +1,37 @@
 # The service alone. The image has no compiler; the service does not run as root, and writes only to /tmp and /data.
 #   docker build -t bench-dragon . && docker run --read-only --tmpfs /tmp -v dragon:/data -p 127.0.0.1:8000:8000 bench-dragon
-# By name and version; with a digest (python:3.13-slim-trixie@sha256:...) every build has the same bytes: see
-# docs/operations.md.
-ARG PYTHON_IMAGE=python:3.13-slim-trixie
+# Another base, or a newer digest of this one: see docs/operations.md.
+FROM python:3.13-slim-trixie@sha256:9d2e5553305c7c7b0097999bb17187c69b921ccd6bc9d40e4bb5ebe652c00285 AS base
+
+FROM base AS build
 # Extras of the distribution to install: service,dask adds sweeps on a Dask cluster.
 ARG EXTRAS=service
-
-FROM ${PYTHON_IMAGE} AS build
-ARG EXTRAS
 # python3-dev: the headers for an image with Debian's own Python; the official images have theirs.
 RUN apt-get update \
     && apt-get install -y --no-install-recommends gcc libc6-dev python3-dev \
     && rm -rf /var/lib/apt/lists/*
 RUN python -m venv /opt/bench-dragon
-COPY requirements.lock requirements-test.lock bench_dragon.py pyproject.toml setup.py README.md LICENSE \
-     /src/
+COPY requirements.hashes requirements.lock requirements-test.lock bench_dragon.py pyproject.toml setup.py README.md \
+     LICENSE /src/
 COPY core /src/core
 COPY app /src/app
-RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check \
+# What the service needs, and what compiles it, by the digests of the files; other extras by version alone.
+RUN /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check --require-hashes --no-deps \
+        -r /src/requirements.hashes \
+    && /opt/bench-dragon/bin/pip install --no-cache-dir --disable-pip-version-check --no-build-isolation \
         -c /src/requirements.lock -c /src/requirements-test.lock "/src[${EXTRAS}]" \
     && /opt/bench-dragon/bin/python -c "import core.kernels; assert core.kernels.COMPILED"
-# What the service never reads: pip, IPython (for plots of uplot-python in notebooks), tests, sources and symbols of
-# compiled modules, and the parts of pyarrow that talk to other servers.
+# What the service never reads: pip and what compiles, IPython (for plots of uplot-python in notebooks), tests, sources
+# and symbols of compiled modules, and the parts of pyarrow that talk to other servers.
 RUN cd /opt/bench-dragon/lib/python3*/site-packages \
-    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet pip ipython ipython-pygments-lexers jedi parso \
-        prompt_toolkit \
+    && /opt/bench-dragon/bin/python -m pip uninstall -y --quiet cython setuptools uv pip ipython ipython-pygments-lexers \
+        jedi parso prompt_toolkit \
     && rm -r pyarrow/include pyarrow/*flight* pyarrow/*s3* \
     && find . -name '*.cpython-*.so' -exec strip --strip-unneeded {} + \
     && find . ! -path './core/*' \( -name '*.[ch]' -o -name '*.pyx' -o -name '*.pxi' \) -delete \
     && find . -depth -type d \( -name tests -o -name __pycache__ \) -exec rm -r {} +
 
-FROM ${PYTHON_IMAGE}
+FROM base
 # A font with Chinese characters, for figures and films in Chinese.
 RUN apt-get update \
     && apt-get install -y --no-install-recommends fonts-wqy-microhei \

@@ -41,7 +41,7 @@ help:
 	@echo 'make dist     the sdist and the wheel in dist/, checked'
 	@echo 'make wheels   wheels for all Pythons that are here, tried in empty environments (PYTHONS=)'
 	@echo 'make install-time  how long pip takes to install the wheel of core and its command, downloads not counted'
-	@echo 'make lock     new exact versions in requirements.lock'
+	@echo 'make lock     new exact versions in requirements*.lock, and the digests of their files'
 	@echo 'make clean    remove everything that make created'
 
 # Packages are installed while the kernels are compiled: both wait for the disk now and then.
@@ -201,6 +201,8 @@ lock: setup
 	@grep -vxFf build/requirements.lock build/ccd.lock | grep -vxFf build/all.lock >build/requirements-ccd.lock
 	@for file in requirements*.lock; do \
 		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done
+	@$(BIN)/uv pip compile --universal --python-version 3.11 --no-deps --generate-hashes \
+		--no-header --no-annotate --no-emit-index-url --quiet requirements.lock --output-file requirements.hashes
 
 clean:
 	@rm -rf $(VENV) app/guide build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks

@@ -103,6 +103,13 @@ def test_a_lock_names_packages_and_versions_only(file: str) -> None:
     assert [line for line in LOCKS[file] if not line.startswith("# ") and not LOCKED.fullmatch(line)] == []
 
 
+def test_the_digests_are_of_the_versions_in_the_lock() -> None:
+    lines = re.sub(r" \\\n\s+", " ", (ROOT / "requirements.hashes").read_text(encoding="utf-8")).splitlines()
+    digests = dict(line.split(" --hash=", 1) for line in lines)
+    assert list(digests) == [line for line in LOCKS["requirements.lock"] if not line.startswith("# ")]
+    assert all(re.fullmatch(r"sha256:[0-9a-f]{64}( --hash=sha256:[0-9a-f]{64})*", each) for each in digests.values())
+
+
 def test_the_locks_hold_a_version_that_fits_of_every_requirement() -> None:
     extras, groups = PROJECT["optional-dependencies"], SETTINGS["dependency-groups"]
     service = [*PROJECT["dependencies"], *groups["tools"]]

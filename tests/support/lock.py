@@ -23,15 +23,20 @@ def resolved(
     packages: Sequence[str], python: str, processor: str, outer: tuple[tuple[str, str], ...]
 ) -> subprocess.CompletedProcess[str]:
     """A dry run of an installation from wheels alone. packages: arguments of uv; outer: variables of the shell"""
-    proxies = {name: value for name, value in outer if name.lower() in PROXIES}
     command = [str(UV), "pip", "install", "--dry-run", "--no-deps", "--only-binary", ":all:", "--system-certs"]
     machine = ["--python-version", python, "--python-platform", f"{processor}-manylinux_2_28"]
     # An empty folder: what is installed for this Python says nothing about another one.
     target = ["--target", str(ROOT / "build" / "nothing"), "--python", sys.executable]
+    return run_with_index([*command, *machine, *target, *packages], outer)
+
+
+def run_with_index(
+    command: Sequence[str], outer: tuple[tuple[str, str], ...], folder: Path = ROOT
+) -> subprocess.CompletedProcess[str]:
+    """A command that may reach the index by the proxies of the shell, in a folder."""
+    proxies = {name: value for name, value in outer if name.lower() in PROXIES}
     environment = os.environ | proxies | {"UV_HTTP_TIMEOUT": "20", "UV_HTTP_RETRIES": "1"}
-    return subprocess.run(
-        [*command, *machine, *target, *packages], capture_output=True, text=True, env=environment, timeout=TIMEOUT
-    )
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=TIMEOUT, cwd=folder)
 
 
 @cache
