@@ -2,7 +2,7 @@
 # what the service needs, `make test` also what the tests need.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist wheels install-time lock clean
+.PHONY: help setup test-setup serve test machines hunt deep rounding libreoffice lint sweep-pitch sweep-kills job-kills soak fuzz bench ccd docs examples figures dist wheels install-time lock versions clean
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -42,6 +42,7 @@ help:
 	@echo 'make wheels   wheels for all Pythons that are here, tried in empty environments (PYTHONS=)'
 	@echo 'make install-time  how long pip takes to install the wheel of core and its command, downloads not counted'
 	@echo 'make lock     new exact versions in requirements*.lock, and the digests of their files'
+	@echo 'make versions  make test with the lowest versions that pyproject.toml allows, then with the newest (ARGS=)'
 	@echo 'make clean    remove everything that make created'
 
 # Packages are installed while the kernels are compiled: both wait for the disk now and then.
@@ -186,7 +187,7 @@ install-time: setup
 # The newest versions that fit the ranges of pyproject.toml, the tests' among them, on every Python and system; the files
 # have names and versions only.
 # Lines of packages that [tool.uv] overrides leave nowhere needed are dropped.
-RESOLVE = $(BIN)/uv pip compile --universal --python-version 3.11 --upgrade \
+RESOLVE = $(BIN)/uv pip compile --universal --python-version 3.11 --upgrade --resolution $(or $(RESOLUTION),highest) \
 	--no-header --no-annotate --no-emit-index-url --quiet
 lock: setup
 	@mkdir -p build
@@ -203,6 +204,13 @@ lock: setup
 		{ sed -n '/^#/p' $$file; cat build/$$file; } >build/commented && mv build/commented $$file; done
 	@$(BIN)/uv pip compile --universal --python-version 3.11 --no-deps --generate-hashes \
 		--no-header --no-annotate --no-emit-index-url --quiet requirements.lock --output-file requirements.hashes
+
+# In a clone, whose locks are made anew.
+versions: setup
+	@for resolution in lowest-direct highest; do \
+		rm -rf build/versions && git clone --quiet . build/versions && \
+		$(MAKE) --no-print-directory -C build/versions lock RESOLUTION=$$resolution && \
+		$(MAKE) --no-print-directory -C build/versions test || exit 1; done
 
 clean:
 	@rm -rf $(VENV) app/guide build dist *.egg-info core/kernels.*.so core/kernels/*.so .pytest_cache .hypothesis .mypy_cache .ruff_cache .benchmarks

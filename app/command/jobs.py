@@ -14,6 +14,7 @@ import typer
 from rich.table import Table
 
 from app.command import show
+from app.command.usage import Commands
 from app.files.disk import checked_output, write_whole
 from core import InvalidValue
 from core.display import format_count
@@ -22,7 +23,9 @@ from core.errors import Given
 if TYPE_CHECKING:
     from app.jobs.places import InFolder, OfService
 
-jobs = typer.Typer(help="Jobs of a data folder or of a service.", no_args_is_help=True, add_completion=False)
+jobs = typer.Typer(
+    cls=Commands, help="Jobs of a data folder or of a service.", no_args_is_help=True, add_completion=False
+)
 
 NAME_HELP = "The job's name, the last part of its address."
 # A duration: a number and its unit, each of so many seconds.

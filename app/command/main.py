@@ -16,11 +16,10 @@ from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
-from typer.core import TyperGroup
 
 import core
 from app.command.streams import output_fault
-from app.command.usage import Misuse, message_of
+from app.command.usage import Commands, Misuse, explain_values, message_of
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
 
@@ -80,7 +79,7 @@ def _one_line() -> Iterator[None]:
 HELP = {"help_option_names": ["-h", "--help"]}
 
 
-class _Commands(TyperGroup):
+class _Commands(Commands):
     """The commands; every mistake in their use is one line."""
 
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
@@ -105,6 +104,7 @@ class _Commands(TyperGroup):
             one.help = escape(one.help or "")  # A unit such as [m] must not be read as a style of rich.
             for parameter in one.params:
                 parameter.help = escape(parameter.help or "")
+                explain_values(parameter)
         return command
 
     def invoke(self, ctx: Any) -> Any:

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 
 from app.command.show import write
-from app.command.usage import path, path_argument
+from app.command.usage import Commands, path, path_argument
 from app.extras import require
 from app.files.disk import checked_output
 from app.settings import WORKERS_MAX
@@ -28,6 +28,7 @@ INTERRUPTED = 130
 Folder = Annotated[Path, path_argument("FOLDER", "Folder of the sweep.")]
 
 sweep = typer.Typer(
+    cls=Commands,
     help="One question for many values of its parameters: up to 10^8 designs in a folder, which a later run continues.",
     add_completion=False,
 )

@@ -2,37 +2,59 @@
 
 from __future__ import annotations
 
-import ast
 import difflib
 import re
+from copy import copy
 from pathlib import Path
 from typing import Any
 
 import typer
+from typer.core import TyperGroup
 
 from app.wire.messages import ALIKE_SLIP, fault_of
 
 # Class of every mistake that the parser reports; typer gives it no public name.
 Misuse: Any = typer.BadParameter.__base__
-# The value that stands in quotes at the beginning of the parser's message.
-QUOTED = re.compile(r"""('.*'|".*"|\S+) is not """, re.DOTALL)
 EMPTY = "must not be an empty name: the current folder is ."
+
+
+class Explained(typer.BadParameter):
+    """A mistake whose message is whole, in the service's words."""
+
+
+class Commands(TyperGroup):
+    """Commands of which an unknown one is explained."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        if self.get_command(ctx, args[0]) is None:
+            raise Explained(unknown(args[0], self.list_commands(ctx)))
+        return super().resolve_command(ctx, args)
+
+
+def explain_values(parameter: Any) -> None:
+    """Let an option or argument say in the service's words which values it takes."""
+    kind = copy(parameter.type)  # one object for all options of a type
+    convert = kind.convert
+
+    def convert_or_explain(value: Any, *context: Any) -> Any:
+        try:
+            return convert(value, *context)
+        except typer.BadParameter as error:
+            raise Explained(_unfit(parameter, str(value))) from error
+
+    kind.convert = convert_or_explain
+    parameter.type = kind
 
 
 def message_of(error: Any) -> str:
     """One line for a Misuse: what is wrong, where, and what to change; else the parser's own message."""
-    parameter, quoted = getattr(error, "param", None), QUOTED.match(error.message or "")
+    if isinstance(error, Explained):
+        return error.message
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
-    if parameter is not None and not error.message:
-        own = parameter.metavar or parameter.name.upper()
-        name = own if parameter.param_type_name == "argument" else parameter.opts[0]
-        return f"{name} is missing" if hasattr(error, "param_type") else f"{name} {EMPTY}"  # refused by path()
-    if parameter is not None and quoted:
-        return _unfit(parameter, quoted[1])
+    if hasattr(error, "param_type") and error.param is not None and not error.message:
+        return f"{_name(error.param)} is missing"
     words = re.sub(r"\s+", " ", error.format_message().removeprefix("Invalid value: ")).rstrip(".")
-    if command := re.match(r"No such command '([^']*)'", words):
-        return unknown(command[1], error.ctx.command.list_commands(error.ctx))
     return f"{words[:1].lower()}{words[1:]}"
 
 
@@ -54,14 +76,21 @@ def unknown(word: str, known: list[str]) -> str:
     return f"{word} is unknown here: " + (f"did you mean {bare[near[0]]}?" if near else "see --help")
 
 
-def _unfit(parameter: Any, quoted: str) -> str:
-    """Message for a value that an option cannot take. quoted: the value as the parser quotes it"""
-    value = ast.literal_eval(quoted) if quoted[0] in "'\"" else quoted
-    option, kind = parameter.opts[0], parameter.type
+def _name(parameter: Any) -> str:
+    """What a user calls an option or argument."""
+    argument = parameter.param_type_name == "argument"
+    return str((parameter.metavar or parameter.name.upper()) if argument else parameter.opts[0])
+
+
+def _unfit(parameter: Any, value: str) -> str:
+    """Message for a value that an option or argument cannot take."""
+    name, kind = _name(parameter), parameter.type
+    if kind.name == path.__name__:
+        return f"{name} {EMPTY}"
     if getattr(kind, "choices", None):
         *most, last = [str(getattr(choice, "value", choice)) for choice in kind.choices]
-        return f"{option} must be {', '.join(most)} or {last}, got {value}"
-    if " range" in kind.name and re.fullmatch(r"[-+]?\d+", value):
-        return f"{option} must be from {kind.min} to {kind.max}, got {value}"
+        return f"{name} must be {', '.join(most)} or {last}, got {value}"
+    if hasattr(kind, "min") and re.fullmatch(r"[-+]?\d+", value):
+        return f"{name} must be from {kind.min} to {kind.max}, got {value}"
     wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
-    return fault_of({**wrong, "loc": ("query", parameter.name)}, None).named(option).message
+    return fault_of({**wrong, "loc": ("query", parameter.name)}, None).named(name).message
