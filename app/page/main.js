@@ -17,6 +17,7 @@ import { announce, announceAgain, lost, markContact, placeInset } from "./overla
 import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { passagesText, quickened, timeOfDay } from "./passages.js";
+import { pending } from "./pending.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { Sharing } from "./sharing.js";
@@ -81,12 +82,17 @@ const grader = new Grader(service);
 const doors = new Doors(state);
 new Sharing(state);
 let limits = {};
-let drawing = 0;
+const DRAWING = Symbol("drawing");
+let drawing = false;
 let opened = false;
 
 function draw() {
-  drawing ||= requestAnimationFrame(() => {
-    drawing = 0;
+  if (drawing) return;
+  pending(DRAWING, true);
+  drawing = true;
+  requestAnimationFrame(() => {
+    drawing = false;
+    pending(DRAWING, false);
     const { pose } = dance.scene;
     if (state.get("follow") && pose) dance.view.set(pose.x[0], pose.y[0]);
     dance.draw();
