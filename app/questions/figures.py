@@ -106,7 +106,7 @@ def contact_figure(request: ContactFigureQuery | ContactFigureRequest, terms: Te
     from app.files import figures
 
     placed: dict[str, Any] = {}
-    if isinstance(request, ContactFigureQuery):
+    if not isinstance(request, ContactFigureRequest):
         dance = request.to_dance(terms.settings.drawn_benches_max)
     else:
         dance = request.to_dance(terms.settings.checked_benches_max)
