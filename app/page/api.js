@@ -19,6 +19,9 @@ const EMPTY = 204;
 const BUSY = [429, 503];
 const MOMENT = 10;
 
+/** The type of a problem of what takes too long for one answer: a job may take longer. */
+export const TOO_LONG = "urn:problem-type:bench-dragon:too-much-work";
+
 /** A refused request. problem: the service's problem; errors: of it */
 export class Problem extends Error {
   constructor(status, body) {

@@ -43,7 +43,12 @@ export class Doors {
     const main = $("main");
     // In the village the verdict comes first; the order is that of reading and of the Tab key.
     const order = door === "village" || door === "all" ? ["#answers", "#controls"] : ["#controls", "#answers"];
-    if (main.dataset.door !== door) $("#front").append(...order.map($));
+    if (main.dataset.door !== door) {
+      $("#front").append(...order.map($));
+      // The square by its size comes first in the village, and among the numbers of the whole page.
+      if (door === "village") $("#dance").after($("#place"));
+      else $("#route").prepend($("#place"));
+    }
     main.dataset.door = door;
     main.classList.toggle("compact", door !== "all");
     for (const button of $$("[data-door]:is(button)")) button.setAttribute("aria-pressed", button.dataset.door === door);

@@ -2,26 +2,31 @@
  * A drawing: the path through its points, and the things in the square. Drawings are never changed, only replaced.
  *
  * points: [[x, y]] [m]; straight: numbers of the legs that are straight; radius: of rounded corners [m]; begin: place of
- * the head at time 0 [m]; limit: of every speed [m/s] or null; path: one from a file that is no list of points, or null
- * things: [{kind, name, points, radius, holes}]: one area to stay in, blocks, circles, walls; origin: of a map, or null
+ * the head at time 0 [m]; limit: of every speed [m/s] or null; path: a proposed one, or one from a file that is no list of
+ * points, or null: it is danced until a point is edited; start: of the dance on it [s], or null: with the whole dragon on it
+ * things: [{kind, name, points, radius, holes, heading}]: one area to stay in, blocks, circles, walls, gates, whose heading
+ * [rad] is null if it is straight into the square; origin: of a map, or null
  * grid: {x, y}, the place of x = y = 0 on the survey grid of a map [m], or null
+ * yard: corners of the area without the streets that a proposal has added beyond its gates, or null
  */
 
-export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, things: [], origin: null, grid: null };
+import { onBorder } from "./square.js";
+
+export const EMPTY = { points: [], straight: [], radius: 5, begin: 0, limit: null, path: null, start: null, things: [], origin: null, grid: null, yard: null };
 /** Names of the parts of a drawing in an address. */
-export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "origin", "grid"];
+export const PARTS = ["route", "corner", "begin", "limit", "things", "raw", "start", "origin", "grid", "yard"];
 /** Half a side of the ground without a drawn area [m]. */
 const PLAIN = 90_000;
 const DECIMALS = 4;
 const NUMBER = /^-?\d+(\.\d+)?(e-?\d+)?$/;
-const KINDS = { a: "area", b: "block", c: "circle", w: "wall" };
+const KINDS = { a: "area", b: "block", c: "circle", w: "wall", g: "gate" };
 
 const rounded = (number) => Number(number.toFixed(DECIMALS));
 export const place = ([x, y]) => [rounded(x), rounded(y)];
 
 /** The path in the service's format. */
 export function pathOf({ points, straight, radius, begin, path }) {
-  if (path) return path;
+  if (path) return "start" in path ? { ...path, start: begin } : path;
   const drawn = { kind: "waypoints", points, straight };
   if (straight.some((leg) => straight.includes(leg + 1))) drawn.radius = radius;
   if (begin) drawn.start = begin;
@@ -29,7 +34,7 @@ export function pathOf({ points, straight, radius, begin, path }) {
 }
 
 const closed = (points) => [...points, points[0]];
-const needs = { area: 3, block: 3, circle: 1, wall: 2 };
+const needs = { area: 3, block: 3, circle: 1, wall: 2, gate: 1 };
 /** True if a thing has as many points as its kind needs. */
 export const isWhole = ({ kind, points }) => points.length >= needs[kind];
 
@@ -43,11 +48,14 @@ function featureOf(thing) {
   return { type: "Feature", properties, geometry: geometry() };
 }
 
+const isArea = ({ kind }) => kind === "area";
+/** The corners of the square without added streets; none if it has no area. */
+export const yardOf = ({ things, yard }) => yard ?? things.find((thing) => isArea(thing) && isWhole(thing))?.points ?? [];
+
 /** The venue in the service's format; null without one. Obstacles without an area stand on an endless plain. */
 export function venueOf({ things, origin, grid }) {
-  const whole = things.filter(isWhole);
+  const whole = things.filter((thing) => isWhole(thing) && thing.kind !== "gate");
   if (!whole.length) return null;
-  const isArea = ({ kind }) => kind === "area";
   const corners = [[-PLAIN, -PLAIN], [PLAIN, -PLAIN], [PLAIN, PLAIN], [-PLAIN, PLAIN]];
   const ground = whole.find(isArea) ?? { kind: "area", name: freeName(things, "plain"), points: corners };
   const features = [ground, ...whole.filter((thing) => thing !== ground)].map(featureOf);
@@ -56,8 +64,8 @@ export function venueOf({ things, origin, grid }) {
 
 /** Path, venue and speeds of the dance: the fields of /check that are not null. */
 export function placeOf(drawing) {
-  const [venue, limit] = [venueOf(drawing), drawing.limit];
-  return { ...(venue && { venue }), ...(limit && { speed_limit: limit }) };
+  const [venue, limit, start] = [venueOf(drawing), drawing.limit, drawing.path && drawing.start];
+  return { ...(venue && { venue }), ...(limit && { speed_limit: limit }), ...(start !== null && { start }) };
 }
 
 /** A name that no other thing has. */
@@ -89,11 +97,11 @@ function thingsOf(venue) {
 }
 
 /** The drawing of a dance from a request of /check, or from an answer of /places. */
-export function drawingOf({ path, venue, speed_limit: limit }) {
+export function drawingOf({ path, venue, speed_limit: limit, start = null }) {
   const { origin = null, grid = null } = venue ?? {};
   const drawing = { ...EMPTY, limit: limit ?? null, things: venue ? thingsOf(venue) : [], origin, grid };
   if (!path) return drawing;
-  return { ...drawing, ...(legsOf(path) ?? { path, points: [] }) };
+  return { ...drawing, ...(legsOf(path) ?? { path, start, points: [], begin: path.start ?? 0 }) };
 }
 
 /** The points and straight legs of a path, if it consists of lines and of curves that follow them. */
@@ -126,10 +134,10 @@ const unescaped = (name) => decodeURIComponent(name.replaceAll("-", "%"));
 
 /** Parts of an address: name -> text. */
 export function toAddress(drawing) {
-  const { points, straight, radius, begin, limit, things, path, origin, grid } = drawing;
+  const { points, straight, radius, begin, limit, things, path, start, origin, grid, yard } = drawing;
   const legs = points.map(([x, y], k) => `${straight.includes(k) ? "*" : ""}${x},${y}`).join("_");
-  const texts = things.map(({ kind, name, points: own, radius: wide = "", holes = [] }) =>
-    [kind[0], escaped(name), ...[String(wide), ...[own, ...holes].map(plainText)].map((part) => part.replaceAll(".", "!"))].join("."),
+  const texts = things.map(({ kind, name, points: own, radius: wide = "", heading, holes = [] }) =>
+    [kind[0], escaped(name), ...[String(heading ?? wide), ...[own, ...holes].map(plainText)].map((part) => part.replaceAll(".", "!"))].join("."),
   );
   const parts = {
     route: legs,
@@ -137,9 +145,11 @@ export function toAddress(drawing) {
     begin: begin || "",
     limit: limit ?? "",
     things: texts.join("~"),
-    raw: path ? JSON.stringify(path) : "",
+    raw: path ? JSON.stringify(pathOf(drawing)) : "",
+    start: path ? (start ?? "") : "",
     origin: origin ? `${origin.longitude},${origin.latitude}` : "",
     grid: grid ? `${grid.x},${grid.y}` : "",
+    yard: yard ? plainText(yard) : "",
   };
   return Object.entries(parts).filter(([, text]) => text !== "");
 }
@@ -148,7 +158,7 @@ export function toAddress(drawing) {
 export function fromAddress(address) {
   const number = (name, otherwise) => (NUMBER.test(address.get(name) ?? "") ? Number(address.get(name)) : otherwise);
   const finite = (points) => points.every((point) => point.length === 2 && point.every(Number.isFinite));
-  const drawing = { ...EMPTY, radius: number("corner", EMPTY.radius), begin: number("begin", 0), limit: number("limit", null) };
+  const drawing = { ...EMPTY, radius: number("corner", EMPTY.radius), begin: number("begin", 0), limit: number("limit", null), start: number("start", null) };
   try {
     const legs = address.get("route") ?? "";
     const points = legs ? pointsIn(legs) : [];
@@ -156,11 +166,14 @@ export function fromAddress(address) {
     for (const text of address.get("things")?.split("~") ?? []) {
       const [kind, name, wide, own, ...holes] = text.split(".").map((one) => one.replaceAll("!", "."));
       const thing = { kind: KINDS[kind], name: unescaped(name), points: own ? pointsIn(own) : [] };
-      if (wide) thing.radius = Number(wide);
+      if (wide) thing[thing.kind === "gate" ? "heading" : "radius"] = Number(wide);
       if (holes.length) thing.holes = holes.map(pointsIn);
       if (thing.kind && finite(thing.points)) drawing.things = [...drawing.things, thing];
     }
     if (address.has("raw")) drawing.path = JSON.parse(address.get("raw"));
+    if (drawing.path && !address.has("begin")) drawing.begin = drawing.path.start ?? 0;
+    const yard = pointsIn(address.get("yard") ?? "");
+    if (address.has("yard") && finite(yard)) drawing.yard = yard;
     const [longitude, latitude] = (address.get("origin") ?? "").split(",").map(Number);
     if (address.has("origin")) drawing.origin = { longitude, latitude };
     const [x, y] = (address.get("grid") ?? "").split(",").map(Number);
@@ -174,11 +187,26 @@ export function fromAddress(address) {
 /** The edited item of a drawing: null for the path, else the number of a thing. */
 export const pointsOf = (drawing, item) => (item === null ? drawing.points : (drawing.things[item]?.points ?? []));
 
-/** The drawing with other points of one item. */
+/** The drawing with other points of one item; gates stay on the border. */
 export function withPoints(drawing, item, points) {
-  if (item === null) return { ...drawing, points };
-  return withThing(drawing, item, { points });
+  if (item === null) return { ...drawing, points, path: null };
+  const changed = withThing(drawing, item, { points });
+  return isArea(drawing.things[item]) ? gated(changed, drawing.things[item].points) : changed;
 }
+
+/** The drawing with its gates moved to the border of a square that was changed. before: corners of the square then */
+function gated(drawing, before) {
+  const now = yardOf({ ...drawing, yard: null });
+  // A corner that was moved is moved in the square without streets too; any other change leaves the streets to the square.
+  const isMoved = drawing.yard && now.length === before.length;
+  const yard = isMoved ? drawing.yard.map((corner) => now[before.findIndex(([x, y]) => x === corner[0] && y === corner[1])] ?? corner) : null;
+  const ring = yard ?? now;
+  const things = ring.length < 3 ? drawing.things : drawing.things.map((thing) => (thing.kind === "gate" ? { ...thing, points: [onBorder(ring, thing.points[0]).point] } : thing));
+  return { ...drawing, yard, things };
+}
+
+/** Heading of those who enter by a gate [rad]: its own one, or straight into the square. */
+export const headingOf = (drawing, { points, heading }) => heading ?? onBorder(yardOf(drawing), points[0]).heading;
 
 export function withThing(drawing, item, changes) {
   return { ...drawing, things: drawing.things.map((thing, k) => (k === item ? { ...thing, ...changes } : thing)) };
@@ -189,7 +217,7 @@ export function inserted(drawing, item, k, point) {
   const changed = withPoints(drawing, item, pointsOf(drawing, item).toSpliced(k, 0, place(point)));
   if (item !== null) return changed;
   const straight = drawing.straight.flatMap((leg) => (leg < k - 1 ? [leg] : leg === k - 1 && k < changed.points.length - 1 ? [leg, leg + 1] : [leg + (leg >= k - 1)]));
-  return { ...changed, straight, path: null };
+  return { ...changed, straight };
 }
 
 /** The drawing without point k of an item; a thing without points is removed. */
@@ -199,13 +227,16 @@ export function removed(drawing, item, k) {
   const isStraight = (leg) => drawing.straight.includes(leg);
   // The two legs at this point become one, straight if both were.
   const legs = points.slice(1).flatMap((_, leg) => (leg < k - 1 ? isStraight(leg) : leg === k - 1 ? isStraight(leg) && isStraight(k) : isStraight(leg + 1)) ? [leg] : []);
-  return { ...drawing, points, straight: legs };
+  return { ...drawing, points, straight: legs, path: null };
 }
 
-export const moved = (drawing, item, k, point) => withPoints(drawing, item, pointsOf(drawing, item).with(k, place(point)));
+export function moved(drawing, item, k, point) {
+  const ring = drawing.things[item]?.kind === "gate" ? yardOf(drawing) : [];
+  return withPoints(drawing, item, pointsOf(drawing, item).with(k, ring.length ? onBorder(ring, point).point : place(point)));
+}
 
 /** The drawing with a leg made straight, or curved again. */
 export function bent(drawing, leg) {
   const { straight } = drawing;
-  return { ...drawing, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
+  return { ...drawing, path: null, straight: straight.includes(leg) ? straight.filter((one) => one !== leg) : [...straight, leg].sort((a, b) => a - b) };
 }

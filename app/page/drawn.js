@@ -1,12 +1,13 @@
 /** A drawn dance on the page: joins the picture, the form, the files and the verdict. */
 
-import { EMPTY } from "./drawing.js";
+import { EMPTY, yardOf } from "./drawing.js";
 import { Editor } from "./edit.js";
 import { $, $$, hide, make, textButton } from "./elements.js";
 import { Files } from "./files.js";
 import { Steps } from "./history.js";
 import { Judgement } from "./judgement.js";
 import { PRESETS } from "./presets.js";
+import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
 import { layers } from "./venue.js";
 
@@ -32,6 +33,7 @@ export class Drawn {
     this.editor = new Editor(dance, state, this.steps, course, () => this.show());
     const files = new Files(state, this.steps, service, questions);
     this.form = new RouteForm($("#route"), state, this.steps, this.editor, files);
+    this.propose = new Propose($("#place"), { state, service, questions, steps: this.steps, editor: this.editor });
     this.judgement = new Judgement($("#judgement"), (failure) => this.#seek(failure), (point) => this.#look(point));
     this.#invite();
     const { below, above } = layers(dance, () => this.#visible());
@@ -53,7 +55,7 @@ export class Drawn {
     if (!this.#isRoute) return null;
     const { course } = this.questions;
     const selected = this.editor.active ? this.editor.item : null;
-    return { drawing: this.state.get("drawing"), selected, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
+    return { drawing: this.state.get("drawing"), selected, held: this.editor.held, failure: this.#failure, course, benches: Number(this.state.get("benches")) };
   }
 
   /** The offers without a drawing: draw a path, or begin with a preset. */
@@ -78,7 +80,8 @@ export class Drawn {
   /** After a change of the drawing or of the kind of dance. */
   show() {
     const drawn = this.#isRoute;
-    const { points } = this.state.get("drawing");
+    const drawing = this.state.get("drawing");
+    const { points } = drawing;
     $("main").classList.toggle("drawn", drawn);
     this.picture.drawn = drawn;
     for (const box of [$("#route"), $("#judgement")]) box.hidden = !drawn;
@@ -86,7 +89,8 @@ export class Drawn {
     this.editor.show();
     const empty = drawn && this.#isEmpty;
     $("main").classList.toggle("empty", empty);
-    hide($("#invite"), !empty || points.length > 0 || this.editor.active);
+    hide($("#invite"), !empty || points.length > 0 || this.editor.active || yardOf(drawing).length > 0);
+    this.propose.show();
     if (!drawn) return;
     this.form.show();
     for (const box of SPIRAL_ALONE) $(box).setAttribute("aria-busy", false);

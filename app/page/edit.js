@@ -1,7 +1,8 @@
 /** Drawing on the picture: the points of one item are buttons to drag or to move by keys, and taps add points. */
 
-import { freeName, inserted, moved, pointsOf, removed, withPoints } from "./drawing.js";
+import { freeName, inserted, moved, pointsOf, removed, withPoints, yardOf } from "./drawing.js";
 import { $, $$, make, onClick } from "./elements.js";
+import { onBorder } from "./square.js";
 import { say } from "./text.js";
 
 /** Largest movement of a press that is not a drag [px]; largest distance from the path of a tap that divides it [px]. */
@@ -9,6 +10,8 @@ const [TRAVEL, ON_PATH] = [3, 16];
 /** Step of an arrow key that moves a point, alone and with Shift [m]. */
 const [STEP, LONG_STEP] = [0.1, 1];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+/** Tools of which every tap begins a new thing. */
+const ONE_POINT = ["circle", "gate"];
 const TREE_RADIUS = 0.5;
 const WALL_RADIUS = 0.15;
 
@@ -56,6 +59,16 @@ export class Editor {
     this.chosen();
   }
 
+  /** The place of the dragged point, or of the one that has the focus, in the edited item; null without one. */
+  get held() {
+    const k = this.#drag?.k ?? this.#knots.indexOf(/** @type {any} */ (document.activeElement));
+    return k < 0 ? null : k;
+  }
+
+  get dragging() {
+    return Boolean(this.#drag?.far);
+  }
+
   /** Draw with this tool from now on; a new obstacle begins with the next tap. */
   take(tool) {
     this.tool = tool;
@@ -80,6 +93,7 @@ export class Editor {
       button.hidden = !on;
       button.setAttribute("aria-pressed", this.tool === button.dataset.tool);
     }
+    $("[data-tool=gate]").disabled = !yardOf(this.#drawing).length;
     for (const id of ["#undo", "#redo", "#delete"]) $(id).hidden = !on;
     $("#undo").disabled = !this.steps.canUndo;
     $("#redo").disabled = !this.steps.canRedo;
@@ -209,7 +223,7 @@ export class Editor {
     if (this.tool === "path") {
       const spot = drawing.points.length > 1 ? this.#onPath(px, py) : null;
       this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
-    } else if (this.item === null || this.tool === "circle") this.#begin(drawing, point);
+    } else if (this.item === null || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, pointsOf(drawing, this.item).length, point));
     this.chosen();
     return true;
@@ -227,8 +241,10 @@ export class Editor {
   }
 
   /** Add a new thing at this point. */
-  #begin(drawing, point) {
+  #begin(drawing, wanted) {
     const kind = this.tool;
+    if (kind === "gate" && !yardOf(drawing).length) return;
+    const point = kind === "gate" ? onBorder(yardOf(drawing), wanted).point : wanted;
     const radius = { circle: TREE_RADIUS, wall: WALL_RADIUS }[kind];
     const thing = { kind, name: freeName(drawing.things, say(`thing_${kind}`)), points: [], ...(radius && { radius }) };
     this.item = drawing.things.length;

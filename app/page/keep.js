@@ -1,6 +1,6 @@
 /** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
 
-import { Problem } from "./api.js";
+import { Problem, TOO_LONG } from "./api.js";
 import { $, button, download, make, onClick } from "./elements.js";
 import { CONTACT, DRAGON, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED, bearer } from "./jobs.js";
@@ -8,8 +8,6 @@ import { announce, announceRefusal, copy } from "./overlays.js";
 import { isPlain } from "./questions.js";
 import { language, refusalWords, say } from "./text.js";
 
-/** The type of a problem of what takes too long for one answer. */
-const TOO_LONG = "urn:problem-type:bench-dragon:too-much-work";
 const CSV_STEP = 1;
 const TYPES = {
   CSV: "text/csv",

@@ -48,3 +48,8 @@ const drawings = {
 
 /** Things of a preset have keys of words as names. */
 export const PRESETS = Object.fromEntries(Object.entries(drawings).map(([name, drawing]) => [name, { ...EMPTY, ...drawing }]));
+
+const shapes = (things) => JSON.stringify(things.map(({ name: _, ...shape }) => shape));
+/** True if these things, or this path, are those of a preset; without any they are too. */
+export const isPresetVenue = ({ things }) => Object.values(PRESETS).some((one) => shapes(one.things) === shapes(things));
+export const isPresetPath = ({ points, path }) => !path && Object.values(PRESETS).some((one) => JSON.stringify(one.points) === JSON.stringify(points));

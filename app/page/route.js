@@ -2,7 +2,7 @@
 
 import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
 import { button, hide, make, numberIn } from "./elements.js";
-import { PRESETS } from "./presets.js";
+import { PRESETS, isPresetVenue } from "./presets.js";
 import { say } from "./text.js";
 
 /** The number in a field; null if there is none. */
@@ -14,11 +14,12 @@ function read(field) {
 const textElement = (tag, key, properties = {}) => make(tag, { ...properties, "data-text": key, textContent: say(key) });
 const labelled = (tag, key, properties = {}) => make(tag, { ...properties, "data-label": key, "aria-label": say(key) });
 /** Least and largest numbers of the fields, as the service takes them. */
-export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4] };
+export const LIMITS = { pointX: [-1e5, 1e5], pointY: [-1e5, 1e5], speedLimit: [0.001, 100], pathBegin: [-1e6, 1e6], latitude: [-90, 90], longitude: [-180, 180], cornerRadius: [0.001, 1e4], thingRadius: [0.001, 1e4], gateHeading: [-360, 360] };
 const unitOf = (textContent) => make("span", { className: "unit", textContent });
 const removing = { className: "reset", textContent: "✕" };
 /** Fields that may be empty. */
-const OPTIONAL = ["speedLimit", "latitude", "longitude"];
+const OPTIONAL = ["speedLimit", "latitude", "longitude", "gateHeading"];
+const DEGREE = Math.PI / 180;
 const isRefused = (field) => field.getAttribute("aria-invalid") === "true";
 /** Show a value unless a person is typing there, or typed what was refused. */
 const put = (field, value) => {
@@ -124,8 +125,7 @@ export class RouteForm {
   /** Begin with a preset; a person's own square stays, unless the preset has one. */
   beginWith(name) {
     const { things, origin, grid, limit } = this.#drawing;
-    const shapes = (some) => JSON.stringify(some.map(({ name: _, ...shape }) => shape));
-    const isOwn = Object.values(PRESETS).every((one) => shapes(one.things) !== shapes(things));
+    const isOwn = !isPresetVenue(this.#drawing);
     this.preset.value = "";
     this.editor.edit(null);
     this.state.set({ view: null, time: null });
@@ -145,7 +145,7 @@ export class RouteForm {
     if (origin || !this.box.contains(document.activeElement)) this.origin.forEach((one) => put(one, origin?.[one.dataset.label] ?? ""));
     if (this.limit.placeholder !== say("none")) this.limit.placeholder = say("none");
     hide(this.cornerLine, !straight.some((leg) => straight.includes(leg + 1)));
-    this.pointsTitle.textContent = path ? say("pathFile") : say("pointsTitle", { count: points.length });
+    this.pointsTitle.textContent = path && !points.length ? say("pathFile") : say("pointsTitle", { count: points.length });
     this.thingsTitle.textContent = say("thingsTitle", { count: things.length });
     this.note.textContent = this.state.fits ? "" : say("tooLong");
     this.#fit(this.#points, this.rows, points.length, (k) => this.#pointRow(k));
@@ -156,10 +156,13 @@ export class RouteForm {
       row.leg.disabled = k === points.length - 1;
     });
     this.#things.forEach((row, k) => {
-      const { name, kind, radius: own } = things[k];
+      const { name, kind, radius: own, heading } = things[k];
       put(row.name, name);
       put(row.radius, own ?? "");
+      put(row.heading, heading === null || heading === undefined ? "" : Number((heading / DEGREE).toFixed(1)));
+      if (row.heading.placeholder !== say("gateStraight")) row.heading.placeholder = say("gateStraight");
       for (const part of [row.radius, row.unit]) hide(part, own === undefined);
+      hide(row.heading, kind !== "gate");
       row.edit.textContent = say(`thing_${kind}`);
       row.edit.setAttribute("aria-pressed", this.editor.item === k);
       row.edit.setAttribute("aria-label", say("editThing", { name }));
@@ -200,9 +203,10 @@ export class RouteForm {
       name: labelled("input", "thingName", { maxLength: 200, autocomplete: "off", spellcheck: false, onchange: rename }),
       radius: this.#number("thingRadius", (radius) => this.steps.take(withThing(this.#drawing, k, { radius }))),
       unit: unitOf("m"),
+      heading: this.#number("gateHeading", (degrees) => this.steps.take(withThing(this.#drawing, k, { heading: degrees === null ? null : Number((degrees * DEGREE).toFixed(4)) }))),
       remove: button(removing, () => this.#take({ things: this.#drawing.things.toSpliced(k, 1) })),
     };
-    row.box = make("li", {}, row.edit, row.name, row.radius, row.unit, row.remove);
+    row.box = make("li", {}, row.edit, row.name, row.radius, row.unit, row.heading, row.remove);
     return row;
   }
 }

@@ -1,8 +1,9 @@
 /** Layers of a drawing on the picture: the square and its obstacles, bends that are too tight, benches at fault. */
 
 import { trace } from "./dance.js";
-import { isWhole } from "./drawing.js";
+import { headingOf, isWhole, yardOf } from "./drawing.js";
 import { radiiOf } from "./judgement.js";
+import { measures } from "./square.js";
 import { say } from "./text.js";
 
 // Widths of lines, radius of a ring, and height of a name on the screen [px].
@@ -11,6 +12,8 @@ const FAULT_WIDTH = 4;
 const RING = 14;
 const FONT = "600 12px system-ui, sans-serif";
 const NAME_HEIGHT = 13;
+/** Width and length of the arrow of a gate, and the shortest side that has its length [px]. */
+const [GATE, GATE_LENGTH, SIDE] = [4, 26, 44];
 /** A failure is drawn at times that differ from its own by at most this [s]. */
 const SAME_TIME = 1e-6;
 
@@ -29,6 +32,28 @@ function drawThing(pen, colours, thing) {
   context.fillStyle = kind === "area" ? colours.ground : colours.thing;
   context.fill(path, "evenodd");
   pen.stroke(path, colours.circle, kind === "area" ? 2 : 1);
+}
+
+/** A gate: an arrow through the border, in the direction of those who enter. */
+function drawGate(pen, colours, drawing, gate) {
+  const [[x, y]] = gate.points;
+  const heading = headingOf(drawing, gate);
+  const [dx, dy] = [Math.cos(heading), Math.sin(heading)].map((one) => (one * GATE_LENGTH) / pen.scale);
+  pen.stroke(trace([[x - dx / 2, y - dy / 2], [x + dx / 2, y + dy / 2]], new Path2D(), false), colours.gate, GATE);
+  pen.stroke(pen.tip(x + dx / 2, y + dy / 2, dx, dy, 9), colours.gate, GATE);
+}
+
+/** Lengths and angles of a thing while it is drawn, of all corners or of those beside the held one. */
+function drawMeasures(pen, view, colours, { kind, points }, held, taken) {
+  const isClosed = kind !== "wall";
+  const { lengths, angles } = measures(points, isClosed);
+  const count = points.length;
+  const isShown = (k) => count <= 12 || held === null || Math.min((k - held + count) % count, (held - k + count) % count) < 2;
+  points.forEach((point, k) => {
+    const next = points[(k + 1) % count];
+    if (isShown(k) && lengths[k] * view.scale > SIDE) label(pen, view, `${lengths[k].toFixed(2)} m`, point.map((one, axis) => (one + next[axis]) / 2), colours.pick, colours, taken, 4);
+    if (isShown(k) && angles[k] !== null && lengths[k] * view.scale > SIDE) label(pen, view, `${angles[k].toFixed(0)}°`, point, colours.pick, colours, taken, 14);
+  });
 }
 
 /**
@@ -62,14 +87,14 @@ function labelPlace({ kind, points }) {
   return [x / points.length, y / points.length];
 }
 
-/** The layers of a drawn dance. get(): {drawing, selected, failure, course, benches}, or null in another kind of dance */
+/** The layers of a drawn dance. get(): {drawing, selected, held, failure, course, benches}, or null in another kind of dance */
 export function layers(dance, get) {
   const below = (pen, colours) => {
     const drawn = get();
     if (!drawn) return;
     const { things } = drawn.drawing;
     const order = [...things.keys()].sort((a, b) => Number(things[b].kind === "area") - Number(things[a].kind === "area"));
-    for (const k of order) if (isWhole(things[k])) drawThing(pen, colours, things[k]);
+    for (const k of order) if (isWhole(things[k]) && things[k].kind !== "gate") drawThing(pen, colours, things[k]);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
   const above = (pen, colours) => {
@@ -77,6 +102,9 @@ export function layers(dance, get) {
     if (!drawn) return;
     const { drawing, selected, failure } = drawn;
     const names = [];
+    if (yardOf(drawing).length) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
+    const measured = drawing.things[selected];
+    if (measured?.points.length > 1) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
     for (const [k, thing] of drawing.things.entries()) {
       if (!thing.points.length) continue;
       const colour = selected === k || failure?.area === thing.name ? colours.pick : colours.text;

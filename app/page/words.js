@@ -3,5 +3,6 @@
 import { ANSWERS } from "./words/answers.js";
 import { DANCE } from "./words/dance.js";
 import { MORE } from "./words/more.js";
+import { SQUARE } from "./words/square.js";
 
-export const WORDS = { ...DANCE, ...ANSWERS, ...MORE };
+export const WORDS = { ...DANCE, ...ANSWERS, ...MORE, ...SQUARE };

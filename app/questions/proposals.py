@@ -87,6 +87,16 @@ class Proposal(Answer):
         return cls.from_result(result, dance=body, highest_speed=speed and speed.speed, summary=result.message)
 
 
+class Lack(Answer):
+    """The numbers of a reason, in the unit of its kind: m2 for area, m for width, way and stray, benches for benches."""
+
+    have: float | None = Field(description="What there is; null for fails")
+    need: float | None = Field(description="What it takes; null for fails")
+    figure: core.Figure | None = Field(description="The figure that comes nearest; null for area, width and way")
+    who: list[int] = Field(description="For width the bench that needs it, for way the numbers of both gates")
+    failure: str = Field(description="For fails the first failure of the dance that comes nearest; else empty")
+
+
 class Proposals(Answer):
     """Dances that fit, the best one of those that were tried first; none is proven to be the best there is."""
 
@@ -99,6 +109,7 @@ class Proposals(Answer):
         "between the gates is wide enough; stray: only a smaller stray is possible; benches: only a shorter dragon "
         "fits; fails: none of the dances that were tried passes"
     )
+    reason_values: Lack | None = Field(description="The numbers of the reason; null if there is a proposal")
     most_benches: int | None = Field(
         description="Proven: no dragon of this kind with more benches fits, by the area of the square; null with gates"
     )
@@ -114,7 +125,9 @@ def answer_of(request: ProposalsRequest, result: core.Proposals, place: Place) -
     """The answer with the proposals of core."""
     bodies = [Proposal.of(one, body_of(request, one, place.origin)) for one in result.proposals]
     reason, kind = (result.reason.message, result.reason.kind) if result.reason else (None, None)
-    return Proposals.from_result(result, proposals=bodies, reason=reason, reason_kind=kind, summary=result.message)
+    values = result.reason and Lack.from_result(result.reason)
+    own: dict[str, Any] = {"reason": reason, "reason_kind": kind, "reason_values": values}
+    return Proposals.from_result(result, proposals=bodies, summary=result.message, **own)
 
 
 def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, Place]:

@@ -1,0 +1,50 @@
+/** A proposed dance on a card: what is good and what is tight about it, and its picture. */
+
+import { say } from "./text.js";
+import { extent } from "./square.js";
+
+/** Angle between two benches that is worth a word [degrees], and stray that is little room for people [m]. */
+const [BEND, LITTLE] = [40, 0.1];
+/** Room around the picture and width of its lines, as parts of its larger side [1]; most points of a path. */
+const [AROUND, LINE, POINTS] = [0.04, 0.006, 400];
+/** A safe stray as people say it, rounded down [cm]. */
+const spokenStray = (stray) => (stray < LITTLE ? Math.floor(1000 * stray) / 10 : Math.floor(100 * stray));
+const degrees = (angle) => (angle * 180) / Math.PI;
+
+/** {title, size, good, tight}: the words of a proposal among all of them. */
+export function cardWords(proposal, all) {
+  const { figure, dance, duration, length, tolerance, turns, near, clearance, sharpest_bend: bend } = proposal;
+  const most = (value) => all.length > 1 && all.every((one) => one === proposal || value(one) < value(proposal) - 1e-3);
+  const stray = String(spokenStray(tolerance));
+  const good = [say(most((one) => one.tolerance) ? "good_tolerance_best" : "good_tolerance", { stray })];
+  if (most((one) => one.duration)) good.push(say("good_long"));
+  if (most((one) => one.turns)) good.push(say("good_turns", { turns: turns.toFixed(1) }));
+  if (most((one) => -(one.sharpest_bend ?? 0))) good.push(say("good_gentle"));
+  const isPair = clearance !== null && clearance < near.distance;
+  const tight = [isPair ? say("tight_pair", { distance: clearance.toFixed(2) }) : say("tight_near", { distance: near.distance.toFixed(2), name: near.name })];
+  if (degrees(bend ?? 0) > BEND) tight.push(say("tight_bend", { angle: degrees(bend).toFixed(0) }));
+  if (tolerance < LITTLE) tight.push(say("tight_stray", { stray }));
+  const benches = dance.dragon.benches ?? dance.dragon.lengths.length;
+  const size = say("cardSize", { benches, time: duration.toFixed(0), length: length.toFixed(0) });
+  return { title: say(`figure_${figure}`), size, good: good.join(say("comma")), tight: tight.join(say("comma")) };
+}
+
+const pointsText = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
+
+/** The picture of a proposed dance, as the text of an SVG. yard: corners of the square; course: of /course */
+export function cardPicture({ yard, things }, course) {
+  const every = Math.ceil(course.x.length / POINTS);
+  const path = course.x.map((x, k) => [x, course.y[k]]).filter((_, k) => k % every === 0 || k === course.x.length - 1);
+  const { width, height, middle: [x, y] } = extent(yard);
+  const size = Math.max(width, height) * (1 + 2 * AROUND);
+  const line = size * LINE;
+  const blocks = things.map(({ kind, points, radius }) => {
+    if (kind === "circle") return `<circle class="thing" cx="${points[0][0]}" cy="${points[0][1]}" r="${radius}"/>`;
+    if (kind === "wall") return `<polyline class="wall" points="${pointsText(points)}" stroke-width="${Math.max(2 * radius, line)}"/>`;
+    return kind === "block" ? `<polygon class="thing" points="${pointsText(points)}"/>` : "";
+  });
+  const [box, flip] = [`${x - size / 2} ${-y - size / 2} ${size} ${size}`, 'transform="scale(1 -1)"'];
+  const first = course.s.findIndex((s) => s >= 0);
+  const head = `<circle class="head" cx="${course.x[first]}" cy="${course.y[first]}" r="${2.5 * line}"/>`;
+  return `<svg viewBox="${box}"><g ${flip} stroke-width="${line}"><polygon class="ground" points="${pointsText(yard)}"/>${blocks.join("")}<polyline class="way" points="${pointsText(path)}"/>${head}</g></svg>`;
+}

@@ -1,0 +1,276 @@
+/** The square by its size, and dances proposed for it: one of the cards becomes the route. */
+
+import { Problem, Superseded, TOO_LONG } from "./api.js";
+import { cardPicture, cardWords } from "./cards.js";
+import { Corners } from "./corners.js";
+import { EMPTY, drawingOf, freeName, headingOf, venueOf, withPoints, yardOf } from "./drawing.js";
+import { button, hide, make, numberIn, textButton } from "./elements.js";
+import { strayOf } from "./fields.js";
+import { bearer } from "./jobs.js";
+import { knotsOf } from "./knots.js";
+import { pending } from "./pending.js";
+import { isPresetPath, isPresetVenue } from "./presets.js";
+import { circle, extent, rectangle } from "./square.js";
+import { benchName, refusalWords, say } from "./text.js";
+
+/** Size of a square before any is drawn [m], and the largest one. */
+const [WIDTH, HEIGHT, MOST] = [30, 40, 10_000];
+/** Number of dances that are proposed, and time between two looks at the search [ms]. */
+const [COUNT, SECOND] = [3, 1_000];
+const OBJECTIVES = ["tolerance", "benches", "turns", "duration"];
+/** A drawing without a path. */
+const { points, straight, path, start, begin } = EMPTY;
+const PLAIN = { points, straight, path, start, begin };
+const WAITING = ["accepted", "running"];
+const field = (key, properties) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key), ...properties });
+
+export class Propose {
+  /** Of the last question: {key, proposals, answer, courses}; null before there is one. */
+  #answer = null;
+  /** The search that runs: {began, job}; null without one. */
+  #search = null;
+  #problem = null;
+  #chosen = null;
+  #looking = Symbol("search");
+
+  /**
+   * @param {any} box
+   * @param {{ state: State, service: Service, questions: Questions, steps: Steps, editor: Editor }} parts
+   */
+  constructor(box, { state, service, questions, steps, editor }) {
+    this.box = box;
+    this.state = state;
+    this.service = service;
+    this.questions = questions;
+    this.steps = steps;
+    this.editor = editor;
+    /** What is said in place of the answer, in the language of the page. @type {(() => string) | null} */
+    this.note = null;
+    const line = (...parts) => make("p", { className: "line" }, ...parts);
+    const words = (key) => make("span", { "data-text": key });
+    const unit = () => make("span", { textContent: "m" });
+    this.sizes = [field("placeWidth"), field("placeHeight"), field("placeDiameter")];
+    const [width, height, diameter] = this.sizes;
+    const take = (key, shape, fields) => textButton("placeTake", () => this.#draw(shape, fields), { id: key });
+    this.dragon = ["benches", "body_length"].map((name) => field(name, { onchange: ({ target }) => this.#setNumber(name, target) }));
+    this.objective = make("select", { "data-label": "objective", id: "objective" }, ...OBJECTIVES.map((name) => make("option", { value: name, "data-text": `objective_${name}` })));
+    this.ask = textButton("propose", () => this.#ask(), { id: "propose", className: "main" });
+    this.words = make("p", { role: "status", id: "proposed" });
+    this.stop = textButton("proposeStop", () => this.#stop(), { hidden: true });
+    this.cards = make("ol", { id: "cards" });
+    this.corners = new Corners({ state, steps, editor }, (refused) => this.#tell(refused));
+    const tools = ["gate", "circle", "block", "area"].map((tool) => textButton(`tool_${tool}`, () => this.#tool(tool), { "data-add": tool }));
+    box.append(
+      line(words("placeRectangle"), width, make("span", { textContent: "×" }), height, unit(), take("take-rectangle", rectangle, [width, height])),
+      line(words("placeCircle"), diameter, unit(), take("take-circle", circle, [diameter])),
+      make("p", { className: "hint", "data-text": "placeAdd" }),
+      make("p", { className: "buttons" }, ...tools),
+      this.corners.box,
+      (this.dragonLine = line(words("placeDragon"), this.dragon[0], words("placeBenchesOf"), this.dragon[1], unit())),
+      line(make("label", { htmlFor: "objective", "data-text": "objective" }), this.objective),
+      make("p", { className: "buttons" }, this.ask, this.stop),
+      this.words,
+      this.cards,
+    );
+    for (const [one, id] of [[width, "place-width"], [height, "place-height"], [diameter, "place-diameter"]]) {
+      one.id = id;
+      one.addEventListener("keydown", ({ key }) => key === "Enter" && (one === diameter ? this.#draw(circle, [diameter]) : this.#draw(rectangle, [width, height])));
+    }
+    state.listen((names) => ["benches", "body_length", "csv", "margin", "stray", "hole", "pin", "drawing", "path"].some((name) => names.has(name)) && this.show());
+  }
+
+  get #drawing() {
+    return this.state.get("drawing");
+  }
+
+  /** The question about the drawn square. */
+  #request() {
+    const { numbers, extras, ...request } = /** @type {any} */ (this.questions.drawn());
+    const drawing = { ...this.#drawing, things: this.#drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: yardOf(this.#drawing) } : thing)) };
+    const gates = drawing.things.filter(({ kind }) => kind === "gate").map((gate) => ({ point: gate.points[0], heading: headingOf(this.#drawing, gate) }));
+    const { dragon } = this.questions.body({}, { numbers, extras, ...request });
+    const limits = { margin: numbers.margin, stray: strayOf(numbers), ...(drawing.limit && { speed_limit: drawing.limit }) };
+    return { venue: venueOf(drawing), dragon, gates, ...limits, objective: this.objective.value, count: COUNT };
+  }
+
+  #setNumber(name, target) {
+    const number = numberIn(target.value);
+    this.state.set({ [name]: String(number) });
+  }
+
+  /** Draw the square by its size; what stands in it stays, and so does a path of one's own. */
+  #draw(shape, fields) {
+    const numbers = fields.map(({ value }) => numberIn(value));
+    fields.forEach((one, k) => one.setAttribute("aria-invalid", !(numbers[k] > 0 && numbers[k] <= MOST)));
+    const wrong = fields.find((one) => one.getAttribute("aria-invalid") === "true");
+    if (wrong) return this.#tell(() => say("noNumberIn", { what: wrong.getAttribute("aria-label"), low: 0, high: MOST, text: wrong.value }));
+    for (const one of this.sizes) {
+      one.removeAttribute("aria-invalid");
+      one.kept = null;
+    }
+    this.#tell(null);
+    const before = this.#drawing;
+    const drawing = { ...before, ...(isPresetPath(before) && PLAIN), ...(isPresetVenue(before) && { things: [], yard: null }) };
+    const yard = yardOf(drawing);
+    const points = shape(...numbers, yard.length ? extent(yard).middle : [0, 0]);
+    const k = drawing.things.findIndex(({ kind }) => kind === "area");
+    const area = { kind: "area", name: freeName(drawing.things, say("thing_area")), points };
+    this.state.set({ view: null, time: null });
+    this.steps.take(k < 0 ? { ...drawing, things: [area, ...drawing.things] } : withPoints({ ...drawing, yard: null }, k, points));
+    this.editor.edit(null);
+  }
+
+  /** Let taps on the picture add things of this kind. */
+  #tool(tool) {
+    const isOn = this.editor.active && this.editor.tool === tool;
+    this.editor.turn(!isOn);
+    if (!isOn) this.editor.take(tool);
+    this.#tell(isOn ? null : () => say(`draw_${tool}`));
+    this.box.ownerDocument.querySelector("#dance").scrollIntoView({ block: "nearest" });
+  }
+
+  /** Say something below the button. words(): in the language of the page; null: what the answer says */
+  #tell(words) {
+    this.note = words;
+    this.show();
+  }
+
+  async #ask() {
+    if (!yardOf(this.#drawing).length) return this.#tell(() => say("proposeFirst"));
+    const request = this.#request();
+    const search = { began: performance.now(), job: null };
+    this.note = null;
+    [this.#search, this.#answer, this.#problem, this.#chosen] = [search, null, null, null];
+    this.show();
+    pending(this.#looking, true);
+    const clock = setInterval(() => this.show(), SECOND);
+    try {
+      const answer = await this.#answerTo(request, search);
+      if (search !== this.#search) return;
+      const courses = await Promise.all(answer.proposals.map(({ dance: { path, dragon } }, k) => this.service.ask(`card ${k}`, "course", { body: { path, dragon } })));
+      this.#answer = { key: this.#keyOf(request), courses, ...answer };
+    } catch (error) {
+      if (search !== this.#search) return;
+      if (error instanceof Problem) this.#problem = error.problem;
+      else if (!(error instanceof Superseded)) throw error;
+    } finally {
+      clearInterval(clock);
+      if (!this.#search || search === this.#search) pending(this.#looking, false);
+    }
+    this.#search = null;
+    this.show();
+  }
+
+  /** The proposals, at once or, where that takes too long for one answer, by a job. */
+  async #answerTo(body, search) {
+    try {
+      return await this.service.ask("proposals", "proposals", { body });
+    } catch (error) {
+      if (!(error instanceof Problem) || error.problem.type !== TOO_LONG) throw error;
+    }
+    let status = await this.service.ask("proposals", "proposals", { body, headers: { Prefer: "respond-async", ...bearer() } });
+    search.job = status.jobID;
+    while (WAITING.includes(status.status)) {
+      await new Promise((resolve) => setTimeout(resolve, SECOND));
+      if (search !== this.#search) throw new Superseded();
+      status = await this.service.ask("proposals", `jobs/${search.job}`, { cache: "no-store" });
+    }
+    if (status.problem) throw new Problem(status.problem.status, status.problem);
+    const answer = await this.service.ask("proposals", `jobs/${search.job}/result`);
+    this.#remove(search.job);
+    return answer;
+  }
+
+  /** Remove a job, whose answer is here or not wanted any more. */
+  #remove(job) {
+    this.service.ask(`end ${job}`, `jobs/${job}`, { method: "DELETE" }).catch(() => {});
+  }
+
+  #stop() {
+    if (this.#search?.job) this.#remove(this.#search.job);
+    this.service.drop(["proposals"]);
+    this.#search = null;
+    this.show();
+  }
+
+  #keyOf(request) {
+    return JSON.stringify(request);
+  }
+
+  /** Make the dance of a card the route. */
+  #choose(k) {
+    const { proposals, courses } = this.#answer;
+    const { dance, duration } = proposals[k];
+    const drawing = this.#drawing;
+    const opened = drawingOf(dance);
+    const yard = yardOf(drawing);
+    const area = opened.things.find(({ kind }) => kind === "area");
+    const hasStreets = drawing.things.some(({ kind }) => kind === "gate");
+    const things = drawing.things.map((thing) => (thing.kind === "area" ? { ...thing, points: hasStreets ? area.points : yard } : thing));
+    const { path, start, begin } = { ...opened, path: dance.path, start: dance.start, begin: dance.path.start };
+    this.editor.turn(false);
+    this.editor.edit(null);
+    const benches = dance.dragon.benches ?? dance.dragon.lengths?.length;
+    this.state.set({ time: duration / 2, view: null, head_speed: String(dance.head_speed), ...(benches && !this.state.get("csv") && { benches: String(benches) }) });
+    this.#chosen = k;
+    this.steps.take({ ...drawing, things, yard: hasStreets ? yard : null, path, start, begin, ...knotsOf(courses[k]) });
+    this.#answer.key = this.#keyOf(this.#request());
+    this.show();
+  }
+
+  /** Why no dance was found, in words. */
+  #lack({ reason_kind: kind, reason_values: values, tried }) {
+    const { have, need, figure, who, failure } = values;
+    const digits = { area: 1, width: 2, way: 2, stray: 3, benches: 0 }[kind];
+    const gates = this.#drawing.things.filter((thing) => thing.kind === "gate");
+    const names = kind === "way" ? { a: gates[who[0]]?.name, b: gates[who[1]]?.name } : { who: who.length ? benchName(who[0], Number(this.state.get("benches"))) : "" };
+    const numbers = { have: have?.toFixed(digits), need: kind === "stray" ? need : need?.toFixed(digits) };
+    return say(kind === "fails" && !failure ? "lack_fails_none" : `lack_${kind}`, { ...names, ...numbers, tried, figure: figure ? say(`figure_${figure}`) : "" });
+  }
+
+  /** After a change of anything. */
+  show() {
+    const drawing = this.#drawing;
+    const isRoute = this.state.get("path") === "route";
+    hide(this.box, !isRoute);
+    if (!isRoute) return;
+    this.#showSizes(yardOf(drawing));
+    this.corners.show();
+    hide(this.dragonLine, Boolean(this.state.get("csv")));
+    for (const [k, name] of ["benches", "body_length"].entries()) if (document.activeElement !== this.dragon[k]) this.dragon[k].value = this.state.get(name);
+    for (const one of this.box.querySelectorAll("[data-add]")) one.setAttribute("aria-pressed", this.editor.active && this.editor.tool === one.dataset.add);
+    hide(this.stop, !this.#search);
+    this.ask.disabled = Boolean(this.#search);
+    const answer = this.#answer && this.#answer.key === this.#keyOf(this.#request()) ? this.#answer : null;
+    this.#showWords(answer);
+    this.#showCards(answer);
+  }
+
+  #showSizes(yard) {
+    const { width, height } = yard.length ? extent(yard) : { width: WIDTH, height: HEIGHT };
+    const values = [width, height, Math.min(width, height)].map((size) => String(Number(size.toFixed(2))));
+    this.sizes.forEach((one, k) => {
+      if (document.activeElement !== one && one.kept !== values[k] && one.getAttribute("aria-invalid") !== "true") one.value = one.kept = values[k];
+    });
+  }
+
+  #showWords(answer) {
+    const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
+    const result = answer && (answer.proposals.length ? `${say("proposed", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}` : this.#lack(answer));
+    const text = this.#search ? say("proposing", { seconds }) : (this.note?.() ?? result ?? "");
+    const problem = !this.#search && !text && this.#problem;
+    Object.assign(this.words, problem ? refusalWords(problem) : { textContent: text });
+    this.words.className = problem || (answer && !answer.proposals.length) ? "error" : "hint";
+  }
+
+  #showCards(answer) {
+    if (!answer) return this.cards.replaceChildren();
+    const cards = answer.proposals.map((proposal, k) => {
+      const { title, size, good, tight } = cardWords(proposal, answer.proposals);
+      const lines = [["good", "✓", good], ["tight", "!", tight]].map(([className, mark, text]) => make("span", { className }, make("b", { "aria-hidden": "true", textContent: mark }), " ", text));
+      const picture = make("span", { className: "picture", "aria-hidden": "true", innerHTML: cardPicture({ yard: yardOf(this.#drawing), things: this.#drawing.things }, answer.courses[k]) });
+      return make("li", {}, button({ "aria-pressed": this.#chosen === k }, () => this.#choose(k), picture, make("b", { textContent: title }), make("span", { className: "hint", textContent: size }), ...lines));
+    });
+    this.cards.replaceChildren(...cards);
+  }
+}

@@ -1,0 +1,51 @@
+/** The shape of a square, and gates on its border. Points are [x, y] in metres. */
+
+/** Corners of a round square, all of them on the circle, so that the whole of it is inside. */
+const ROUND = 48;
+
+const decimals = (number) => Number(number.toFixed(4));
+
+/** Corners of a rectangle around a middle. */
+export const rectangle = (width, height, [x, y]) =>
+  [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => [decimals(x + (a * width) / 2), decimals(y + (b * height) / 2)]);
+
+/** Corners of a round square of a diameter around a middle. */
+export const circle = (diameter, [x, y]) =>
+  Array.from({ length: ROUND }, (_, k) => (2 * Math.PI * k) / ROUND).map((turn) => [decimals(x + (diameter / 2) * Math.cos(turn)), decimals(y + (diameter / 2) * Math.sin(turn))]);
+
+/** {width, height, middle} of points. */
+export function extent(points) {
+  const [low, high] = [Math.min, Math.max].map((most) => [0, 1].map((axis) => most(...points.map((point) => point[axis]))));
+  return { width: high[0] - low[0], height: high[1] - low[1], middle: low.map((one, axis) => (one + high[axis]) / 2) };
+}
+
+/** Twice the area inside of a ring, negative if it goes clockwise [m2]. */
+const twiceArea = (ring) => ring.reduce((sum, [x, y], k) => sum + ring.at(k - 1)[0] * y - x * ring.at(k - 1)[1], 0);
+
+/** The nearest place on the border of a ring: {point, heading: straight into the square [rad]}. */
+export function onBorder(ring, [x, y]) {
+  const left = Math.sign(twiceArea(ring)) || 1;
+  const sides = ring.map(([bx, by], k) => {
+    const [ax, ay] = ring.at(k - 1);
+    const [dx, dy] = [bx - ax, by - ay];
+    const along = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+    const point = [ax + along * dx, ay + along * dy];
+    return { point, heading: Math.atan2(left * dx, -left * dy), far: Math.hypot(point[0] - x, point[1] - y) };
+  });
+  const { point, heading } = sides.reduce((best, side) => (side.far < best.far ? side : best));
+  return { point: point.map(decimals), heading: decimals(heading) };
+}
+
+/** Length of every side [m], from each corner to the next one, and the angle at every corner [degrees]; ends of an open line have none. */
+export function measures(points, isClosed) {
+  const way = (k) => [0, 1].map((axis) => points[(k + 1) % points.length][axis] - points[k][axis]);
+  const count = points.length;
+  const lengths = points.map((_, k) => (isClosed || k < count - 1 ? Math.hypot(...way(k)) : null));
+  const angles = points.map((_, k) => {
+    if (count < 3 || (!isClosed && (k === 0 || k === count - 1))) return null;
+    const [before, after] = [way((k + count - 1) % count), way(k)];
+    const turn = Math.atan2(before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1]);
+    return 180 - (Math.sign(isClosed ? twiceArea(points) : turn) * turn * 180) / Math.PI;
+  });
+  return { lengths, angles };
+}

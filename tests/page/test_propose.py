@@ -1,0 +1,248 @@
+"""From a square to a dance: its size, its corners and gates, proposals on cards, and the chosen one edited."""
+
+from __future__ import annotations
+
+import math
+import re
+import time
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.support.axe import serious
+from tests.support.pending import settled
+from tests.support.serving import serving
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+EMPTY = "?door=village&path=route"
+# A yard of 24 m by 20 m around the origin, with a tree.
+YARD = f"{EMPTY}&benches=8&things=a.square..-12,-10_12,-10_12,10_-12,10~c.linden.0!5.3,4"
+MINUTES = 120.0  # [s] from nothing to a certified dance
+CARDS = "#cards button"
+FINGER = 43.5  # [px]
+NARROW = """(least) => [...document.querySelectorAll("#place :is(button, input, select, summary)")]
+  .filter((one) => one.checkVisibility())
+  .filter((one) => one.getBoundingClientRect().height < least || one.getBoundingClientRect().right > innerWidth + 1)
+  .map((one) => one.outerHTML)"""
+
+
+def proposed(page: Any) -> Any:
+    page.locator("#propose").click()
+    page.locator(CARDS).first.wait_for()
+    return page.locator(CARDS)
+
+
+def parts(page: Any) -> dict[str, str]:
+    """The parts of the page's address."""
+    settled(page, "address")
+    return {name: values[0] for name, values in parse_qs(urlsplit(page.url).query).items()}
+
+
+def tap_at(page: Any, x: float, y: float) -> None:
+    """A tap at a place in metres, if x = y = 0 is in the middle of the picture and the yard is shown as a whole."""
+    box = page.locator("#canvas").bounding_box()
+    scale, left, up = page.evaluate("""() => {
+      const [width, height] = [document.querySelector("#canvas").clientWidth, document.querySelector("#canvas").clientHeight];
+      const scale = Math.min((width - 88) / 24, (height - 68) / 20);
+      return [scale, width / 2 + 20, height / 2 - 10];
+    }""")
+    page.mouse.click(box["x"] + left + scale * x, box["y"] + up - scale * y)
+
+
+def test_from_nothing_to_a_certified_dance_on_a_phone_in_two_minutes(open_page: Any) -> None:
+    page = open_page("", reduced_motion="reduce", **PHONE)
+    begun = time.monotonic()
+    page.locator("#arrival [data-door=village]").tap()
+    page.locator("#place-width").fill("30")
+    page.locator("#place-height").fill("40")
+    page.locator("#take-rectangle").tap()
+    page.locator("#place-width").fill("30")
+    page.locator("#propose").tap()
+    page.locator(CARDS).first.wait_for()
+    page.locator(CARDS).first.tap()
+    expect(page.locator("#judgement[data-outcome=clear] .value")).to_have_text("✓Can be danced")
+    assert time.monotonic() - begun < MINUTES
+    expect(page.locator("#verdict")).to_be_in_viewport()
+    expect(page.locator("#verdict")).to_have_text(re.compile("✓ Can be danced"))
+    expect(page.locator(CARDS).first).to_have_attribute("aria-pressed", "true")
+    assert page.evaluate(NARROW, FINGER) == []
+    for language in ("zh", "en"):
+        page.locator(f"[data-lang={language}]").tap()
+        settled(page)
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        assert "undefined" not in page.locator("#place").inner_text()
+        assert "NaN" not in page.locator("#place").inner_text()
+    assert serious(page) == []
+    # What was chosen is in the address.
+    page.reload()
+    expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+
+
+def test_a_card_says_what_is_good_and_what_is_tight_and_becomes_the_route(open_page: Any) -> None:
+    page = open_page(YARD)
+    settled(page)
+    cards = proposed(page)
+    expect(page.locator("#proposed")).to_have_text(re.compile(r"The best \d of \d+ tried; each has passed its check\."))
+    assert 2 <= cards.count() <= 3
+    for card in cards.all():
+        expect(card.locator(".good")).to_have_text(re.compile(r"✓ .*People may be \d|✓ Most room: people may be \d", re.I))
+        expect(card.locator(".tight")).to_have_text(re.compile(r"! (\d+\.\d\d m from|two benches \d+\.\d\d m apart)"))
+        assert card.locator("svg .way").get_attribute("points")
+    times = []
+    for card in cards.all():
+        card.click()
+        expect(card).to_have_attribute("aria-pressed", "true")
+        settled(page)
+        expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+        way = re.search(r"(\d+) m$", card.locator(".hint").inner_text())
+        time_there = re.search(r"danced in ([\d.]+) s", page.locator("#judgement").inner_text())
+        assert way
+        assert time_there
+        assert float(time_there[1]) == pytest.approx(float(way[1]), abs=0.6)  # at 1 m/s
+        times.append(time_there[0])
+    page.locator("#edit").click()
+    page.locator("#undo").click()
+    settled(page)
+    expect(page.locator("#judgement")).to_contain_text(times[-2])
+
+
+def test_a_chosen_dance_is_edited_like_any_route(open_page: Any) -> None:
+    page = open_page(YARD)
+    settled(page)
+    proposed(page).first.click()
+    settled(page)
+    chosen = parts(page)
+    assert "raw" in chosen
+    page.locator("#edit").click()
+    page.locator("[data-tool=path]").click()
+    settled(page)
+    knots = page.locator(".knot")
+    assert knots.count() >= 8
+    knots.nth(2).focus()
+    page.keyboard.press("ArrowUp")
+    settled(page)
+    expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+    edited = parts(page)
+    assert "raw" not in edited
+    assert edited["route"] != chosen["route"]
+    page.keyboard.press("ControlOrMeta+z")
+    settled(page)
+    assert parts(page) == chosen
+
+
+def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page: Any) -> None:
+    page = open_page(YARD)
+    settled(page)
+    page.locator("[data-add=gate]").click()
+    expect(page.locator("#proposed")).to_contain_text("Tap the border")
+    tap_at(page, -11, 1)
+    tap_at(page, 11, -2)
+    page.locator("#edit").click()
+    settled(page)
+    things = parts(page)["things"].split("~")
+    gates = [one.split(".") for one in things if one.startswith("g.")]
+    assert [(gate[1], gate[2]) for gate in gates] == [("gate", ""), ("gate-202", "")]
+    places = [[float(one) for one in gate[3].replace("!", ".").split(",")] for gate in gates]
+    assert [place[0] for place in places] == [-12.0, 12.0]
+    assert [place[1] for place in places] == pytest.approx([1.0, -2.0], abs=0.3)
+    with page.expect_request("**/proposals") as asked:
+        page.locator("#propose").click()
+    body = asked.value.post_data_json
+    assert [gate["heading"] for gate in body["gates"]] == pytest.approx([0.0, math.pi], abs=1e-3)
+    page.locator(CARDS).first.wait_for()
+    expect(page.locator(CARDS).filter(has_text="From gate to gate")).to_have_count(1)
+    page.locator(CARDS).first.click()
+    settled(page)
+    expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+    # The square with its streets is danced in, and the square without them is asked about again.
+    held = parts(page)
+    assert held["yard"] == "-12,-10_12,-10_12,10_-12,10"
+    with page.expect_request("**/proposals") as again:
+        page.locator("#propose").click()
+    assert again.value.post_data_json["venue"] == body["venue"]
+    page.locator(CARDS).first.wait_for()
+    page.reload()
+    expect(page.locator("#judgement[data-outcome=clear]")).to_be_visible()
+    assert parts(page)["yard"] == held["yard"]
+
+
+def test_corners_have_typed_coordinates_and_sides_typed_lengths(open_page: Any) -> None:
+    page = open_page(YARD)
+    settled(page)
+    page.locator("[data-add=area]").click()
+    fields = page.locator("#corners tbody tr").nth(1).locator("input")
+    expect(page.locator("#corners summary")).to_have_text("Corners of “square”: 4")
+    values = [field.input_value() for field in fields.all()]
+    assert values == ["12", "-10", "20"]
+    expect(page.locator("#corners tbody tr").nth(1).locator("td").nth(3)).to_have_text("90.0°")
+    fields.nth(0).fill("14,5")
+    fields.nth(0).press("Enter")
+    fields.nth(2).fill("16")
+    fields.nth(2).press("Enter")
+    fields.nth(2).press("Tab")
+    settled(page)
+    corners = parts(page)["things"].split("~")[0].split(".")[3].replace("!", ".")
+    after = [[float(one) for one in corner.split(",")] for corner in corners.split("_")]
+    assert after[1] == [14.5, -10.0]
+    assert math.dist(after[1], after[2]) == pytest.approx(16.0, abs=1e-3)
+    assert after[0] == [-12.0, -10.0]
+    fields.nth(0).fill("wide")
+    fields.nth(0).press("Enter")
+    expect(fields.nth(0)).to_have_attribute("aria-invalid", "true")
+    expect(page.locator("#proposed")).to_contain_text("you typed “wide”")
+    assert serious(page) == []
+
+
+def test_a_square_is_drawn_by_its_size_and_a_wrong_size_is_named(open_page: Any) -> None:
+    page = open_page(f"{EMPTY}&benches=8")
+    settled(page)
+    page.locator("#propose").click()
+    expect(page.locator("#proposed")).to_have_text("First say how large your square is.")
+    page.locator("#place-width").fill("-3")
+    page.locator("#take-rectangle").click()
+    expect(page.locator("#proposed")).to_contain_text("“Width of the square” must be a number")
+    page.locator("#place-diameter").fill("26,5")
+    page.locator("#place-diameter").press("Enter")
+    settled(page)
+    corners = parts(page)["things"].split("~")[0].split(".")[3].replace("!", ".").split("_")
+    radii = [math.hypot(*map(float, corner.split(","))) for corner in corners]
+    assert radii == pytest.approx([13.25] * len(corners), abs=1e-3)
+    expect(page.locator("#place-width")).to_have_value("26.5")
+
+
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [
+        ("en", "The widest free circle is 3.02 m across; a turn of the head needs 3.77 m."),
+        ("zh", "最大的空地圆直径为 3.02 m，龙头转弯需要 3.77 m。"),
+    ],
+)
+def test_why_none_fits_stands_in_one_sentence(open_page: Any, language: str, words: str) -> None:
+    page = open_page(f"{EMPTY}&benches=8&lang={language}&things=a.square..0,0_30,0_30,3_0,3")
+    settled(page)
+    page.locator("#propose").click()
+    expect(page.locator("#proposed")).to_have_text(words)
+    assert page.locator(CARDS).count() == 0
+
+
+def test_a_search_can_be_stopped(open_page: Any) -> None:
+    page = open_page(YARD)
+    settled(page)
+    page.route("**/proposals", lambda route: None)
+    page.locator("#propose").click()
+    expect(page.locator("#propose")).to_be_disabled()
+    expect(page.locator("#proposed")).to_have_text(re.compile(r"Looking for dances that fit: \d+ s"))
+    page.locator("#place").get_by_role("button", name="Stop").click()
+    expect(page.locator("#propose")).to_be_enabled()
+    expect(page.locator("#proposed")).to_be_empty()
+    settled(page)
+
+
+def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_path: Any) -> None:
+    with serving(tmp_path / "server.log", deadline_seconds=0.05, data=tmp_path / "data") as service:
+        page = open_page(f"{EMPTY}&benches=8&things=a.square..0,0_30,0_30,3_0,3", base=service.url, failing=True)
+        with page.expect_request("**/jobs/*/result"):
+            page.locator("#propose").click()
+        expect(page.locator("#proposed")).to_contain_text("The widest free circle is 3.02 m across")
