@@ -35,7 +35,7 @@ core.extremes
 core.design
 core.tolerance
 core.ground
-core.failures core.judgement
+core.failures core.judgement core.breaches
 core.performance
 core.proposal
 core

@@ -44,7 +44,7 @@ TOGETHER = {
     "questions/test_envelope.py": "command/envelope files/outlines",
     "questions/test_paper.py": "grade/paper",
     "questions/test_proposals.py": "command/propose files/proposals",
-    "questions/test_registry.py": "questions/clearance questions/course questions/maximum_head_speed questions/overlaps"
+    "questions/test_registry.py": "questions/clearance questions/maximum_head_speed questions/overlaps"
     " questions/pitch_scan questions/quickest_turn questions/shortest_turn questions/turn_time",
     "questions/test_tolerance.py": "command/strays questions/tolerance_curve",
     "service/test_problems.py": "service/negotiation wire/faults wire/problem",

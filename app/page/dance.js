@@ -5,7 +5,7 @@ import { strayOf } from "./fields.js";
 import { View } from "./view.js";
 
 const SHADES = 48;
-const COLOURS = ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn", "gate"];
+const COLOURS = ["text", "outline", "path", "circle", "head", "first", "second", "pick", "card", "halo", "thing", "ground", "drawn", "gate", "speed"];
 /** Speeds closer together than this [m/s] get one colour, so that colours do not show rounding. */
 const SPEED_SPREAD_MIN = 1e-9;
 /** A click within this distance of a handle [px] selects it. */

@@ -131,9 +131,10 @@ export class Questions {
       this.#take(null);
       return this.#latest.clear();
     }
-    const { dragon, path } = this.body({}, request);
-    if (this.#isNew("course", { dragon, path })) this.#askCourse({ dragon, path }, drawing);
-    if (!this.#isNew("contact", this.checkBody(request))) return;
+    const body = this.checkBody(request);
+    const { start_clock: clock, ...course } = body;
+    if (this.#isNew("course", course)) this.#askCourse({ ...course, breaches: true }, drawing);
+    if (!this.#isNew("contact", body)) return;
     // Questions about the former dance would delay the verdict on the new one.
     this.service.drop(AT_REST);
     for (const channel of AT_REST) this.#latest.delete(channel);

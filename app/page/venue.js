@@ -1,4 +1,4 @@
-/** Layers of a drawing on the picture: the square and its obstacles, bends that are too tight, benches at fault. */
+/** Layers of a drawing on the picture: the square and its obstacles, stretches on which a limit fails, benches at fault. */
 
 import { trace } from "./dance.js";
 import { headingOf, isWhole, yardOf } from "./drawing.js";
@@ -8,6 +8,8 @@ import { say } from "./text.js";
 
 // Widths of lines, radius of a ring, and height of a name on the screen [px].
 const BEND_WIDTH = 7;
+/** Colour of a stretch on which a limit fails, by the limit. */
+const BREACHES = { speed: "speed", margin: "head", stray: "pick" };
 const FAULT_WIDTH = 4;
 const RING = 14;
 const FONT = "600 12px system-ui, sans-serif";
@@ -95,6 +97,7 @@ export function layers(dance, get) {
     const { things } = drawn.drawing;
     const order = [...things.keys()].sort((a, b) => Number(things[b].kind === "area") - Number(things[a].kind === "area"));
     for (const k of order) if (isWhole(things[k]) && things[k].kind !== "gate") drawThing(pen, colours, things[k]);
+    for (const { kind, points } of drawn.course?.breaches ?? []) pen.stroke(trace(points, new Path2D(), false), colours[BREACHES[kind]], BEND_WIDTH);
     for (const bend of drawn.course?.bends ?? []) pen.stroke(trace(bend.points, new Path2D(), false), colours.head, BEND_WIDTH);
   };
   const above = (pen, colours) => {
@@ -115,6 +118,10 @@ export function layers(dance, get) {
       const middle = points[Math.floor(points.length / 2)];
       pen.stroke(pen.circle(...middle, RING), colours.head, 3);
       label(pen, dance.view, say("tightHere", radiiOf(bend)), middle, colours.head, colours, names, RING + 6);
+    }
+    for (const kind of Object.keys(BREACHES)) {
+      const first = drawn.course?.breaches?.find((one) => one.kind === kind);
+      if (first) label(pen, dance.view, say(`breach_${kind}`), first.points[Math.floor(first.points.length / 2)], colours[BREACHES[kind]], colours, names);
     }
     const { pose } = dance.scene;
     if (!failure || !pose || Math.abs(pose.time - failure.time) > SAME_TIME) return;

@@ -1,23 +1,27 @@
-"""The question course: the points of a path, and its bends that are too tight."""
+"""The question course: the points of a path, its bends that are too tight, and where its dance breaks limits."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from pydantic import Field
 
 import core
 from app.wire.answers import Point
-from app.wire.dances import DragonFields
-from app.wire.paths import AnyPath, SpiralPath
-from app.wire.question import Answer, Question, Terms, measure
+from app.wire.dances import PlacedDance, SpanFields
+from app.wire.question import Answer, Margin, Question, SpeedLimit, Strays, Terms, measure
+from core.breaches import BreachKind, breaches
 
-# A route of 1,000 points, measured 2026-11-22 [s].
-SECONDS = 0.02
+# A route of 1,000 points, measured 2026-11-22, and where its dance breaks limits, measured 2026-11-27 [s].
+SECONDS, BREACHES_SECONDS = 0.02, 0.08
 
 
-class CourseRequest(DragonFields, strict=True):
-    """Points of a path, and its bends that are too tight for a dragon."""
+class CourseRequest(Strays, SpanFields, PlacedDance, strict=True):
+    """Points of a path, its bends that are too tight for a dragon, and where the dance breaks a limit."""
 
-    path: AnyPath = Field(default_factory=SpiralPath, description="The path")
+    breaches: bool = Field(False, description="true: also the stretches on which the dance breaks a limit")
+    margin: Margin = 0.0
+    speed_limit: SpeedLimit | None = measure("m/s", "Highest speed allowed for any handle; default: no limit", None)
 
 
 class TightBend(Answer):
@@ -31,6 +35,18 @@ class TightBend(Answer):
     bench: int = Field(description="The bench with the longest chord")
 
 
+class Breach(Answer):
+    """A stretch of the path on which benches break a limit in a sample of the dance."""
+
+    kind: BreachKind = Field(
+        description="speed: a handle is faster than the limit; margin: a bench comes within the margin of another one "
+        "or of the venue's edges, or stands outside; stray: it may, if people stray"
+    )
+    start: float = measure("m", "Start of the stretch, along the path")
+    end: float = measure("m", "End of the stretch, along the path")
+    points: list[Point] = measure("m", "Points along it, x and y")
+
+
 class Course(Answer):
     """A path as it is drawn, whether or not it can be danced."""
 
@@ -42,6 +58,10 @@ class Course(Answer):
         "m", "Arc length of each waypoint (for a rounded corner, of its middle); empty for other paths"
     )
     bends: list[TightBend] = Field(description="Bends that are too tight, along the path")
+    breaches: list[Breach] | None = Field(
+        description="Stretches on which a limit is broken, at samples of the dance 0.3 m apart: a view, not a verdict, "
+        "which POST /check gives; null unless asked for, and where the dragon cannot follow the path"
+    )
 
 
 def course(request: CourseRequest, terms: Terms) -> Course:
@@ -49,7 +69,26 @@ def course(request: CourseRequest, terms: Terms) -> Course:
     result = core.course(request.path.to_path(), request.to_dragon(terms.settings.benches_max))
     x, y = result.points.T.tolist()
     bends = [TightBend.from_result(bend, points=bend.points.tolist()) for bend in result.bends]
-    return Course(s=result.s.tolist(), x=x, y=y, length=result.length, knots=result.knots.tolist(), bends=bends)
+    broken = _breaches(request, terms) if request.breaches and not bends else None
+    lists = {"s": result.s.tolist(), "x": x, "y": y, "knots": result.knots.tolist()}
+    return Course(**lists, length=result.length, bends=bends, breaches=broken)
 
 
-QUESTION = Question(course, Course, body=CourseRequest, cost=lambda request: SECONDS)
+def _breaches(request: CourseRequest, terms: Terms) -> list[Breach] | None:
+    """The stretches on which the dance breaks a limit; None if the dragon cannot follow the path."""
+    try:
+        dance = request.to_dance(terms.settings.checked_benches_max)
+        dance.span(request.start, request.stop)
+    except core.InvalidValue:
+        return None
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+    span: dict[str, Any] = {"start": request.start, "stop": request.stop, "budget": terms.budget}
+    result = breaches(dance, request.to_place(dance.dragon).venue, **span, **limits)
+    return [Breach.from_result(one, points=one.points.tolist()) for one in result]
+
+
+def _cost(request: CourseRequest) -> float:
+    return SECONDS + (BREACHES_SECONDS if request.breaches else 0.0)
+
+
+QUESTION = Question(course, Course, body=CourseRequest, cost=_cost)

@@ -88,7 +88,7 @@ class Proposal(Answer):
 
 
 class Lack(Answer):
-    """The numbers of a reason, in the unit of its kind: m2 for area, m for width, way and stray, benches for benches."""
+    """The numbers of a reason: m2 for area, m for width, way and stray, benches for benches."""
 
     have: float | None = Field(description="What there is; null for fails")
     need: float | None = Field(description="What it takes; null for fails")

@@ -1,0 +1,196 @@
+"""Breaches: stretches of a path on which benches break a limit, at samples of the dance, for a drawing.
+
+A sample decides nothing: check() does. Between two samples STEP apart a bench may come nearer for a moment, and what
+stray adds to a distance is bounded from above here, so that a stretch may be marked where no person can touch anything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core import kernels
+from core.contact.search import MARGIN_MAX
+from core.dance import Dance
+from core.display import WithArrays, display
+from core.dragon import Stray, checked_stray
+from core.errors import checked_number, question_about
+from core.extremes.speed import checked_limit
+from core.kernels import Budget
+from core.motion.places import handle_places
+from core.motion.trajectory import trajectory
+from core.shapes.engines import inside
+from core.shapes.reach import gains
+from core.shapes.rectangles import bench_poses, frames
+from core.values import Floats
+from core.venue import Area, Venue
+
+# Travel of the head between two samples [m], and most samples; fewer where benches and edges make more than PAIRS.
+STEP, SAMPLES_MAX, PAIRS = 0.3, 600, 4e6
+SAMPLES_MIN = 30
+# Speeds above a limit by this part are rounding [1].
+SPEED_ROUNDING = 1e-6
+# Distance between points of a stretch [m], and their largest number.
+POINT_STEP, POINTS_MAX = 0.3, 200
+
+
+class BreachKind(StrEnum):
+    """The limit that a stretch breaks. SPEED: a handle is faster than the limit; MARGIN: a bench comes within the
+    margin of another one or of an edge, or stands outside; STRAY: it does so only if people stray."""
+
+    SPEED = "speed"
+    MARGIN = "margin"
+    STRAY = "stray"
+
+
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class Breach(WithArrays):
+    """A stretch of the path where benches or handles break a limit. start, end: s [m]; points: along it, (P, 2) [m]"""
+
+    kind: BreachKind
+    start: float
+    end: float
+    points: Floats
+    _units = {"end": "m", "start": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+    def _line(self) -> str:
+        return f"{self.kind.value} from s = {display(self.start)} to {display(self.end, 'm')}"
+
+
+@question_about("dance", Dance)
+def breaches(
+    dance: Dance,
+    venue: Venue | None = None,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    speed_limit: float | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> tuple[Breach, ...]:
+    """The stretches of the path on which a sample of the whole dance breaks a limit, in order of kind and place.
+
+    margin [m], stray, speed_limit [m/s], start, stop [s]: as for check()
+    raises: InvalidValue; TooMuchWork
+
+    >>> from core import Area, Dragon, Line, Route
+    >>> lane = Route([Line((0, 0), (30, 0))])
+    >>> tree = Area("tree", (((14, 0.1), (16, 0.1), (16, 2), (14, 0.1)),))
+    >>> plain = Area("plain", (((-9, -9), (39, -9), (39, 9), (-9, 9), (-9, -9)),))
+    >>> breaches(Dance(Dragon(3), lane), Venue(plain, (tree,)))
+    (<Breach: margin from s = 11.048 to 18.974 m>,)
+    """
+    margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
+    strayed = gains(dance.dragon) * checked_stray(stray, dance.dragon)
+    limit = None if speed_limit is None else checked_limit(speed_limit)
+    budget = budget or Budget()
+    edges = [] if venue is None else [_frames_of(area) for area in venue.areas]
+    times = _times(dance, dance.span(start, stop), sum(map(len, edges)))
+    budget.afford(float(len(times) * dance.dragon.benches))
+    motion, s = trajectory(dance, times, budget=budget), handle_places(dance, times, budget=budget)
+    marks = {kind: [np.empty((0, 2))] for kind in BreachKind}
+    if limit is not None:
+        fast = s[motion.speed > limit * (1.0 + SPEED_ROUNDING)]
+        marks[BreachKind.SPEED].append(np.stack([fast - 0.5 * STEP, fast + 0.5 * STEP], axis=-1))
+    spans = np.stack([s[:, 1:], s[:, :-1]], axis=-1)
+    near, if_strayed = _too_near(dance, motion.position, venue, edges, (margin, strayed))
+    marks[BreachKind.MARGIN].append(spans[near])
+    marks[BreachKind.STRAY].append(spans[if_strayed & ~near])
+    return tuple(
+        Breach(kind, start, end, _along(dance, start, end))
+        for kind, every in marks.items()
+        for start, end in _united(np.concatenate(every))
+    )
+
+
+def _times(dance: Dance, span: tuple[float, float], edges: int) -> Floats:
+    """Times of the samples (T,) [s], evenly spaced."""
+    begin, until = span
+    way = dance.clock.travel(until) - dance.clock.travel(begin)
+    benches = dance.dragon.benches
+    most = min(SAMPLES_MAX, max(SAMPLES_MIN, int(PAIRS / (benches * (0.5 * benches + edges)))))
+    return np.linspace(begin, until, min(most, int(way / STEP) + 2))
+
+
+def _frames_of(area: Area) -> Floats:
+    """The edges of an area as rectangles without a width (E, 6) [m]."""
+    a, b = area.edges[:, :2], area.edges[:, 2:]
+    way = b - a
+    lengths = np.hypot(*way.T)
+    poses = np.column_stack([0.5 * (a + b), np.arctan2(way[:, 1], way[:, 0])])
+    return frames(poses, np.column_stack([lengths, np.zeros(len(way))]))
+
+
+def _too_near(
+    dance: Dance, handles: Floats, venue: Venue | None, edges: list[Floats], room: tuple[float, Floats]
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """For all benches at all samples (T, n): within the margin; and with what stray adds (n,) [m]. room: both"""
+    dragon, (margin, strayed) = dance.dragon, room
+    poses = bench_poses(handles)
+    boxes = frames(poses, np.stack([dragon.lengths, dragon.widths], axis=-1))
+    near = np.zeros(poses.shape[:2], dtype=bool)
+    if_strayed = near.copy()
+    for a, b, who, need in _pairs(boxes, edges, margin, strayed):
+        gap = np.empty(len(a))
+        kernels.pair_gaps(np.ascontiguousarray(a), np.ascontiguousarray(b), float(need.max(initial=margin)), gap)
+        for mark, within in ((near, gap <= margin), (if_strayed, gap <= need)):
+            for rows in who:
+                mark.reshape(-1)[rows[within]] = True
+    if venue is not None:
+        centres = poses[..., :2].reshape(-1, 2)
+        near |= ~inside(venue.square.rings, centres).reshape(near.shape)
+        for area in venue.obstacles:
+            near |= inside(area.rings, centres).reshape(near.shape)
+    return near, if_strayed
+
+
+def _pairs(
+    boxes: Floats, edges: list[Floats], margin: float, strayed: Floats
+) -> Iterator[tuple[Floats, Floats, list[NDArray[np.int64]], Floats]]:
+    """Rectangles that may be too near: rows of both, numbers of the benches among all samples, and what each needs."""
+    benches = boxes.shape[1]
+    reach = np.hypot(boxes[0, :, kernels.FRAME_HALF_LENGTH], boxes[0, :, kernels.FRAME_HALF_WIDTH])
+    i, j = np.triu_indices(benches, 2)
+    need, far = margin + strayed[i] + strayed[j], reach[i] + reach[j]
+    for t, row in enumerate(boxes):
+        apart = np.hypot(*(row[i, :2] - row[j, :2]).T)
+        close = np.flatnonzero(apart <= far + need)
+        if len(close):
+            a, b = i[close], j[close]
+            yield row[a], row[b], [t * benches + a, t * benches + b], need[close]
+    flat = boxes.reshape(-1, boxes.shape[-1])
+    need, far = (np.tile(column, len(boxes)) for column in (margin + strayed, reach))
+    for edge in (edge for area in edges for edge in area):
+        way = flat[:, :2] - edge[:2]
+        along = np.abs(way @ edge[2:4])
+        beside = np.abs(way @ np.array([-edge[3], edge[2]]))
+        apart = np.hypot(np.maximum(along - edge[kernels.FRAME_HALF_LENGTH], 0.0), beside)
+        close = np.flatnonzero(apart <= far + need)
+        if len(close):
+            yield flat[close], np.tile(edge, (len(close), 1)), [close], need[close]
+
+
+def _united(spans: Floats) -> Iterator[tuple[float, float]]:
+    """The union of intervals (N, 2) of s; those less than STEP apart are one."""
+    start, end = None, 0.0
+    for low, high in spans[np.argsort(spans[:, 0])].tolist():
+        if start is None or low > end + STEP:
+            if start is not None:
+                yield start, end
+            start, end = low, high
+        end = max(end, high)
+    if start is not None:
+        yield start, end
+
+
+def _along(dance: Dance, start: float, end: float) -> Floats:
+    """Points of a stretch, as far as it is on the path."""
+    path = dance.path
+    low, high = path.drawn_between(start, end)
+    low, high = min(max(start, low), high), max(min(end, high), low)
+    return path.position(np.linspace(low, high, min(POINTS_MAX, int((high - low) / POINT_STEP) + 2)))
