@@ -38,6 +38,7 @@ TOGETHER = {
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"
     " maps/lines maps/marks maps/places questions/maps",
+    "maps/test_tracks.py": "maps/gpx",
     "plan/test_plan.py": "files/fonts plan/ground plan/sheet plan/tables plan/timing questions/plan",
     "processes/test_pool.py": "processes/child processes/messages processes/parent",
     "questions/test_encounter.py": "command/encounter files/performances wire/performances",

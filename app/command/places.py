@@ -33,7 +33,7 @@ from core.errors import Given
 def places(
     file: Annotated[
         Path,
-        path_argument("FILE", "A map: .geojson, .kml, .kmz, .dxf, or a dance as .toml or .json."),
+        path_argument("FILE", "A map: .geojson, .kml, .kmz, .gpx, .dxf, or a dance as .toml or .json."),
     ],
     units: Annotated[
         str | None,
@@ -42,10 +42,11 @@ def places(
     output: Annotated[
         Path | None, typer.Option(help="Write a .json file for check: the square, its obstacles and the path.")
     ] = None,
+    times: Annotated[bool, typer.Option("--times", help="Keep the times of a track as passages in that file.")] = False,
     language: Annotated[Language, typer.Option(help="Language of the notes.")] = Language.ENGLISH,
     json: Json = False,
 ) -> None:
-    """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ or DXF (extra dxf)."""
+    """The square, its obstacles and the path in a map: GeoJSON, KML, KMZ, GPX or DXF (extra dxf)."""
     if units not in (None, "metres", "degrees"):
         raise InvalidValue.in_words("units", "--units must be metres or degrees", got=Given(units))
     if output:
@@ -54,7 +55,8 @@ def places(
     parts = read_map(file, coordinates[units], language)
     answer = Places.of(parts)
     if output:
-        of_map = {name: part for name in ("path", "venue") if (part := getattr(answer, name)) is not None}
+        names = ("path", "venue", "passages") if times else ("path", "venue")
+        of_map = {name: part for name in names if (part := getattr(answer, name)) is not None}
         show.write(output, orjson.dumps((answer.dance or {}) | of_map, option=orjson.OPT_INDENT_2) + b"\n")
     if json:
         show.print_json(answer.to_json())

@@ -52,6 +52,7 @@ class MapFeature:
 
     rings: the point alone, the points of a line, or the closed rings of a polygon, the outer one first
     radius: of a round thing, or half of the width of a line [m]
+    times: of the points of a line that was walked [s], NaN where unknown; None for any other line
     """
 
     shape: Shape
@@ -60,6 +61,7 @@ class MapFeature:
     role: str | None = None
     radius: float | None = None
     properties: Mapping[str, object] = field(default_factory=dict)
+    times: tuple[float, ...] | None = None
 
     def moved(self, move: Callable[[Floats], Floats]) -> MapFeature:
         """The same feature elsewhere. move: function of points (N, 2)"""

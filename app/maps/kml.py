@@ -6,6 +6,7 @@ cannot grow in memory by them.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -27,6 +28,7 @@ from app.maps.features import (
     origin_of,
     role_of,
 )
+from app.maps.gpx import seconds_of
 from core import InvalidValue
 from core.errors import Given
 from core.venue import Ring
@@ -43,7 +45,7 @@ REFUSED = {
 }
 SHAPES: dict[str, Shape] = {"Point": "point", "LineString": "line", "Polygon": "polygon", "LinearRing": "line"}
 # Elements with geometry that this program does not use.
-OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model", "Track", "MultiTrack")
+OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model")
 # Colours of the lines, aabbggrr, by role.
 COLOURS = {"square": "ff000000", "obstacle": "ff7f7f7f", "path": "ffb27200", "mark": "ff005ed5"}
 FORBIDDEN = "file must not have a document type or entities: save it again as plain KML"
@@ -109,6 +111,8 @@ class _Reader:
         self.data: dict[str, str] = {}
         self.shapes: list[tuple[Shape, tuple[Ring, ...]]] = []
         self.rings: list[Ring] = []
+        self.track: list[tuple[float, float]] = []
+        self.times: list[float] = []
         self.key, self.text, self.is_kml = "", list[str](), False
 
     def start(self, name: str, attributes: Mapping[str, str]) -> None:
@@ -123,6 +127,7 @@ class _Reader:
             self.visible_folders.append(True)
         elif local == "Placemark":
             self.name, self.data, self.shapes, self.visible = "", {}, [], True
+            self.track, self.times = [], []
         elif local in ("Data", "SimpleData"):
             self.key = attributes.get("name", "")
         elif local == "Polygon":
@@ -149,6 +154,10 @@ class _Reader:
             self.data[self.key] = text
         elif local == "coordinates":
             self._place(_points(text))
+        elif local == "when" and around == "Track":
+            self.times.append(seconds_of(text))
+        elif local == "coord" and around == "Track":
+            self._walk(text)
         elif local == "Polygon" and self.rings:
             self.shapes.append(("polygon", tuple(self.rings)))
             self.rings = []
@@ -169,6 +178,16 @@ class _Reader:
             shape = SHAPES[self.stack[-1]]
             self.shapes.append((shape, (points[:1] if shape == "point" else points,)))
 
+    def _walk(self, text: str) -> None:
+        """A place of a track, such as 120.1 30.2 12; one without a place has no text. raises: InvalidValue"""
+        numbers = [_number(word) for word in text.split()[:2]]
+        if len(numbers) == 2 and None not in numbers:
+            self.track.append((numbers[0] or 0.0, numbers[1] or 0.0))
+        elif text:
+            raise InvalidValue("file", "must have places of a track such as 120.1 30.2 12", got=Given(text))
+        else:
+            self.times[len(self.track) : len(self.track) + 1] = []
+
     def _finish(self) -> None:
         data = self.data
         for key in ("path", "origin"):
@@ -183,6 +202,12 @@ class _Reader:
                 continue
             one = replace(feature, shape=shape, rings=rings)
             self.collector.add(drawn_as(one) if shape == "line" else one)
+        if self.track and not (self.visible and all(self.visible_folders)):
+            self.collector.hide("line")
+        elif self.track:
+            # Times come in the order of the places; of a file with fewer, none counts.
+            times = tuple(self.times) if len(self.times) == len(self.track) else (math.nan,) * len(self.track)
+            self.collector.add(replace(feature, shape="line", rings=(tuple(self.track),), times=times))
 
 
 def _points(text: str) -> Ring:

@@ -14,6 +14,7 @@ from app.files.words import Say
 from app.maps import geojson
 from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
+from app.maps.tracks import APART, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.question import Coordinates
@@ -45,6 +46,7 @@ class DanceParts:
         survey grid [m]
     things: features of the venue, where trees and walls have a radius
     dance: the other fields of a file that describes a dance; notes: assumptions, and things left out
+    passages: speeds at which a track was walked, in the form of a request
     """
 
     path: Mapping[str, Any] | None = None
@@ -54,6 +56,7 @@ class DanceParts:
     notes: Sequence[str] = ()
     things: Sequence[MapFeature] = ()
     grid: Point | None = None
+    passages: Sequence[Mapping[str, Any]] | None = None
 
     @property
     def geometry(self) -> dict[str, Any] | None:
@@ -99,6 +102,7 @@ class Reading:
         if not self.features:
             raise InvalidValue("file", "must hold a polygon, a line or a point", got="none of these")
         self.origin, self.grid = drawing.origin, drawing.grid
+        self.passages: Sequence[Mapping[str, Any]] | None = None
         self._lay_out(units)
         self.features = [self._whole(one) for one in self.features]
         for kind, count in drawing.left_out.items():
@@ -113,15 +117,22 @@ class Reading:
         refuse_many_edges_of(one for one in self.features if one.shape == "polygon")
         lines = [one for one in self.features if one.shape == "line"]
         square = self._square()
-        paths = [one for one in lines if one.role == PATH]
+        tracks = [one for one in lines if one.times is not None]
+        # A track that was walked is a path; the longest one is danced, unless a line is called path.
+        named = [one for one in lines if one.role == PATH]
+        paths = [*named, *sorted((one for one in tracks if one.role != PATH), key=length_of, reverse=True)]
         # If no line has the role of the path, it is the longest line without a width.
         free = [one for one in lines if one.role is None and one.radius is None]
         danced = paths[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
         path = self._path(danced[0]) if danced else None
         if more := paths[1:]:
             self._note(
-                f"{len(paths)} lines are called path; the first is the path, and the others are left out.",
-                f"有 {len(paths)} 条线名为路径：取第一条，其余未读取。",
+                f"{len(paths)} lines are called path; the first is the path, and the others are left out."
+                if len(named) == len(paths)
+                else f"{len(paths)} lines are paths or tracks; one of them is the path: {danced[0].name or 'track'}.",
+                f"有 {len(paths)} 条线名为路径：取第一条，其余未读取。"
+                if len(named) == len(paths)
+                else f"有 {len(paths)} 条路径或轨迹，取其中之一为路径：{danced[0].name or '轨迹'}。",
             )
         taken = [*danced, *more]
         others = [one for one in self.features if one is not square and not any(one is line for line in taken)]
@@ -129,7 +140,7 @@ class Reading:
         venue = _checked(things) if things else None
         if venue is not None:
             self._warn_of_small(np.array(venue.square.rings[0]))
-        return DanceParts(path, venue, self.origin, None, self.notes, things, self.grid)
+        return DanceParts(path, venue, self.origin, None, self.notes, things, self.grid, self.passages)
 
     def _walls(self, free: list[MapFeature]) -> bool:
         """True if lines without a role are walls: there are several, so none of them is clearly the path."""
@@ -296,6 +307,8 @@ class Reading:
                 "The line of the path was edited, so the new path goes through the points of the line.",
                 "路径的线已被移动，因此路径改为通过其各点。",
             )
+        if line.times is not None:
+            return self._walked(line)
         kept, name = thinned(points), line.name or self.say("a line without a name", "未命名的线")
         if len(kept) < 2:
             apart = Quantity(POINTS_APART, "m")
@@ -307,6 +320,33 @@ class Reading:
         path = {"kind": "waypoints", "points": kept.tolist()}
         checked_path(path)
         return path
+
+    def _walked(self, line: MapFeature) -> Mapping[str, Any]:
+        """The path along a track, with a note on how far it is from what was walked."""
+        points, times = np.array(line.rings[0]), np.array(line.times)
+        walk = walk_of(points, times if np.isfinite(times).all() else None)
+        name = line.name or self.say("a track without a name", "未命名的轨迹")
+        if walk is None:
+            length = Quantity(APART, "m")
+            raise InvalidValue("file", "must hold a track with points at least {length} apart", length=length)
+        self.passages = walk.passages
+        english = (
+            f"The path is a smooth curve along the track {name}, at most {walk.largest:.2f} m from what was walked."
+        )
+        chinese = f"路径是沿轨迹“{name}”的光滑曲线，与实际走过的位置最多相差 {walk.largest:.2f} m。"
+        self._note(english, chinese)
+        if not walk.is_easy:
+            self._note(
+                f"Some bends stay tighter than {walk.radius:.1f} m, which benches of the contest need.",
+                f"仍有弯道的半径小于 {walk.radius:.1f} m，竞赛题中的板凳无法通过。",
+            )
+        if walk.passages is None:
+            self._note("The track has no times that grow.", "轨迹没有递增的时间。")
+        else:
+            until = walk.passages[-1]["until_time"]
+            self._note(f"It was walked in {until:.0f} s.", f"走完用时 {until:.0f} s。")
+        checked_path(walk.path)
+        return walk.path
 
 
 def _look_like_degrees(points: Floats) -> bool:

@@ -16,7 +16,7 @@ from pydantic import Field
 from app.files.markup import states_encoding
 from app.files.tables import Language
 from app.files.words import Say
-from app.maps import dxf, geojson, kml
+from app.maps import dxf, geojson, gpx, kml
 from app.maps.benches import benches_of
 from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, features_of
 from app.maps.layout import DanceParts, Reading
@@ -52,11 +52,17 @@ class Places(Answer):
     dance: dict[str, Any] | None = Field(
         description="Other fields of a file that describes a dance, unchanged; null: the file is a map"
     )
+    passages: list[dict[str, Any]] | None = Field(
+        description="Speeds at which a track was walked, from its first time on, in the form of a request; null: the "
+        "path is no track, or has no times"
+    )
     notes: list[str] = Field(description="Assumptions, and things left out, in sentences")
 
     @classmethod
     def of(cls, parts: DanceParts) -> Self:
-        return cls(path=parts.path, venue=parts.geometry, dance=parts.dance, notes=list(parts.notes))
+        passages = None if parts.passages is None else list(parts.passages)
+        own = {"venue": parts.geometry, "passages": passages, "notes": list(parts.notes)}
+        return cls(path=parts.path, dance=parts.dance, **own)
 
 
 def read_places(
@@ -70,8 +76,8 @@ def read_places(
 
 
 def places_of(data: bytes, units: Coordinates | None, say: Say, budget: Budget | None = None) -> DanceParts:
-    """Square and path in a file: GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON, recognised by its first bytes; or
-    the benches in a workbook.
+    """Square and path in a file: GeoJSON, KML, KMZ, GPX, DXF, or a dance as TOML or JSON, recognised by its first
+    bytes; or the benches in a workbook.
 
     units: of its coordinates; None: as the file says, else degrees if the numbers allow it
     raises: InvalidValue at the field `file`; MissingPackage
@@ -92,7 +98,8 @@ def places_of(data: bytes, units: Coordinates | None, say: Say, budget: Budget |
         start = kml.unpacked(data)
     if is_archive or start.startswith((b"<", b"\0<")):
         start, notes = (start, []) if states_encoding(start) else _in_utf8(start, say)
-        parts = Reading(kml.read(start), units, say).parts()
+        drawing = gpx.read(start) if gpx.is_gpx(start) else kml.read(start)
+        parts = Reading(drawing, units, say).parts()
         return replace(parts, notes=[*notes, *parts.notes])
     if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
         return Reading(dxf.read(data), units, say).parts()

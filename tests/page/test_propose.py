@@ -268,7 +268,7 @@ def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page
     page.mouse.move(x, y)
     page.mouse.down()
     with page.expect_response("**/course") as answer:
-        page.mouse.move(x + 12, y + 50, steps=3)
+        page.mouse.move(x + 12, y + 90, steps=3)
     body = answer.value.request.post_data_json
     assert (body["breaches"], body["stray"]) == (True, 0.05)
     settled(page, "course", "contact")

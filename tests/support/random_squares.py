@@ -45,7 +45,7 @@ def box(name: str, x: float, y: float, width: float, height: float) -> Area:
     return Area(name, (closed([(x, y), (x + width, y), (x + width, y + height), (x, y + height)]),))
 
 
-def random_case(seed: int) -> Case:
+def random_case(seed: int | list[int]) -> Case:
     """A square of 4 to 9 corners with up to ten obstacles, up to three gates, and a dragon of 2 to 60 benches."""
     random = np.random.default_rng(seed)
     corners = int(random.integers(4, 10))

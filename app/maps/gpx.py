@@ -1,0 +1,115 @@
+"""Tracks as GPX, the format of receivers and phones: tracks with their times, routes as lines, waypoints as points.
+
+The parser is the same as that of KML: plain expat without a document type.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from datetime import datetime
+from xml.parsers import expat
+
+from app.files.markup import TAG_MAX, LongTag, as_utf8, in_pieces, new_parser, parse
+from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, role_of
+from core import InvalidValue
+from core.errors import Given
+from core.values import Point
+
+# Bytes in which the first element of a document is looked for, and its tag; zeros are of UTF-16.
+HEAD, ROOT = 4_096, re.compile(rb"<(\w+:)?gpx[\s>]")
+# Deepest nesting of elements.
+DEPTH_MAX = 60
+FORBIDDEN = "file must not have a document type or entities: save it again as plain GPX"
+POINTS = {"trkpt": "trk", "rtept": "rte", "wpt": "wpt"}
+
+
+def is_gpx(data: bytes) -> bool:
+    """True if an XML document is GPX."""
+    return ROOT.search(data[:HEAD].replace(b"\0", b"")) is not None
+
+
+def seconds_of(text: str) -> float:
+    """The time of a text such as 2026-11-27T07:30:00Z, in seconds since 1970; NaN if it is none."""
+    try:
+        return datetime.fromisoformat(text.strip()).timestamp()
+    except (ValueError, OverflowError):
+        return float("nan")
+
+
+def read(data: bytes) -> Drawing:
+    """The tracks, routes and waypoints of a document, in degrees. raises: InvalidValue with the line at fault"""
+    reader = _Reader()
+    parser = new_parser(_refuse, " ", "utf-8")
+    parser.buffer_text = True
+    parser.StartElementHandler, parser.EndElementHandler = reader.start, reader.end
+    parser.CharacterDataHandler = reader.take
+    try:
+        parse(parser, in_pieces(as_utf8(data)))
+    except LongTag as error:
+        raise InvalidValue("file", "must not have a tag of more than {most} bytes", got="more", most=TAG_MAX) from error
+    except expat.ExpatError as error:
+        rule, fault = "must be GPX, got {fault} in line {line}", expat.ErrorString(error.code)
+        raise InvalidValue("file", rule, fault=fault, line=error.lineno) from error
+    return Drawing(tuple(reader.collector.features), Unit.DEGREES, left_out=reader.collector.left_out)
+
+
+def _refuse(*declared: object) -> None:
+    raise InvalidValue.in_words("file", FORBIDDEN)
+
+
+# State:  `stack`, the names of the open elements; `points`, `times` and `name` of the open track, route or waypoint;
+#         `text` of the open element.
+class _Reader:
+    """Collects the tracks of a document while expat reads it. The segments of a track are one line."""
+
+    def __init__(self) -> None:
+        self.collector = FeatureCollector()
+        self.stack: list[str] = []
+        self.points: list[Point] = []
+        self.times: list[float] = []
+        self.name, self.text = "", list[str]()
+
+    def start(self, name: str, attributes: Mapping[str, str]) -> None:
+        local = name.rpartition(" ")[2]
+        self.stack.append(local)
+        if len(self.stack) > DEPTH_MAX:
+            raise InvalidValue("file", "must not nest elements deeper than {most}", most=DEPTH_MAX)
+        self.text = []
+        if local in ("trk", "rte", "wpt"):
+            self.points, self.times, self.name = [], [], ""
+        if local in POINTS:
+            self.points.append((_degrees(attributes, "lon"), _degrees(attributes, "lat")))
+            self.times.append(float("nan"))
+
+    def take(self, text: str) -> None:
+        self.text.append(text)
+
+    def end(self, name: str) -> None:
+        local, text = self.stack.pop(), "".join(self.text).strip()
+        around = self.stack[-1] if self.stack else ""
+        if local == "time" and around in POINTS:
+            self.times[-1] = seconds_of(text)
+        elif local == "name" and around in ("trk", "rte", "wpt"):
+            self.name = text
+        elif local in ("trk", "rte", "wpt"):
+            self._finish(local)
+        self.text = []
+
+    def _finish(self, kind: str) -> None:
+        if not self.points:
+            return self.collector.leave_out(f"empty {kind}")
+        name = self.name or None
+        if kind == "wpt":
+            return self.collector.add(MapFeature("point", (tuple(self.points[:1]),), name, role_of(name)))
+        times = tuple(self.times) if kind == "trk" else None
+        return self.collector.add(MapFeature("line", (tuple(self.points),), name, role_of(name), times=times))
+
+
+def _degrees(attributes: Mapping[str, str], name: str) -> float:
+    text = attributes.get(name, "")
+    try:
+        return float(text)
+    except ValueError as error:
+        rule = "must have points with lat and lon in degrees"
+        raise InvalidValue("file", rule, got=Given(text)) from error

@@ -1,0 +1,173 @@
+"""Walked tracks: thinned and smoothed to what benches follow, at most so far from the walk, with times as passages."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.files.tables import Language
+from app.files.words import Say
+from app.maps.gpx import seconds_of
+from app.maps.places import places_of
+from app.maps.tracks import APART, PASSAGES, POINTS_MOST, apart, evenly, passages_of, smoothed, walk_of
+from core import Dragon, InvalidValue, Legs
+from core.paths.following import tightest_bend
+
+CORNERS = np.array([(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0), (0.0, 8.0)])
+REST = (80.0, 140.0)  # [s] of standing still
+NOISE = 1.2  # [m]
+
+
+def walked(times: np.ndarray) -> np.ndarray:
+    """Places of somebody who walks around a square at 1 m/s, and stands still for a minute."""
+    way = times - np.clip(times - REST[0], 0.0, REST[1] - REST[0])
+    s = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(CORNERS, axis=0).T))])
+    return np.column_stack([np.interp(way, s, axis) for axis in CORNERS.T])
+
+
+def noisy(seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    times = np.arange(0.0, 250.0)
+    drift = np.random.default_rng(seed).normal(0.0, NOISE, (len(times) + 19, 2))
+    smooth = np.column_stack([np.convolve(axis, np.full(20, 20**-0.5), "valid") for axis in drift.T])
+    return walked(times) + smooth, times
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
+    points, times = noisy(seed)
+    walk = walk_of(points, times)
+    assert walk is not None
+    assert walk.is_easy
+    path = Legs([tuple(one) for one in walk.points.tolist()])
+    assert not path.tighter(tightest_bend(Dragon())[0])
+    line = path.position(np.linspace(path.begin, path.end, 4_000))
+    off = np.hypot(*(points[:, None] - line[None]).transpose(2, 0, 1)).min(axis=1)
+    # The distance of a place from the way at its time is never below that from the whole way.
+    assert off.max() <= walk.largest + 0.2
+    assert walk.largest < 6.0 * NOISE
+    assert walk.points[0] == pytest.approx(points[0], abs=1e-9)
+    assert walk.points[-1] == pytest.approx(points[-1], abs=1e-9)
+
+
+def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
+    times = np.arange(0.0, 250.0)
+    walk = walk_of(walked(times), times)
+    assert walk is not None
+    assert walk.passages is not None
+    pauses = [
+        (before["until_time"], one["until_time"])
+        for before, one in zip(walk.passages[:-1], walk.passages[1:], strict=True)
+        if one["speed"] == 0.0
+    ]
+    assert len(pauses) == 1
+    assert pauses[0] == pytest.approx(REST, abs=3.0)
+    assert walk.passages[-1]["until_time"] == times[-1]
+    assert {one["speed"] for one in walk.passages} - {0.0} <= {round(0.5 + 0.001 * k, 3) for k in range(1_000)}
+
+
+def test_times_that_do_not_grow_are_none_and_many_speeds_become_few() -> None:
+    assert passages_of(np.zeros(5), np.arange(5.0)) is None
+    assert passages_of(np.array([0.0, math.nan, 2.0]), np.arange(3.0)) is None
+    times = np.arange(20_000.0)
+    places = np.cumsum(np.repeat(np.random.default_rng(0).uniform(0.5, 1.5, 200), 100))
+    passages = passages_of(times, places)
+    assert passages is not None
+    assert 10 < len(passages) <= PASSAGES
+    assert sum((b - a) * one["speed"] for a, b, one in spans(passages)) == pytest.approx(float(places[-1]), rel=0.01)
+
+
+def spans(passages: list[dict[str, Any]]) -> list[tuple[float, float, dict[str, Any]]]:
+    begins = [0.0, *(one["until_time"] for one in passages[:-1])]
+    return [(a, one["until_time"], one) for a, one in zip(begins, passages, strict=True)]
+
+
+def test_thinning_and_smoothing_keep_a_straight_way_and_its_ends() -> None:
+    way = np.column_stack([np.linspace(0.0, 50.0, 501), np.full(501, 3.0)])
+    assert (np.hypot(*np.diff(apart(way), axis=0).T) >= 0.5 * APART).all()
+    assert apart(way)[-1].tolist() == [50.0, 3.0]
+    even = evenly(way)
+    assert smoothed(even, 4.0) == pytest.approx(even, abs=1e-9)
+    assert walk_of(way[:5], None) is None
+    many = walk_of(np.repeat(way, 1 + 2 * POINTS_MOST // len(way), axis=0), None)
+    assert many is not None
+    assert many.largest < 1e-6
+
+
+def track(points: list[str], name: str = "walk") -> str:
+    return f"<trk><name>{name}</name><trkseg>{''.join(points)}</trkseg></trk>"
+
+
+def gpx(points: list[str]) -> bytes:
+    return f"<gpx><wpt lat='48.0001' lon='9.0003'/>{track(points)}</gpx>".encode()
+
+
+def point(k: int, time: str | None = None) -> str:
+    stamp = "" if time is None else f"<time>{time}</time>"
+    return f"<trkpt lat='{48 + 1e-5 * k:.6f}' lon='9'>{stamp}</trkpt>"
+
+
+LANE = [point(k, f"2026-11-27T10:{k // 60:02d}:{k % 60:02d}Z") for k in range(70)]
+
+
+def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
+    parts = places_of(gpx(LANE), None, Say(Language.ENGLISH))
+    assert parts.path is not None
+    assert parts.path["kind"] == "waypoints"
+    assert parts.passages == [{"speed": pytest.approx(1.112, abs=0.02), "until_time": 69.0}]
+    assert any("at most 0.0" in note and "what was walked" in note for note in parts.notes)
+    assert parts.venue is not None
+    assert len(parts.venue.obstacles) == 1
+    without = places_of(gpx([point(k) for k in range(70)]), None, Say(Language.CHINESE))
+    assert without.passages is None
+    assert "轨迹没有递增的时间。" in without.notes
+
+
+def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> None:
+    when = "".join(f"<when>2026-11-27T10:00:{k:02d}Z</when>" for k in range(60))
+    where = "".join(f"<gx:coord>{'' if k == 30 else f'9 {48 + 1e-5 * k:.6f} 5'}</gx:coord>" for k in range(60))
+    space = "xmlns:gx='http://www.google.com/kml/ext/2.2'"
+    placed = f"<Placemark><gx:Track>{when}{where}</gx:Track></Placemark>"
+    parts = places_of(f"<kml {space}>{placed}</kml>".encode(), None, Say(Language.ENGLISH))
+    assert parts.passages is not None
+    assert parts.passages[-1]["until_time"] == 59.0
+    hidden = f"<kml {space}>{placed.replace('<gx:Track>', '<visibility>0</visibility><gx:Track>')}{PLACE}</kml>"
+    notes = places_of(hidden.encode(), None, Say(Language.ENGLISH)).notes
+    assert any("hidden: 1 line" in note for note in notes)
+
+
+PLACE = "<Placemark><Point><coordinates>9,48</coordinates></Point></Placemark>"
+
+
+def test_of_several_tracks_the_longest_is_danced_and_a_line_called_path_before_all() -> None:
+    two = f"<gpx>{track(LANE[:30], 'a')}{track(LANE, 'b')}"
+    notes = places_of(f"{two}</gpx>".encode(), None, Say(Language.ENGLISH)).notes
+    assert any("the track b" in note for note in notes)
+    assert any("2 lines are paths or tracks" in note for note in notes)
+    route = "<rte><name>path</name><rtept lat='48' lon='9'/><rtept lat='48' lon='9.0005'/></rte>"
+    parts = places_of(f"{two}{route}</gpx>".encode(), None, Say(Language.ENGLISH))
+    assert parts.path is not None
+    assert len(parts.path["points"]) == 2
+    assert parts.passages is None
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"<!DOCTYPE gpx><gpx></gpx>", "document type"),
+        (b"<gpx><trk></gpx>", "must be GPX, got mismatched tag in line 1"),
+        (b"<gpx><wpt lat='north' lon='9'/></gpx>", "must have points with lat and lon in degrees, got 'north'"),
+        (gpx([point(0), point(0)]), "must hold a track with points at least 2 m apart"),
+        (b"<gpx>" + b"<a>" * 70, "must not nest elements deeper than 60"),
+    ],
+)
+def test_a_wrong_file_is_refused_in_one_sentence(data: bytes, words: str) -> None:
+    with pytest.raises(InvalidValue, match=words):
+        places_of(data, None, Say(Language.ENGLISH))
+
+
+def test_times_are_read_with_any_offset() -> None:
+    assert seconds_of("2026-11-27T08:00:00+08:00") == seconds_of("2026-11-27T00:00:00Z")
+    assert math.isnan(seconds_of("noon"))
