@@ -69,17 +69,21 @@ def angle_sum_time(outline: Outline, angle: float) -> float:
 
 
 class StepKind(StrEnum):
-    """What the way to the circle is sampled by: time, radius or angle of the head, in equal steps from the start."""
+    """What the way to the circle is sampled by: time, radius or angle of the head, in equal steps from the start.
+
+    PARTS: so many equal steps of the angle, the last of which ends on the circle.
+    """
 
     TIME = "time"
     RADIUS = "radius"
     ANGLE = "angle"
+    PARTS = "parts"
 
 
 def sampled_pitch(sampled: StepKind, step: float, right: float) -> float:
     """Smallest pitch without a contact at samples of the way to the circle [m].
 
-    step: in s, m or rad; the radius is sampled from the circle outwards; right: the exact pitch
+    step: in s, m or rad, or number of parts; the radius is sampled from the circle outwards; right: the exact pitch
     """
     sizes = np.stack([Dragon(RING_BENCHES).lengths, Dragon(RING_BENCHES).widths], axis=-1)
 
@@ -135,6 +139,9 @@ def _samples(spiral: Spiral, sampled: StepKind, step: float) -> Floats:
     if sampled is StepKind.TIME:
         early, late = _times(spiral, np.array([first, last])).tolist()
         return step * np.arange(math.ceil(early / step), math.floor(late / step) + 1, dtype=np.float64)
+    if sampled is StepKind.PARTS:
+        thetas = np.linspace(spiral.start_theta, last, int(step) + 1)
+        return _times(spiral, thetas[thetas <= first])
     turned = [spiral.start_theta - theta for theta in (first, last)]
     steps = np.arange(math.ceil(turned[0] / step), math.floor(turned[1] / step + SLACK) + 1)
     return _times(spiral, np.asarray(spiral.start_theta - step * steps, dtype=np.float64))

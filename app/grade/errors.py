@@ -70,6 +70,8 @@ ERRORS = {
         "以 {step} m 为极径步长检验途中，跨过了最险的擦碰。"),
     "error_pitch_angle_steps": ("The way to the circle was checked at angles in steps of {step} rad, which miss the closest graze.",
         "以 {step} rad 为极角步长检验途中，跨过了最险的擦碰。"),
+    "error_pitch_parts_steps": ("The way from the start to the circle was checked at the ends of {step} equal parts of the radius, which miss the closest graze.",
+        "从起点到圆周只检验了极径 {step} 等分点处的位形，跨过了最险的擦碰。"),
     "error_own_lengths": ("The handles are {head} m apart on the head and {body} m apart on the other benches, instead of 2.86 m and 1.65 m.",
         "龙头两把手相距 {head} m，其余板凳 {body} m，应为 2.86 m 和 1.65 m。"),
     "error_other_question": ("The numbers are those of question {question}, at times shifted by {shift} s.",

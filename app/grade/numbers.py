@@ -31,6 +31,9 @@ DIGITS_SHARE = 2e-3
 CERTAIN, POSSIBLE = 2e-4, 0.1
 # Shortcuts that students hand in exactly must agree to this, in the unit of the number; or to its digits.
 EXACTLY = 1e-6
+# A search for a number ends up to this beside its limit, in the unit of the number: many bisections stop at 1e-8, and
+# all their digits are written. Counts only for a number that no shortcut gives to its digits.
+SEARCH_END = 0.5e-8
 # Longest overlap on the way to the circle that a check of it in steps may miss [m].
 OVERLAP_MOST = 0.1
 # Most decimals of a rounded number.
@@ -104,6 +107,9 @@ def explained(name: str, value: float, half_unit: float) -> list[Finding]:
     """
     known = [*shortcuts(name), *(pitch_grids() if name == "pitch" else ())]
     fits = [one for one in known if gives(one, value, half_unit)]
+    if not fits and half_unit < SEARCH_END:
+        half_unit = SEARCH_END
+        fits = [one for one in known if gives(one, value, half_unit)]
     if not fits or half_unit > DIGITS_SHARE * value or len({one.error for one in fits}) > 1:
         return []
     chance = chance_of(name, value, half_unit, known)

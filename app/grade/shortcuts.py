@@ -28,11 +28,13 @@ SPEED_LIMIT = 2.0  # [m/s], of the contest's question 5
 # Steps of time in students' searches for an event [s], and for the highest speed or the graze of a pitch [s].
 EVENT_STEPS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.04, 0.05, 0.08, 0.1, 0.2, 0.25, 0.5, 1.0)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
-# Steps of students' checks of the way to the circle: in time [s], radius [m] and angle of the head [rad].
+# Steps of students' checks of the way to the circle: in time [s], radius [m] and angle of the head [rad], or numbers
+# of equal parts from the start of the spiral to the circle, where radius and angle are the same.
 PITCH_SAMPLES = {
     StepKind.TIME: (1.0, 0.5, 0.2, 0.1),
     StepKind.RADIUS: (0.1, 0.05, 0.02, 0.01, 0.005),
-    StepKind.ANGLE: (0.2, 0.1, 0.05, 0.02, math.pi / 180.0),
+    StepKind.ANGLE: (0.5, 0.25, 0.2, 0.1, 0.05, 0.02, math.pi / 180.0),
+    StepKind.PARTS: (99, 199, 499, 999),
 }
 # Steps of students' searches for the pitch [m].
 PITCH_GRIDS = (0.01, 0.005, 0.001, 0.0005, 0.0001, 0.00005)
