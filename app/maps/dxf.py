@@ -14,7 +14,7 @@ import orjson
 
 from app.extras import require
 from app.files.outlines import dxf_bytes, new_dxf
-from app.maps.entities import MARKS, Entities
+from app.maps.entities import HOLES, MARKS, Entities
 from app.maps.features import LEAVE_OUT, Drawing, MapFeature, Unit, grid_of, inner_point, origin_of
 from core import InvalidValue
 from core.errors import Quantity
@@ -124,13 +124,13 @@ def written(drawing: Drawing) -> bytes:
 
     raises: MissingPackage
     """
-    document = new_dxf((f"{name}{holes}", colour) for name, colour in LAYERS.values() for holes in ("", "_HOLES"))
+    document = new_dxf((f"{name}{holes}", colour) for name, colour in LAYERS.values() for holes in ("", HOLES))
     space, names, radii = document.modelspace(), {}, {}
     content: dict[str, object] = {}
     for feature in drawing.features:
         layer = LAYERS[feature.role or "obstacle"][0]
         for k, ring in enumerate(feature.rings):
-            entity = _drawn(space, feature, ring, f"{layer}_HOLES" if k else layer)
+            entity = _drawn(space, feature, ring, f"{layer}{HOLES}" if k else layer)
             if feature.name is not None and not k:
                 names[entity.dxf.handle] = feature.name
             if feature.shape == "line" and feature.radius is not None:

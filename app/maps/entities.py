@@ -22,6 +22,7 @@ from app.maps.features import (
 )
 from app.maps.joined import APART, joined
 from app.maps.labels import MapText, are_too_many, label_of, names_of
+from app.maps.layout import refuse_many_edges_of
 from core import InvalidValue
 from core.values import Point
 
@@ -31,6 +32,8 @@ CURVES = ("LINE", "LWPOLYLINE", "POLYLINE", "ARC", "ELLIPSE", "SPLINE")
 TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 # Layer of marks, whose crosses are not things; and the layer whose entities take that of their block.
 MARKS, OF_BLOCK = "MARKS", "0"
+# Ending of the layer of the holes in what stands on a layer.
+HOLES = "_HOLES"
 # Meshes and surfaces that DXF stores as polylines, by the name under which they are left out.
 MESHES = (("is_polygon_mesh", "POLYMESH"), ("is_poly_face_mesh", "POLYFACE"))
 # Flags of a block that stands in another file.
@@ -168,6 +171,8 @@ class Entities:
 
     def named(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
+        # Before any of them is compared with the others.
+        refuse_many_edges_of(one for one in self.collector.features if one.shape == "polygon")
         features = list(_with_holes(joined(self.collector.features)))
         if are_too_many(features, self.labels):
             self.collector.left_out["text"] = len(self.labels)
@@ -198,14 +203,20 @@ def _width(entity: Any) -> float:
 
 
 def _with_holes(features: list[MapFeature]) -> Iterator[MapFeature]:
-    """The features; a ring on a layer of holes becomes a hole of the polygon around it."""
-    holes = [one for one in features if _layer_of(one).endswith("_HOLES")]
+    """The features; a ring on a layer of holes becomes a hole of the polygon of that layer around it, if there is one."""
+    polygons = [one for one in features if one.shape == "polygon"]
+    own: dict[int, list[MapFeature]] = {}
+    for hole in polygons:
+        layer = _layer_of(hole)
+        if layer.endswith(HOLES):
+            outer = (one for one in polygons if _layer_of(one) == layer.removesuffix(HOLES))
+            around = next((one for one in outer if holds(one.rings, hole.rings[0][0])), None)
+            if around is not None:
+                own.setdefault(id(around), []).append(hole)
+    inside = {id(hole) for holes in own.values() for hole in holes}
     for feature in features:
-        if feature in holes:
-            continue
-        near = [one for one in holes if feature.shape == "polygon" and holds(feature.rings[:1], one.rings[0][0])]
-        own = (one.rings[0] for one in near if _layer_of(one).removesuffix("_HOLES") == _layer_of(feature))
-        yield replace(feature, rings=(*feature.rings, *own))
+        if id(feature) not in inside:
+            yield replace(feature, rings=(*feature.rings, *(one.rings[0] for one in own.get(id(feature), ()))))
 
 
 def _layer_of(feature: MapFeature) -> str:

@@ -139,6 +139,24 @@ def test_meshes_are_left_out_and_the_rest_is_read() -> None:
     assert {"Left out: 1 POLYMESH.", "Left out: 1 POLYFACE."} <= set(result.notes)
 
 
+def test_only_a_ring_in_an_area_of_its_layer_is_a_hole() -> None:
+    def ring(x: float, half: float) -> list[tuple[float, float]]:
+        return [(x - half, -half), (x + half, -half), (x + half, half), (x - half, half)]
+
+    def draw(document: Any) -> None:
+        space = document.modelspace()
+        space.add_lwpolyline(ring(0, 5), close=True, dxfattribs={"layer": "HOUSE"})
+        for x in (0, 30):
+            space.add_lwpolyline(ring(x, 2), close=True, dxfattribs={"layer": "HOUSE_HOLES"})
+        space.add_circle((0, 30), 0.4, dxfattribs={"layer": "PLANT_HOLES"})
+        space.add_circle((0, 0), 0.3, dxfattribs={"layer": "HOUSE_HOLES"})
+
+    house, lone, plant, inner = things(read(draw))
+    assert [len(house[2]), len(lone[2])] == [2, 1]
+    assert (plant[2], plant[3]) == ([0.0, 30.0], 0.4)
+    assert (inner[2], inner[3]) == ([0.0, 0.0], 0.3)
+
+
 def test_a_closed_spline_is_the_area_in_it() -> None:
     def draw(document: Any) -> None:
         corners = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0), (10, 0), (10, 10)]
