@@ -8,11 +8,11 @@ import typer
 from pydantic import Field
 
 from app.command.options import typed_options, unused
-from app.wire.paths import EntryRadius, ExitRadius, TurnFields
+from app.wire.paths import Ends, EntryRadius, ExitRadius, Middle, TurnFields
 from app.wire.question import DanceQuery, TurningDiameter, measure
 from core import Dance
 
-TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius", "exit_radius")
+TURN_FIELDS = ("turning_diameter", "ratio", "entry_radius", "exit_radius", "middle", "ends")
 
 
 class PathOptions(DanceQuery):
@@ -25,6 +25,8 @@ class PathOptions(DanceQuery):
     ratio: float = Field(2.0, ge=0.01, le=100, description="Radius of the first arc of the turn divided by the second")
     entry_radius: EntryRadius = None
     exit_radius: ExitRadius = None
+    middle: Middle = None
+    ends: Ends = 0.0
 
 
 class OfFile(Protocol):

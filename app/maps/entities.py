@@ -203,7 +203,7 @@ def _width(entity: Any) -> float:
 
 
 def _with_holes(features: list[MapFeature]) -> Iterator[MapFeature]:
-    """The features; a ring on a layer of holes becomes a hole of the polygon of that layer around it, if there is one."""
+    """The features; a ring on a layer of holes becomes a hole of the polygon of that layer around it, if any."""
     polygons = [one for one in features if one.shape == "polygon"]
     own: dict[int, list[MapFeature]] = {}
     for hole in polygons:

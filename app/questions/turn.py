@@ -33,13 +33,15 @@ class Turn(Answer):
     radii: Point = measure("m", "Radii of both arcs")
     centres: tuple[Point, Point] = measure("m", "Centres of both arcs, x and y")
     angles: Point = measure("rad", "Angle of each arc")
-    entry: Point = measure("m", "Start of the first arc, x and y")
-    tangent_point: Point = measure("m", "Point where the two arcs meet, x and y")
-    exit: Point = measure("m", "End of the second arc, x and y")
-    length: float = measure("m", "Total length of both arcs")
+    entry: Point = measure("m", "Start of the turn, x and y")
+    tangent_point: Point = measure(
+        "m", "Point where the two arcs meet, x and y, or where the curvature of the clothoid between them is 0"
+    )
+    exit: Point = measure("m", "End of the turn, x and y")
+    length: float = measure("m", "Length of the turn: both arcs, and clothoids")
 
     @classmethod
-    def of(cls, result: core.Turn) -> Self:
+    def of(cls, result: core.Turn | core.ClothoidTurn) -> Self:
         return cls.from_result(result, turning_diameter=2 * result.turning_radius)
 
 

@@ -33,7 +33,6 @@ class TurnTime(Turn):
 
     @classmethod
     def from_core(cls, result: core.TurnTime, **own: float) -> Self:
-        assert isinstance(result.turn, core.Turn)  # no question asks about another one
         return cls.from_result(result, **own, **Turn.of(result.turn).model_dump())
 
 

@@ -26,6 +26,7 @@ from app.wire.question import (
     measure,
 )
 from core import InvalidValue, Route, Spiral
+from core.errors import Quantity
 
 # A sharp zigzag of 1,000 points, or a route of 1,000 arcs, becomes a path in 0.02 s (measured 2026-11-21).
 POINTS_MAX = 1_000
@@ -39,6 +40,20 @@ Curvature = Annotated[float, Field(ge=-1e3, le=1e3)]
 Point = Annotated[list[Coordinate], Field(min_length=2, max_length=2)]
 Leg = Annotated[int, Field(ge=0, lt=POINTS_MAX), AS_WHOLE]
 Start = Annotated[float, measure("m", "Distance of the head from the beginning of the path at time 0", ge=-1e6, le=1e6)]
+# Longest clothoid of a turn [m].
+CLOTHOID_MAX = 100.0
+Middle = Annotated[
+    float | None,
+    measure(
+        "m", "Length of a clothoid between the two arcs of the turn, which leads the curvature evenly from one to the "
+        "other; default: none, so that the curvature jumps there", ge=1e-3, le=CLOTHOID_MAX,
+    ),
+]  # fmt: skip
+Ends = Annotated[
+    float,
+    measure("m", "Length of the clothoids between the coils and the arcs, if there is one in the middle", ge=0,
+            le=CLOTHOID_MAX),
+]  # fmt: skip
 # An entry deeper inside the circle makes the turn shorter.
 EntryRadius = Annotated[
     float | None,
@@ -79,24 +94,28 @@ class TurnCircle(Wire):
 
 
 class TurnFields(TurnCircle):
-    """A coil inwards, two tangent arcs, and the same coil outwards, rotated by half a turn. Time 0: the head enters the
-    first arc."""
+    """A coil inwards, two tangent arcs, and the same coil outwards, rotated by half a turn; or clothoids between them.
+    Time 0: the head enters the turn."""
 
     entry_radius: EntryRadius = None
     exit_radius: ExitRadius = None
+    middle: Middle = None
+    ends: Ends = 0.0
 
-    def to_turn(self) -> core.Turn:
+    def to_turn(self) -> core.Turn | core.ClothoidTurn:
         """raises: InvalidValue"""
-        return core.Turn(
-            self.pitch,
-            self.turning_diameter / 2,
-            self.ratio,
-            start_turns=self.start_turns,
-            entry_radius=self.entry_radius,
-            exit_radius=self.exit_radius,
+        circle = self.pitch, self.turning_diameter / 2, self.ratio
+        turns, entry, leaving = self.start_turns, self.entry_radius, self.exit_radius
+        if self.middle is None:
+            if self.ends:
+                rule = "must be 0 where no clothoid is in the middle"
+                raise InvalidValue("ends", rule, got=Quantity(self.ends, "m"))
+            return core.Turn(*circle, start_turns=turns, entry_radius=entry, exit_radius=leaving)
+        return core.ClothoidTurn(
+            *circle, middle=self.middle, ends=self.ends, start_turns=turns, entry_radius=entry, exit_radius=leaving
         )
 
-    def to_path(self) -> core.Turn:
+    def to_path(self) -> core.Turn | core.ClothoidTurn:
         """raises: InvalidValue, named by its place in a body"""
         try:
             return self.to_turn()

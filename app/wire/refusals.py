@@ -23,7 +23,11 @@ from core.paths.following import follows, tightest_bend
 # A request without an object of this name holds the object's fields itself.
 OUTER = re.compile(r"^(dragon|model|path|times)\.(?=[a-z])")
 # Fields of a turn that can make it too tight where their defaults would not; otherwise its circle is too small.
-MEND_A_TURN = ("exit_radius", "entry_radius", "ratio", "pitch")
+MEND_A_TURN = ("ends", "middle", "exit_radius", "entry_radius", "ratio", "pitch")
+# Rules for those of them that must not be larger; each with its unit.
+OTHER_RULES = {"ratio": ("must be nearer to 1 than {given}", "")} | dict.fromkeys(
+    ("ends", "middle"), ("must be shorter than {given}", "m")
+)
 # A part of a performance is one of the dances of a request.
 PARTS = re.compile(r"^parts(?=\.|$)")
 INSTANT = re.compile(r"times(?:\.(\d+))?")
@@ -81,7 +85,7 @@ def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:
     if follows(dragon, path):
         return error
     name = next((name for name in MEND_A_TURN if _mends(name, fields, dragon)), "turning_diameter")
-    rule, unit = ("must be nearer to 1 than {given}", "") if name == "ratio" else ("must be larger than {given}", "m")
+    rule, unit = OTHER_RULES.get(name, ("must be larger than {given}", "m"))
     (tightest, bench), bend = tightest_bend(dragon), 1.0 / path.sharpest[0]
     why = "the turn bends to a radius of {bend}, and bench {bench} follows none below {least}"
     values = quantities(unit, given=getattr(fields, name)) | quantities("m", 4, bend=bend, least=tightest)

@@ -11,7 +11,7 @@ from core.errors import SIZE_MIN, InvalidValue, checked_number, quantities
 from core.paths.pieces import Clothoid
 from core.paths.route import Route
 from core.paths.turn import OUTSIDE, Turn
-from core.values import Floats
+from core.values import Floats, Point
 
 # Longest step in which the clothoids grow from the arcs of a turn [m], and most of Newton's steps in each.
 GROWTH, NEWTON_STEPS = 0.5, 20
@@ -34,7 +34,8 @@ class ClothoidTurn(Route):
     pitch, turning_radius, ratio, start_turns, entry_radius, exit_radius: as for a Turn, whose arcs these begin from
     middle: length of the clothoid between the arcs [m]; ends: of those between arc and coil [m]; 0: the curvature jumps
         there, by less than between the arcs of a Turn
-    radii: of both arcs [m]; length: from the entry, where s = 0, to the exit [m]
+    radii, centres, angles: of both arcs [m], [m], [rad]; entry, exit: where the turn begins and ends [m];
+    tangent_point: where its curvature changes its sign [m]; length: from the entry, where s = 0, to the exit [m]
     raises: InvalidValue, also where no such turn is found, or where it leaves the circle
 
     >>> turn = ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
@@ -59,6 +60,8 @@ class ClothoidTurn(Route):
         )
         self.middle = checked_number("middle", middle, "m", SIZE_MIN, LONGEST)
         self.ends = checked_number("ends", ends, "m", 0.0, LONGEST)
+        if 0.0 < self.ends < SIZE_MIN:
+            raise InvalidValue("ends", "must be 0, or {low} or more", **quantities("m", got=self.ends, low=SIZE_MIN))
         self.pitch, self.turning_radius, self.ratio = arcs.pitch, arcs.turning_radius, arcs.ratio
         self.entry_radius, self.exit_radius, self.start_turns = arcs.entry_radius, arcs.exit_radius, arcs.start_turns
         first, last = arcs.pieces[0], arcs.pieces[-1]
@@ -72,9 +75,18 @@ class ClothoidTurn(Route):
         super().__init__((first, *between, last), start=coils[0].end)
         self.radii = self.ratio / float(bends[0]), 1.0 / float(bends[0])
         self.length = math.fsum(piece.length for piece in between)
+        self._settle_arcs(between[1 if self.ends else 0 :])
         if self.extent > self.turning_radius + OUTSIDE:
             rule, got = "must hold the turn, which is up to {extent} from its centre", self.turning_radius
             raise InvalidValue("turning_radius", rule, **quantities("m", 6, got=got, extent=self.extent))
+
+    def _settle_arcs(self, pieces: list[Clothoid]) -> None:
+        """Set what a Turn has too. pieces: the first arc, the clothoid between the arcs, the second arc, and others"""
+        first, middle, second, *_ = pieces
+        self.centres = _centre(first), _centre(second)
+        self.angles = first.length / self.radii[0], second.length / self.radii[1]
+        before = self.ends + first.length + middle.length * self.radii[1] / (self.radii[0] + self.radii[1])
+        self.entry, self.tangent_point, self.exit = (_point(self.position(s)) for s in (0.0, before, self.length))
 
     @property
     def _definition(self) -> tuple[object, ...]:
@@ -90,7 +102,8 @@ class ClothoidTurn(Route):
         lengths of the clothoids"""
         (x, y, heading, begin), (_, _, _, finish) = self._ways
         sharp, first, second = bends.tolist()
-        ends, middle, place = share * self.ends, share * self.middle, (x, y)
+        middle, place = max(share * self.middle, SIZE_MIN), (x, y)
+        ends = max(share * self.ends, SIZE_MIN) if self.ends else 0.0
         left, right = sharp, -sharp / self.ratio
         pieces = []
         for start, end, length in (
@@ -140,6 +153,17 @@ class ClothoidTurn(Route):
         crests = samples[1:-1][(far[1:-1] >= far[:-2]) & (far[1:-1] >= far[2:])]
         near = np.clip(crests[:, None] + np.linspace(-step, step, SAMPLES), 0.0, self.length)
         return float(max(far.max(), np.hypot(*np.moveaxis(self.position(near), -1, 0)).max(initial=0.0)))
+
+
+def _centre(arc: Clothoid) -> Point:
+    """Centre of a clothoid of one curvature [m]."""
+    (x, y), radius = arc.start, 1.0 / arc.start_curvature
+    return x - radius * math.sin(arc.heading), y + radius * math.cos(arc.heading)
+
+
+def _point(place: Floats) -> Point:
+    x, y = place.tolist()
+    return x, y
 
 
 def _state(route: Route, s: float) -> tuple[float, float, float, float]:

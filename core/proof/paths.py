@@ -17,6 +17,7 @@ from core.display import format_count
 from core.dragon import Dragon
 from core.errors import InvalidValue, Parameter, format_number
 from core.paths import pieces
+from core.paths.clothoid_turn import ClothoidTurn
 from core.paths.route import Route
 from core.paths.spiral import Spiral
 from core.paths.turn import Turn
@@ -53,6 +54,8 @@ def recorded_path(path: Spiral | Route) -> dict[str, Any]:
             piece_at, must = Parameter(f"path.pieces.{k}"), "{piece} must be a line, an arc or a coil"
             if len(path.pieces) == 1:
                 must = "path must be a spiral, a turn or a route of lines, arcs and coils"
+            elif isinstance(path, ClothoidTurn):
+                must = "path must be a turn of two arcs, without `middle` and `ends`,"
             must += " for a proof in ball arithmetic"
             why = "on such a path a dance is checked in double precision, with bounds on its rounding"
             raise InvalidValue.in_words(

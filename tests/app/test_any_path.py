@@ -13,6 +13,7 @@ import pytest
 from scipy.special import fresnel
 
 import core
+from app.wire.paths import path_of
 from tests.support.reference import reference
 
 REFERENCE_TOLERANCE = 1e-9  # [m], [rad], [s] and [m/s]
@@ -120,6 +121,21 @@ def test_the_quickest_turn_is_a_turn_with_its_time(client: httpx.Client) -> None
     assert quickest["scan_step"] == pytest.approx(0.09)
     body = {"path": {"kind": "turn", "entry_radius": quickest["entry_radius"], "exit_radius": quickest["exit_radius"]}}
     assert posted(client, "/turn-time", **body)["time"] == quickest["time"]
+
+
+def test_a_turn_with_clothoids_is_a_turn_for_every_question(client: httpx.Client) -> None:
+    """As in docs/contest.md, and as its pieces."""
+    path = {"kind": "turn", "pitch": 1.7, "ratio": 1.0, "middle": 4.0, "ends": 0.5}
+    smooth = core.ClothoidTurn(1.7, ratio=1.0, middle=4.0, ends=0.5)
+    timed = posted(client, "/turn-time", path=path)
+    assert (round(timed["length"], 4), round(timed["head_speed"], 4), round(timed["time"], 2)) == (13.4102, 1.739, 7.71)
+    assert timed == client.get("/turn-time?pitch=1.7&ratio=1&middle=4&ends=0.5").raise_for_status().json()
+    assert (timed["length"], timed["radii"]) == (smooth.length, list(smooth.radii))
+    turn = client.get("/turn?pitch=1.7&ratio=1&middle=4&ends=0.5").raise_for_status().json()
+    assert turn == {name: timed[name] for name in turn}
+    for call, more in (("/trajectory", {"times": [-5.0, 0.0, 20.0]}), ("/check", {"start": -20.0, "stop": 40.0})):
+        pieces = [posted(client, call, dragon=SHORT, path=one, **more) for one in (path, path_of(smooth))]
+        assert pieces[0] == pieces[1]
 
 
 def test_the_maximum_head_speed_is_the_known_one(client: httpx.Client) -> None:
@@ -432,6 +448,10 @@ def test_an_invalid_dance_is_a_problem_that_names_the_place(
         ("/shortest-turn?pitch=0.8", "turning_diameter", ("benches 0 and 15 touch", "13.286258 s after")),
         ("/shortest-turn?benches=2001", "benches", ("at most 2000",)),
         ("/turn-time?entry_radius=2", "entry_radius", ("must be larger than 2 m", "bends to a radius of")),
+        ("/turn?ends=1", "ends", ("must be 0 where no clothoid is in the middle", "1 m")),
+        ("/turn?middle=40", "middle", ("no turn between these coils is found", "40 m")),
+        ("/turn?middle=0", "middle", ("at least 0.001 m",)),
+        ("/turn-time?ratio=1&middle=6&head_length=4.6", "middle", ("must be shorter than 6 m", "radius of 1.928 m")),
         ("/turn-time?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
         ("/quickest-turn?speed_limit=0", "speed_limit", ("at least 0.001 m/s",)),
         ("/quickest-turn?turning_diameter=7", "turning_diameter", ("too tight", "2.86 m")),

@@ -67,6 +67,11 @@ def dance(tmp_path: Path) -> Path:
         ),
         (["turn-time", "--benches", "20", "--exit-radius", "4.5"], "/turn-time?benches=20&exit_radius=4.5"),
         (
+            ["turn-time", "--benches", "20", "--ratio", "1", "--middle", "4", "--ends", "0.5"],
+            "/turn-time?benches=20&ratio=1&middle=4&ends=0.5",
+        ),
+        (["turn", "--ratio", "1", "--middle", "4"], "/turn?ratio=1&middle=4"),
+        (
             ["quickest-turn", "--benches", "12", "--speed-limit", "3"],
             "/quickest-turn?benches=12&speed_limit=3",
         ),

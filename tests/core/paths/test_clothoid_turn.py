@@ -46,6 +46,20 @@ def test_with_equal_arcs_opposite_ends_the_turn_is_its_own_reflection() -> None:
     assert np.abs(SMOOTH.position(s) + SMOOTH.position(SMOOTH.length - s)).max() < JOINT
 
 
+def test_its_arcs_and_the_place_between_them_lie_on_it() -> None:
+    turn = ClothoidTurn(1.7, ratio=1.3, middle=2.0, ends=0.4, entry_radius=4.2, exit_radius=4.4)
+    s = np.linspace(0.0, turn.length, 40_001)
+    places, bends = turn.position(s), turn.curvature(s)
+    for centre, radius, angle, side in zip(turn.centres, turn.radii, turn.angles, (-1.0, 1.0), strict=True):
+        on_arc = np.abs(bends - side / radius) < 1e-12
+        assert on_arc.sum() * (s[1] - s[0]) == pytest.approx(radius * angle, rel=0, abs=2.0 * (s[1] - s[0]))
+        assert np.abs(np.hypot(*(places[on_arc] - centre).T) - radius).max() < JOINT
+    between = int(np.argmin(np.hypot(*(places - turn.tangent_point).T)))
+    assert np.hypot(*(places[between] - turn.tangent_point)) < s[1] - s[0]
+    assert bends[between - 1] < 0.0 < bends[between + 1]
+    assert (turn.entry, turn.exit) == (tuple(turn.position(0.0)), tuple(turn.position(turn.length)))
+
+
 def test_handles_on_it_are_those_of_the_slow_route() -> None:
 
     dragon = Dragon(9)
@@ -70,10 +84,12 @@ def test_all_benches_dance_through_it() -> None:
         ({"middle": 40.0}, "middle", "got 40 m: no turn between these coils is found with clothoids of"),
         ({"middle": 0.0}, "middle", "must be positive, got 0 m"),
         ({"middle": 1.0, "ends": -1.0}, "ends", "must be zero or more, got -1 m"),
+        ({"middle": 1.0, "ends": 1e-4}, "ends", "must be 0, or 0.001 m or more, got 0.0001 m"),
+        ({"middle": 1e-3, "ends": 100.0}, "middle", "got 0.001 m: no turn between these coils is found"),
         ({"middle": 1.0, "ratio": 1_000.0}, "ratio", "must be at most 100, got 1000"),
         ({"middle": 1.0, "exit_radius": 4.6}, "exit_radius", "must be at most 4.5 m, got 4.6 m"),
     ],
-    ids=["long", "none", "negative", "ratio", "exit"],
+    ids=["long", "none", "negative", "short ends", "long ends", "ratio", "exit"],
 )
 def test_what_is_no_turn_is_refused(ways: dict[str, float], field: str, words: str) -> None:
     with pytest.raises(InvalidValue) as refused:

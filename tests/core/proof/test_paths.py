@@ -9,7 +9,21 @@ import numpy as np
 import pytest
 from flint import arb
 
-from core import Arc, Clothoid, Coil, Dance, Dragon, InvalidValue, Line, Route, Spiral, Turn, Waypoints, trajectory
+from core import (
+    Arc,
+    Clothoid,
+    ClothoidTurn,
+    Coil,
+    Dance,
+    Dragon,
+    InvalidValue,
+    Line,
+    Route,
+    Spiral,
+    Turn,
+    Waypoints,
+    trajectory,
+)
 from core.proof.chain import Chain
 from core.proof.paths import chain_on, core_path, path_words, recorded_path
 from core.proof.route import RouteChain
@@ -58,6 +72,14 @@ def test_the_arcs_of_a_turn_with_its_own_exit_are_those_of_core(leaving: float) 
         known = trajectory(Dance(dragon, turn), [time]).position[0]
         places = np.array([-float(place) for place in pose.places[: dragon.benches + 1]])
         assert turn.position(places) == pytest.approx(known, abs=1e-9)
+
+
+def test_a_turn_with_clothoids_is_refused_by_what_makes_them() -> None:
+    words = (
+        r"path must be a turn of two arcs, without `middle` and `ends`, for a proof in ball arithmetic, got clothoid"
+    )
+    with pytest.raises(InvalidValue, match=words):
+        recorded_path(ClothoidTurn(1.7, ratio=1.0, middle=4.0))
 
 
 def test_clothoids_are_refused_by_their_place() -> None:
