@@ -1,9 +1,9 @@
-"""Right students whom the grader might accuse: python -m tests.campaigns.hunt_grades [seed] [seconds]
+"""Right students whom the grader might accuse: python -m tests.campaigns.hunt_grades [SEED [SECONDS [CASES]]]
 
 Random sheets and typed numbers that are nearly right, in the ways in which students' results are: rounded, cut off,
 from single precision, with noise, with a few wrong, missing or exchanged cells, with errors that add up along the
 benches or come from a solver, or with a small bias. None has a known error, so that each diagnosis is a fault; so is a
-verdict "wrong" on a number that is right to its digits.
+verdict "wrong" on a number that is right to its digits. With CASES it ends after so many, not after SECONDS.
 """
 
 from __future__ import annotations
@@ -177,7 +177,7 @@ def hunt(seed: int, seconds: float = SECONDS, cases: int | None = None) -> tuple
 
 def main() -> None:
     seed, seconds = int(sys.argv[1]) if len(sys.argv) > 1 else 1, float(sys.argv[2]) if len(sys.argv) > 2 else SECONDS
-    done, faults = hunt(seed, seconds)
+    done, faults = hunt(seed, seconds, int(sys.argv[3]) if len(sys.argv) > 3 else None)
     for fault in faults:
         print(fault)
     print(f"{done:,} sheets and typed numbers that are nearly right, seed {seed}: {len(faults)} accused")
