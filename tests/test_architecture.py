@@ -35,6 +35,7 @@ core.extremes
 core.design
 core.tolerance
 core.ground
+core.people
 core.failures core.judgement core.breaches
 core.performance
 core.proposal
@@ -48,6 +49,7 @@ app.files
 app.grade
 app.maps
 app.plan
+app.cards
 app.contest
 app.questions
 app.sweeps

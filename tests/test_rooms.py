@@ -19,6 +19,7 @@ TESTS = ROOT / "tests"
 # Files of tests of app, and modules without a file of their own that each of them tests.
 TOGETHER = {
     "assistant/test_assistant.py": "assistant/guide assistant/requests assistant/server assistant/tools command/mcp",
+    "cards/test_cards.py": "cards/tables cards/words command/people questions/cues",
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
     " contest/sensitivity contest/solved contest/tables questions/contest_kit",
     "files/test_figures.py": "files/figure_words",

@@ -34,6 +34,7 @@ ROOMS = {
     "places": "places",
     "maps": "places",
     "plan": "places",
+    "cues": "people",
     "collision-time": "contacts",
     "encounter": "encounter",
     "clearance": "contacts",

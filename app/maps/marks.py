@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -37,8 +38,20 @@ class Marks:
 
     @property
     def names(self) -> list[str]:
-        """Length along the path from the first mark to each one [m], to write beside the mark on the ground."""
-        return [f"{round(one, 3):g}" for one in (self.s - self.first).tolist()]
+        """Name of each mark: its length along the path from the first one [m]."""
+        return [mark_name(one) for one in (self.s - self.first).tolist()]
+
+
+def first_mark(dance: Dance, tail: float, spacing: float) -> float:
+    """s of mark 0 of a dance whose tail starts at a place [m]. A path with a beginning has mark 0 there."""
+    begin = dance.path.tail_begin
+    # On a spiral the tail may stand anywhere, so one mark is put where the head stands at time 0.
+    return spacing * math.floor(tail / spacing) if begin is None else begin
+
+
+def mark_name(s: float) -> str:
+    """Name of the mark at a length along the path from the first one [m], to write beside it on the ground."""
+    return f"{round(s, 3):g}"
 
 
 def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
@@ -47,14 +60,12 @@ def marks_of(dance: Dance, start: float, stop: float, spacing: float) -> Marks:
     On a path with a beginning mark 0 is there. raises: TooLarge
     """
     tail, head = float(handle_places(dance, [start])[0, -1]), float(handle_places(dance, [stop])[0, 0])
-    begin = dance.path.tail_begin
-    # On a spiral the tail may stand anywhere, so one mark is put where the head stands at time 0.
-    first = spacing * np.floor(tail / spacing) if begin is None else begin
+    first = first_mark(dance, tail, spacing)
     low = first + spacing * np.floor((tail - first) / spacing)
     count = int((head - low) / spacing + 1e-9) + 1
     check_limit("spacing", "marks", count, MARKS_MAX, "set them further apart")
     s = low + spacing * np.arange(count)
-    return Marks(spacing, float(first), s, dance.path.position(s))
+    return Marks(spacing, first, s, dance.path.position(s))
 
 
 def line_of(path: Path, low: float, high: float) -> Floats:

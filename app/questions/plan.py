@@ -78,7 +78,7 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     title = Title(
         request.title or say("Bench dragon", "板凳龙"),
         [*_facts(dance, request.margin, start, stop, clock.words, say), *_grid(place, say)],
-        _verdict(report, clock.words, say),
+        verdict_words(report, clock.words, say),
         report.verdict is Judgement.PASSES,
         geographic,
     )
@@ -129,7 +129,8 @@ def _grid(place: Place, say: Say) -> list[str]:
     return [say(f"x = y = 0 is x {x} m, y {y} m of the survey grid", f"x = y = 0 为测量坐标 x {x} m，y {y} m")]
 
 
-def _verdict(report: core.Report, words: Callable[[float], str], say: Say) -> str:
+def verdict_words(report: core.Report, words: Callable[[float], str], say: Say) -> str:
+    """The verdict of a check in a few words."""
     if not report.failures:
         return say("Checked: passes", "检查：通过")
     first = report.failures[0]

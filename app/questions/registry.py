@@ -12,6 +12,7 @@ from app.questions import (
     contact_probability,
     contest_kit,
     course,
+    cues,
     encounter,
     envelope,
     figures,
@@ -63,6 +64,7 @@ _ALL = (
     films.QUESTION,
     maps.QUESTION,
     plan.QUESTION,
+    cues.QUESTION,
     contest_kit.QUESTION,
 )
 QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}

@@ -127,6 +127,10 @@ def test_every_question_is_answered_without_an_extra(bare_install: Install, line
             "A plan needs the package matplotlib, which is not installed: pip install 'bench-dragon[figures]'",
         ),
         (
+            "cues no-such-file.toml",
+            "A card on paper needs the package matplotlib, which is not installed: pip install 'bench-dragon[figures]'",
+        ),
+        (
             "sweep run no-such-spec.toml --output folder",
             "sweep needs the package pyarrow, which is not installed: pip install 'bench-dragon[sweep]'",
         ),

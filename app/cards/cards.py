@@ -1,0 +1,237 @@
+"""Cue cards on paper: four on a sheet of A4, with marks where to cut.
+
+The same dance gives the same bytes on the same versions of the libraries, because the file holds no date.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.patches import Circle
+
+from app.cards.words import CardWords
+from app.files.drawing import in_turn, with_square
+from app.maps.marks import line_of
+from app.plan.sheet import PAPERS, POINT, Box, Paper, Sheet, north_arrow
+from core import Budget, Dance, Venue
+from core.people.cards import Card
+from core.plots import BLUE, VERMILION
+from core.values import Floats
+
+# Fonts as outlines of TrueType, so that every machine and every printer draws them alike.
+FONTS: dict[Any, Any] = {"pdf.fonttype": 42, "hatch.linewidth": 0.4}
+# Cards beside and above one another on a sheet, and the space between a card's edge and its content [mm].
+ACROSS, DOWN, PAD = 2, 2, 7.0
+# Length of a mark where to cut [mm].
+CUT = 6.0
+# Types: bench, its place and its time, sentences, its neighbours, and small print [pt].
+BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 11.0, 10.0, 9.0, 9.5, 5.5
+# Height of a line of a sentence and the space between two cues [mm], and where sentences begin [mm from the left].
+LINE, BETWEEN, INDENT = 4.0, 1.4, 22.0
+# Least height of the picture, and its space to the frame [mm].
+PICTURE, INSIDE = 24.0, 4.0
+# Radius of a numbered moment [mm], and the distances from its place at which it may stand.
+MOMENT, AWAY = 1.9, (0.0, 4.0, 6.5, 9.0)
+
+
+@dataclass(frozen=True, slots=True)
+class CardSheets:
+    """The content of a file of cards.
+
+    title: of the dance; verdict: of its check; family: fonts
+    """
+
+    dance: Dance
+    venue: Venue | None
+    cards: Sequence[Card]
+    words: CardWords
+    title: str
+    verdict: str
+    family: tuple[str, ...]
+    budget: Budget
+
+
+def cards_pdf(sheets: CardSheets, progress: Callable[[float], None] = lambda share: None) -> bytes:
+    """The bytes of the file. raises: Halted once the budget is stopped"""
+    sink, on_sheet = io.BytesIO(), ACROSS * DOWN
+
+    def drawn() -> bytes:
+        with matplotlib.rc_context({"font.family": sheets.family, **FONTS}):
+            metadata = {"Title": sheets.title, "Creator": "Bench Dragon", "CreationDate": None}
+            with PdfPages(sink, metadata=metadata) as file:
+                for first in range(0, len(sheets.cards), on_sheet):
+                    file.savefig(_sheet(sheets, sheets.cards[first : first + on_sheet]).figure)
+                    progress(min(1.0, (first + on_sheet) / len(sheets.cards)))
+        return sink.getvalue()
+
+    return in_turn(drawn)
+
+
+def _sheet(sheets: CardSheets, cards: Sequence[Card]) -> Sheet:
+    paper = Paper("A4", *PAPERS["A4"])
+    sheet = Sheet(paper, sheets.words.say, sheets.family, sheets.budget)
+    wide, high = paper.width / ACROSS, paper.height / DOWN
+    for k, card in enumerate(cards):
+        left, top = wide * (k % ACROSS), paper.height - high * (k // ACROSS)
+        _draw_card(sheet, sheets, card, (left + PAD, top - high + PAD, left + wide - PAD, top - PAD))
+    for x in (0.0, wide, paper.width):
+        for y in (0.0, high, paper.height):
+            for dx, dy in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+                sheet.line([(x, y), (x + CUT * dx, y + CUT * dy)], linewidth=0.4, color="#777777")
+    return sheet
+
+
+def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
+    left, bottom, right, top = box
+    words, say, bench = sheets.words, sheets.words.say, card.bench
+    number, own = str(bench.bench), words.names[bench.bench] if words.names else ""
+    own = own or (say("head", "龙头") if bench.bench == 0 else "")
+    sheet.words(left, top - 8.5, number, BENCH_TYPE, fontweight="bold")
+    beside = left + sheet.width(number, BENCH_TYPE, bold=True) + 3.0
+    sheet.words(beside, top - 8.5, own, 16.0, within=right - beside - 1.0, fontweight="bold")
+    sheet.words(right, top - 1.5, sheets.title, 6.5, within=0.6 * (right - left), ha="right", color="#555555")
+    y = top - 15.5
+    stand = bench.start
+    place = say(f"Stand {words.at_mark(stand)}", f"起始：{words.at_mark(stand)}")
+    sheet.words(left, y, place, STAND_TYPE, within=right - left, fontweight="bold")
+    front = say(
+        f"front handle at x {stand.x + 0.0:.2f} m, y {stand.y + 0.0:.2f} m; a step is {words.chalk.step:g} m",
+        f"前把手在 x {stand.x + 0.0:.2f} m，y {stand.y + 0.0:.2f} m；每步 {words.chalk.step:g} m",
+    )
+    sheet.words(left, y - 4.3, front, 7.5, within=right - left)
+    y -= 9.7
+    nobody = say("nobody", "无")
+    ahead, behind = (nobody if one is None else words.name(one) for one in (bench.ahead, bench.behind))
+    near = say(f"Before you: {ahead}.  Behind you: {behind}.", f"前：{ahead}    后：{behind}")
+    sheet.words(left, y, near, NEAR_TYPE, within=right - left)
+    y -= 2.6
+    sheet.line([(left, y), (right, y)], linewidth=0.6)
+    y = _draw_cues(sheet, sheets, card, (left, bottom, right, y))
+    notes = [words.left_out(card), sheets.verdict]
+    for k, note in enumerate(reversed(notes)):
+        sheet.words(left, bottom + 2.6 * k, note, SMALL_TYPE, within=right - left, color="#444444")
+    _draw_track(sheet, sheets, card, (left, bottom + 2.6 * len(notes) + 1.0, right, y))
+
+
+def _draw_cues(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> float:
+    """Write the cues below one another; returns where the picture may begin [mm].
+
+    Where they would leave too little room for the picture, all are written smaller.
+    """
+    left, bottom, right, top = box
+    words, room = sheets.words, top - bottom - PICTURE - 7.0
+    sentences = [words.sentence(card, cue) for cue in card.cues]
+    size, shrink = WORDS_TYPE, 1.0
+    lines = [_wrapped(sheet, one, size, right - left - INDENT) for one in sentences]
+    while sum(LINE * shrink * len(one) + BETWEEN * shrink for one in lines) > room and shrink > 0.6:
+        shrink -= 0.05
+        lines = [_wrapped(sheet, one, size * shrink, right - left - INDENT) for one in sentences]
+    y = top
+    for number, (cue, some) in enumerate(zip(card.cues, lines, strict=True), start=1):
+        y -= BETWEEN * shrink
+        base = y - 0.78 * LINE * shrink
+        _draw_number(sheet, number, (left + 2.0, base + 1.1), shrink)
+        time = words.clock.words(cue.time)
+        sheet.words(left + 5.0, base, time, TIME_TYPE * shrink, within=INDENT - 6.0, fontweight="bold")
+        for one in some:
+            sheet.entry(left + INDENT, base, one, size * shrink)
+            base -= LINE * shrink
+        y -= LINE * shrink * len(some)
+    return y - BETWEEN
+
+
+def _draw_number(sheet: Sheet, number: int, at: tuple[float, float], shrink: float = 1.0) -> None:
+    """Draw the number of a moment, in a circle."""
+    radius = MOMENT * shrink
+    sheet.axes.add_patch(Circle(at, radius, facecolor="white", edgecolor="black", linewidth=0.6, zorder=8))
+    size = 7.5 * shrink
+    sheet.words(at[0], at[1] - 0.36 * size * POINT, str(number), size, ha="center", fontweight="bold")
+
+
+def _wrapped(sheet: Sheet, sentence: str, size: float, wide: float) -> list[str]:
+    """Lines of a sentence, broken at blanks and between Chinese characters."""
+    pieces = [""]
+    for character in sentence:
+        apart = character == " " or character > "\u2e80" or (pieces[-1] and pieces[-1][-1] > "\u2e80")
+        # A line does not begin with a closing mark.
+        if apart and character not in "，。；：）、":
+            pieces.append(character)
+        else:
+            pieces[-1] += character
+    lines, line = [], ""
+    for piece in pieces:
+        if line.strip() and sheet.width((line + piece).strip(), size) > wide:
+            lines.append(line.strip())
+            line = ""
+        line += piece
+    return [*lines, line.strip()]
+
+
+def _draw_track(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
+    """Draw the way of the front handle from start to end, with the numbered moments."""
+    left, bottom, right, top = box
+    dance, bench, venue = sheets.dance, card.bench, sheets.venue
+    line = line_of(dance.path, bench.start.s, max(bench.done.s, bench.start.s + 0.1))
+    low, high = with_square(venue, line.min(axis=0), line.max(axis=0))
+    unit = min(
+        (right - left - 2 * INSIDE) / max(high[0] - low[0], 1.0),
+        (top - bottom - 2 * INSIDE) / max(high[1] - low[1], 1.0),
+    )
+    middle, centre = 0.5 * (low + high), np.array([0.5 * (left + right), 0.5 * (bottom + top)])
+
+    def on_card(points: Any) -> Floats:
+        placed: Floats = (np.asarray(points) - middle) * unit + centre
+        return placed
+
+    frame = sheet.frame(box)
+    for area in venue.areas if venue else ():
+        look: dict[str, Any] = {"facecolor": "none"} if area is venue.square else {"facecolor": "#D9D9D9"}  # type: ignore[union-attr]
+        rings = [on_card(ring) for ring in area.rings]
+        sheet.area(rings, frame, edgecolor="#888888", linewidth=0.5, zorder=1, **look)
+    track = on_card(line)
+    # The arrow stands in the corner that is furthest from the track.
+    corners = np.array([(x, y) for x in (left + 4.0, right - 4.0) for y in (top - 14.0, bottom + 1.0)])
+    away = np.hypot(*np.moveaxis(corners[:, None] + (0.0, 6.0) - track, -1, 0)).min(axis=1)
+    arrow = corners[int(away.argmax())]
+    north_arrow(sheet, float(arrow[0]), float(arrow[1]), sheets.words.geographic)
+    sheet.line(track, frame, color=BLUE, linewidth=1.2, zorder=4)
+    _draw_arrows(sheet, track, frame)
+    taken: list[Floats] = [arrow + (0.0, 3.0), arrow + (0.0, 9.0)]
+    for number, cue in enumerate(card.cues, start=1):
+        at = on_card((cue.x, cue.y))
+        sheet.axes.plot(*at, marker="o", markersize=2.6, color=VERMILION, zorder=7)
+        place = _free(at, taken, box)
+        taken.append(place)
+        if place is not at:
+            sheet.line([at, place], linewidth=0.4, color=VERMILION, zorder=6)
+        _draw_number(sheet, number, (float(place[0]), float(place[1])))
+
+
+def _free(at: Floats, taken: Sequence[Floats], box: Box) -> Floats:
+    """A place near a point where a number covers no other one, inside the box."""
+    low, high = np.array(box[:2]) + MOMENT, np.array(box[2:]) - MOMENT
+    for away in AWAY[1:]:
+        for angle in np.linspace(0.25 * np.pi, 2.25 * np.pi, 16, endpoint=False):
+            place: Floats = at + away * np.array([np.cos(angle), np.sin(angle)])
+            inside = bool((place >= low).all() and (place <= high).all())
+            if inside and all(np.hypot(*(place - one)) > 2.0 * MOMENT + 0.3 for one in taken):
+                return place
+    return at
+
+
+def _draw_arrows(sheet: Sheet, track: Floats, frame: Any) -> None:
+    """Draw arrows along a track, in the direction of the dance."""
+    steps = np.hypot(*np.diff(track, axis=0).T)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    for place in np.arange(12.0, along[-1], 25.0):
+        k = int(np.searchsorted(along, place))
+        ahead = (track[k] - track[k - 1]) / max(float(steps[k - 1]), 1e-9)
+        side, tip = np.array([-ahead[1], ahead[0]]), track[k] + 1.4 * ahead
+        sheet.shape(np.array([tip, tip - 2.4 * ahead + 0.9 * side, tip - 2.4 * ahead - 0.9 * side]), frame,
+                    facecolor=BLUE, linewidth=0.0, zorder=5)  # fmt: skip

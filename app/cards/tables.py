@@ -1,0 +1,63 @@
+"""Cue cards as CSV: a line for the stand of each bench, and one for each of its cues."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+
+from app.cards.words import CardWords
+from app.wire.clocks import time_of_day
+from app.wire.texts import text_to_cell
+from core.people.cards import Card, Cue
+
+COLUMNS = (
+    "bench", "name", "number", "kind", "time", "clock", "since", "until", "x", "y", "other", "other_name", "side",
+    "gap", "oncoming", "speed", "mark", "past_mark", "steps", "words",
+)  # fmt: skip
+
+
+def cards_csv(cards: Sequence[Card], words: CardWords) -> bytes:
+    """CSV with the columns of COLUMNS; an entry is empty where it does not apply."""
+    sink = io.StringIO(newline="")
+    writer = csv.DictWriter(sink, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    for card in cards:
+        for line in _lines(card, words):
+            writer.writerow({name: _cell(value) for name, value in line.items()})
+    return sink.getvalue().encode()
+
+
+def _cell(value: object) -> str:
+    """An entry; numbers have all digits, and text runs in no spreadsheet."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return text_to_cell(value) if isinstance(value, str) else repr(value)
+
+
+def _lines(card: Card, words: CardWords) -> Iterator[dict[str, object]]:
+    bench, stand = card.bench, card.bench.start
+    own: dict[str, object] = {"bench": bench.bench, "name": words.names[bench.bench] if words.names else ""}
+    mark, past = words.chalk.nearest(stand.s)
+    place = {"mark": mark, "past_mark": past, "steps": words.chalk.steps(past)}
+    at = {"time": stand.time, "x": stand.x, "y": stand.y} | _clock("clock", stand.time, words)
+    yield own | {"number": 0, "kind": "stand", "words": words.at_mark(stand)} | at | place
+    for number, cue in enumerate(card.cues, start=1):
+        at = {"time": cue.time, "x": cue.x, "y": cue.y, "since": cue.since, "until": cue.until}
+        told = {"number": number, "kind": cue.kind.value, "words": words.sentence(card, cue)}
+        yield own | told | at | _clock("clock", cue.time, words) | _more(card, cue, words)
+
+
+def _clock(name: str, time: float, words: CardWords) -> dict[str, object]:
+    start = words.clock.start_clock
+    return {} if start is None else {name: time_of_day(time, start)}
+
+
+def _more(card: Card, cue: Cue, words: CardWords) -> dict[str, object]:
+    """What only some kinds of cues have."""
+    if met := cue.nearest:
+        other = words.names[met.bench] if words.names else ""
+        return {
+            "other": met.bench, "other_name": other, "side": met.side.value, "gap": met.gap, "oncoming": met.oncoming,
+        }  # fmt: skip
+    return {"speed": card.bench.fastest.speed} if cue.kind == "fastest" else {}

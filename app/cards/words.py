@@ -1,0 +1,162 @@
+"""The cues of a card in words, in English or Chinese."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from app.files.words import Say
+from app.maps.marks import first_mark, mark_name
+from app.plan.timing import TimeFormat
+from core import Dance
+from core.people.cards import Card, Cue, CueKind
+from core.people.cues import Meeting, Side, Stand
+
+# Points of the compass from north, clockwise.
+COMPASS = (
+    ("north", "北"), ("north-east", "东北"), ("east", "东"), ("south-east", "东南"), ("south", "南"),
+    ("south-west", "西南"), ("west", "西"), ("north-west", "西北"),
+)  # fmt: skip
+
+
+def runs(numbers: Iterable[int]) -> str:
+    """Numbers in short, in rising order.
+
+    >>> runs([9, 3, 4, 5, 7])
+    '3-5, 7, 9'
+    """
+    parts: list[list[int]] = []
+    for one in sorted(numbers):
+        if parts and one == parts[-1][-1] + 1:
+            parts[-1].append(one)
+        else:
+            parts.append([one])
+    return ", ".join(f"{part[0]}-{part[-1]}" if len(part) > 1 else str(part[0]) for part in parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Chalk:
+    """Chalk marks along the path: s of mark 0 [m], their spacing [m], and the length of a step [m]."""
+
+    first: float
+    spacing: float
+    step: float
+
+    @classmethod
+    def of(cls, dance: Dance, tail: float, spacing: float, step: float) -> Chalk:
+        """The marks of a dance whose tail starts at a place [m], as on its plan."""
+        return cls(first_mark(dance, tail, spacing), spacing, step)
+
+    def nearest(self, s: float) -> tuple[float, float]:
+        """The mark nearest to a place on the path, by its length from mark 0 [m], and how far the place is past it [m];
+        before it: < 0."""
+        mark = self.spacing * math.floor((s - self.first) / self.spacing + 0.5)
+        return mark, s - self.first - mark
+
+    def steps(self, past: float) -> int:
+        """Whole steps of a length [m]; < 0 for a length before a mark."""
+        return round(past / self.step)
+
+
+@dataclass(frozen=True, slots=True)
+class CardWords:
+    """What the words of a card follow from.
+
+    names: of all benches, empty for one without; clock: format of times; geographic: True if y points north
+    """
+
+    say: Say
+    names: tuple[str, ...]
+    clock: TimeFormat
+    chalk: Chalk
+    geographic: bool
+
+    def name(self, bench: int) -> str:
+        """Number and name of a bench.
+
+        >>> from app.files.tables import Language
+        >>> words = CardWords(Say(Language.ENGLISH), ("", "Li"), TimeFormat(), Chalk(0.0, 5.0, 0.75), False)
+        >>> words.name(0), words.name(1), words.direction(0.0)
+        ('0 (head)', '1 Li', '0° from the x axis')
+        """
+        own = self.names[bench] if self.names else ""
+        return f"{bench} {own}" if own else self.say("0 (head)", "0（龙头）") if bench == 0 else str(bench)
+
+    def direction(self, angle: float) -> str:
+        """A direction [rad]: a point of the compass, or degrees from the x axis, counter-clockwise."""
+        degrees = math.degrees(angle)
+        if self.geographic:
+            bearing = (90.0 - degrees) % 360.0
+            english, chinese = COMPASS[round(bearing / 45.0) % len(COMPASS)]
+            number = round(bearing) % 360
+            return self.say(f"{english} ({number:03d}°)", f"{chinese}（方位 {number:03d}°）")
+        number = round(degrees) % 360
+        return self.say(f"{number}° from the x axis", f"与 x 轴夹角 {number}°")
+
+    def at_mark(self, stand: Stand) -> str:
+        """A place as whole steps from the nearest chalk mark."""
+        place, past = self.chalk.nearest(stand.s)
+        mark = mark_name(place)
+        steps = self.chalk.steps(past)
+        if steps == 0:
+            return self.say(f"at mark {mark}", f"在标记 {mark}")
+        unit = "step" if abs(steps) == 1 else "steps"
+        where, side = ("past", "过") if steps > 0 else ("before", "前")
+        chinese = f"标记 {mark} {side} {abs(steps)} 步"
+        return self.say(f"{abs(steps)} {unit} {where} mark {mark}", chinese)
+
+    def sentence(self, card: Card, cue: Cue) -> str:
+        """A cue in one sentence, without its time."""
+        say, bench = self.say, card.bench
+        match cue.kind:
+            case CueKind.BEGIN:
+                to = self.direction(bench.direction)
+                return say(f"Walk. Direction: {to}.", f"起步，方向：{to}。")
+            case CueKind.PAUSE:
+                long, end = f"{cue.until - cue.since:.0f}", self.clock.words(cue.until)
+                return say(f"Stand still until {end} ({long} s).", f"停下，至 {end}（{long} 秒）。")
+            case CueKind.FASTEST:
+                speed, more = bench.fastest.speed, 100.0 * (bench.fastest.speed / bench.head_speed - 1.0)
+                return say(
+                    f"Fastest: {speed:.2f} m/s, {more:.0f} % more than the head at the beginning.",
+                    f"最快：{speed:.2f} m/s，比龙头起步时快 {more:.0f} %。",
+                )
+            case CueKind.DONE:
+                return say(f"Stop, {self.at_mark(bench.done)}. Done.", f"停，{self.at_mark(bench.done)}。结束。")
+        assert cue.nearest is not None
+        return self._met(cue, cue.nearest)
+
+    def _met(self, cue: Cue, nearest: Meeting) -> str:
+        say, gap = self.say, f"{nearest.gap:.2f} m"
+        if nearest.gap < 0.0:
+            gap = say(f"overlapping by {-nearest.gap:.2f} m", f"重叠 {-nearest.gap:.2f} m")
+        left = nearest.side is Side.LEFT
+        side = say(f"on your {'left' if left else 'right'}", f"在{'左' if left else '右'}侧")
+        how = say("comes towards you", "迎面而来") if nearest.oncoming else say("walks your way", "同向而行")
+        own = self.names[nearest.bench] if self.names else ""
+        who = say(f"Bench {self.name(nearest.bench)}", f"{nearest.bench} 号板凳{own and f'（{own}）'}")
+        if len(cue.meetings) == 1:
+            return say(f"{who} {how} {side}, {gap}.", f"{who}{side}{how}，距 {gap}。")
+        met = {one.bench for one in cue.meetings}
+        since, until = self.clock.words(cue.since), self.clock.words(cue.until)
+        hows = "come towards you" if nearest.oncoming else "walk your way"
+        return say(
+            f"{who} {side}, {gap}: the nearest of {len(met)} benches ({runs(met)}) that {hows} from {since} to "
+            f"{until}.",
+            f"{who}{side}，距 {gap}：{since} 至 {until} {how}的 {len(met)} 节（{runs(met)}）中最近。",
+        )
+
+    def left_out(self, card: Card) -> str:
+        """What has no place on the card."""
+        say, pauses = self.say, sum(cue.kind is CueKind.PAUSE for cue in card.left_out)
+        met = sum(len(cue.meetings) for cue in card.left_out)
+        parts = []
+        if met and card.least_left_out is not None:
+            words = f"{card.least_left_out:.2f} m"
+            plural = "meeting" if met == 1 else "meetings"
+            parts.append(say(f"{met} {plural}, none nearer than {words}", f"{met} 次相遇（均不近于 {words}）"))
+        if pauses:
+            parts.append(say(f"{pauses} shorter pause{'s' * (pauses > 1)}", f"{pauses} 次较短停顿"))
+        kept = say("Left out: ", "未列：")
+        return kept + say("; ", "；").join(parts) if parts else say("Nothing is left out.", "无省略。")

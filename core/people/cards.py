@@ -1,0 +1,108 @@
+"""The cues of a card: at most CUES_MOST of all that happens to a bench, by one rule.
+
+1. The beginning and the end are always on the card.
+2. Then come the pauses, the longest first, at most PAUSES_MOST of them.
+3. Then the fastest moment, if the bench is more than FASTER above the speed with which the head begins to walk.
+4. Then the meetings, the nearest first. Meetings on one side, with benches that go one way, of which each is at most
+   TOGETHER after the one before, are one cue, whose moment and gap are those of the nearest of them.
+What has no place any more is left out. Of equal ones the earlier comes first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from core.display import Readable
+from core.people.cues import BenchCues, Meeting
+
+# Most cues of a card, and most pauses among them; the first of these holds the beginning and the end, too.
+CUES_MOST, PAUSES_MOST = 8, 3
+# Share of the speed at the beginning by which a bench must be faster for a cue [1].
+FASTER = 0.01
+# Longest time from one meeting to the next of the same cue [s].
+TOGETHER = 10.0
+
+
+class CueKind(StrEnum):
+    """Kinds of cues, in the order in which they have a place on a card."""
+
+    BEGIN = "begin"
+    DONE = "done"
+    PAUSE = "pause"
+    FASTEST = "fastest"
+    MEETING = "meeting"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Cue(Readable):
+    """One cue: what happens, when [s], and where the bench is then, x, y [m].
+
+    since, until: of a pause, or the moments of the first and the last of several meetings [s]; else both are time
+    meetings: those of this cue in order of time, and nearest: the one with the least gap, None in another kind of cue
+    """
+
+    kind: CueKind
+    time: float
+    x: float
+    y: float
+    since: float
+    until: float
+    nearest: Meeting | None = None
+    meetings: tuple[Meeting, ...] = ()
+    _units = {"since": "s", "until": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Card(Readable):
+    """The cues of a bench that have a place on its card, and those left out, both in order of time."""
+
+    bench: BenchCues
+    cues: tuple[Cue, ...]
+    left_out: tuple[Cue, ...]
+
+    @property
+    def least_left_out(self) -> float | None:
+        """Least gap of all meetings left out [m], None if none is: nobody passes nearer without being on the card."""
+        return min((cue.nearest.gap for cue in self.left_out if cue.nearest), default=None)
+
+
+def card_of(bench: BenchCues) -> Card:
+    """The card of a bench, by the rule above."""
+    begin, done, fastest = bench.begin, bench.done, bench.fastest
+    always = [
+        Cue(CueKind.BEGIN, begin.time, begin.x, begin.y, begin.time, begin.time),
+        Cue(CueKind.DONE, done.time, done.x, done.y, done.time, done.time),
+    ]
+    pauses = [Cue(CueKind.PAUSE, one.begin, one.x, one.y, one.begin, one.end) for one in bench.pauses]
+    pauses.sort(key=lambda cue: cue.since - cue.until)
+    peak = Cue(CueKind.FASTEST, fastest.time, fastest.x, fastest.y, fastest.time, fastest.time)
+    peaks = [peak] if fastest.speed > (1.0 + FASTER) * bench.head_speed else []
+    met = sorted(_together(bench.meetings), key=lambda cue: cue.nearest.gap if cue.nearest else 0.0)
+    ranked = [*always, *pauses[:PAUSES_MOST], *peaks, *met]
+    kept, rest = ranked[:CUES_MOST], ranked[CUES_MOST:] + pauses[PAUSES_MOST:]
+    return Card(bench, *(tuple(sorted(cues, key=_order)) for cues in (kept, rest)))
+
+
+def _order(cue: Cue) -> tuple[float, bool]:
+    """Order on a card: of time, the end last."""
+    return cue.time, cue.kind is CueKind.DONE
+
+
+def _together(meetings: Sequence[Meeting]) -> list[Cue]:
+    """The cues of meetings, in order of time."""
+    groups: list[list[Meeting]] = []
+    for one in meetings:
+        same = (group for group in groups if (group[-1].side, group[-1].oncoming) == (one.side, one.oncoming))
+        group = next((group for group in same if one.time - group[-1].time <= TOGETHER), None)
+        if group is None:
+            groups.append([one])
+        else:
+            group.append(one)
+    cues = []
+    for group in groups:
+        nearest = min(group, key=lambda one: one.gap)
+        ends = group[0].time, group[-1].time
+        cues.append(Cue(CueKind.MEETING, nearest.time, nearest.x, nearest.y, *ends, nearest, tuple(group)))
+    return sorted(cues, key=lambda cue: cue.time)

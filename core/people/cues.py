@@ -1,0 +1,306 @@
+"""Cues: what happens to the carriers of each bench, and when.
+
+Everything is said of one bench: where its front handle stands at the start, when and in which direction it begins to
+walk, which benches come abreast of it, where it is fastest, when the dragon pauses, and when and where it is done.
+
+How each number is known: places, directions and speeds are those of trajectory() at the moment named, good to 1e-11 m
+and 1e-11 m/s; begin, pauses and end are those of the dance's clock; for meetings see core/people/meetings.py. The
+fastest moment is the highest of the rows, STEP apart, narrowed to FASTEST_WIDTH between its two neighbours: no row is
+faster, and the speed named is really reached.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import pairwise
+
+import numpy as np
+
+from core.dance import Dance
+from core.display import Readable
+from core.errors import InvalidValue, Quantity, bound, checked_number, question_about
+from core.kernels import Budget
+from core.motion.places import handle_places
+from core.motion.trajectory import trajectory
+from core.passages import TIME_MAX, Period
+from core.people.meetings import Meetings, instants_at_once, meetings_between, steady_dance, travels_between
+from core.shapes.rectangles import bench_poses
+from core.values import Floats
+
+# Largest gap at which a bench that comes abreast is met, if no other is given [m], and the largest that may be [m].
+REACH, REACH_MAX = 8.0, 1_000.0
+# Most benches of one question.
+FOLLOWED_MAX = 1_000
+# Width to which a fastest moment is narrowed [m of head travel], and the golden section that narrows it [1].
+FASTEST_WIDTH = 1e-7
+SECTION = 0.5 * (np.sqrt(5.0) - 1.0)
+
+
+class Side(StrEnum):
+    """Side of a bench, seen by its carriers, who look along it to its front handle."""
+
+    LEFT = "left"
+    RIGHT = "right"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Stand(Readable):
+    """A bench at one moment: time [s]; x, y [m] and place s along the path [m] of its front handle; heading of the
+    bench, from its rear to its front handle [rad]."""
+
+    time: float
+    x: float
+    y: float
+    s: float
+    heading: float
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Meeting(Readable):
+    """Another bench comes abreast: its middle is straight to one side of the own middle.
+
+    time: [s]; bench: the other one; side: on which it is; gap: of the two benches, edge to edge [m], below zero if they
+    overlap; oncoming: True if it points the other way; x, y: own middle [m]
+    """
+
+    time: float
+    bench: int
+    side: Side
+    gap: float
+    oncoming: bool
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class FastestMoment(Readable):
+    """The highest speed of the two handles of a bench [m/s]: time [s], the handle, its place x, y [m], and the speed of
+    the head at that moment [m/s]."""
+
+    time: float
+    speed: float
+    head_speed: float
+    handle: int
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Pause(Readable):
+    """A time in which nobody walks: from begin to end [s], with the own front handle at x, y [m]."""
+
+    begin: float
+    end: float
+    x: float
+    y: float
+    _units = {"begin": "s", "end": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class BenchCues(Readable):
+    """What the carriers of a bench have to know.
+
+    start: where it stands when the dance starts; begin: the moment at which it begins to walk, and from where;
+    direction: in which its front handle walks then [rad]; head_speed: of the head then [m/s]
+    ahead, behind: its neighbours, None at an end
+    meetings, pauses: in order of time; done: when and where it stops for good
+    """
+
+    bench: int
+    start: Stand
+    begin: Stand
+    direction: float
+    head_speed: float
+    ahead: int | None
+    behind: int | None
+    meetings: tuple[Meeting, ...]
+    fastest: FastestMoment
+    pauses: tuple[Pause, ...]
+    done: Stand
+    _units = {"direction": "rad"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+
+
+@question_about("dance", Dance, "the cues were not found")
+def bench_cues(
+    dance: Dance,
+    benches: Sequence[int] | None = None,
+    *,
+    reach: float = REACH,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> tuple[BenchCues, ...]:
+    """The cues of some benches, in the order given; None: of all.
+
+    benches: at most FOLLOWED_MAX numbers, 0 for the head; reach: largest gap of a meeting [m]
+    start, stop: of the dance [s], see Dance.span()
+    raises: InvalidValue, also for a dance up to a fold, where speeds grow without bound, and for one that stands still;
+        OutsideRun; TooMuchWork
+
+    >>> from core import Arc, Dragon, Line, Route
+    >>> there = Line((0.0, 0.0), (40.0, 0.0))
+    >>> turn = Arc((40.0, 2.0), 2.0, -1.5707963267948966, 3.141592653589793)
+    >>> dance = Dance(Dragon(12), Route([there, turn, Line((40.0, 4.0), (0.0, 4.0))], start=30.0))
+    >>> cues = bench_cues(dance, [5])[0]
+    >>> met = cues.meetings[0]
+    >>> met.bench, met.side.value, round(met.time, 2), round(met.gap, 3), met.oncoming
+    (0, 'left', 21.04, 3.7, True)
+    """
+    followed = _checked_benches(dance, benches)
+    reach = checked_number("reach", reach, "m", 0.0, REACH_MAX)
+    begin, until = _span(dance, start, stop)
+    walks = [one for one in dance.clock.periods(begin, until) if one.speed > 0.0]
+    if not walks:
+        values = {"got": Quantity(until, "s"), "begin": Quantity(begin, "s")}
+        raise InvalidValue("stop", "must be after the head begins to walk: it stands still from {begin} on", **values)
+    budget, steady = budget or Budget(), steady_dance(dance)
+    last = min(walks[-1].last, steady.end.time)
+    met = meetings_between(steady, followed, travels_between(walks[0].first, last), reach, budget)
+    fastest = _fastest(steady, followed, walks, budget)
+    rests = [(a.end, b.begin) for a, b in pairwise(walks) if b.begin > a.end]
+    stands = _stands(dance, followed, [begin, walks[0].begin, walks[-1].end, *(end for end, _ in rests)], budget)
+    middles, meetings = _middles(steady, met, budget), dict[int, list[Meeting]]()
+    for k, bench in enumerate(met.own.tolist()):
+        side = Side.LEFT if met.left[k] > 0.0 else Side.RIGHT
+        when = dance.clock.time(float(met.travel[k]))
+        one = Meeting(when, int(met.other[k]), side, float(met.gap[k]), bool(met.cosine[k] < 0.0), *middles[k])
+        meetings.setdefault(bench, []).append(one)
+    ahead = _directions(steady, followed, walks[0].first, budget)
+    cues = []
+    for k, bench in enumerate(followed):
+        at = stands[k]
+        pauses = tuple(Pause(*rest, one.x, one.y) for rest, one in zip(rests, at[3:], strict=True))
+        neighbours = bench - 1 if bench else None, bench + 1 if bench + 1 < dance.dragon.benches else None
+        own = tuple(meetings.get(bench, ()))
+        cues.append(
+            BenchCues(bench, at[0], at[1], ahead[k], walks[0].speed, *neighbours, own, fastest[k], pauses, at[2])
+        )
+    return tuple(cues)
+
+
+def _checked_benches(dance: Dance, benches: Sequence[int] | None) -> list[int]:
+    """The benches to follow. raises: InvalidValue"""
+    count = dance.dragon.benches
+    followed = list(range(count)) if benches is None else [*benches]
+    if not 1 <= len(followed) <= FOLLOWED_MAX:
+        rule = "must name from 1 to {most} benches"
+        raise InvalidValue("benches", rule, got=len(followed), most=FOLLOWED_MAX)
+    for k, bench in enumerate(followed):
+        number = checked_number(f"benches.{k}", bench, "", 0.0, count - 1.0)
+        if number != int(number):
+            raise InvalidValue(f"benches.{k}", "must be a whole number", got=number)
+    return [int(bench) for bench in followed]
+
+
+def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float, float]:
+    """Start and stop of the dance [s]. raises: InvalidValue, OutsideRun"""
+    stop = None if stop is None else checked_number("stop", stop, "s", -TIME_MAX, TIME_MAX)
+    if dance.ends_by(dance.end.time if stop is None else stop):
+        values = {"end": bound(dance.end.time, 9, "s"), **dance.end.values}
+        rule = "must be before {end}, when bench {bench} folds and speeds grow without bound"
+        if stop is None:
+            raise InvalidValue("stop", f"must be given: it {rule}", **values)
+        raise InvalidValue("stop", rule, got=Quantity(stop, "s"), **values)
+    return dance.span(start, stop)
+
+
+def _stands(dance: Dance, benches: list[int], times: list[float], budget: Budget) -> list[list[Stand]]:
+    """The stands of each bench at all times."""
+    position = trajectory(dance, times, budget=budget).position
+    places, headings = handle_places(dance, times, budget=budget), bench_poses(position)[..., 2]
+    return [
+        [
+            Stand(
+                time,
+                float(position[row, k, 0]),
+                float(position[row, k, 1]),
+                float(places[row, k]),
+                float(headings[row, k]),
+            )
+            for row, time in enumerate(times)
+        ]
+        for k in benches
+    ]
+
+
+def _directions(steady: Dance, benches: list[int], travel: float, budget: Budget) -> list[float]:
+    """Directions in which the front handles walk at a travel of the head [rad]."""
+    velocity = trajectory(steady, [travel], budget=budget).velocity[0, benches]
+    directions: list[float] = np.arctan2(velocity[:, 1], velocity[:, 0]).tolist()
+    return directions
+
+
+def _middles(steady: Dance, met: Meetings, budget: Budget) -> list[tuple[float, float]]:
+    """Own middle x, y at each meeting [m]."""
+    middles = np.empty((met.travel.size, 2))
+    at_once = instants_at_once(steady)
+    for first in range(0, met.travel.size, at_once):
+        some = slice(first, first + at_once)
+        position = trajectory(steady, met.travel[some], budget=budget).position
+        rows, own = np.arange(len(position)), met.own[some]
+        middles[some] = 0.5 * (position[rows, own] + position[rows, own + 1])
+    return [(x, y) for x, y in middles.tolist()]
+
+
+def _rates(steady: Dance, benches: list[int], travels: Floats, budget: Budget) -> Floats:
+    """Higher speed of the two handles of each bench, for 1 m/s of the head (R, B) [1]."""
+    speed = trajectory(steady, travels, budget=budget).speed
+    front = np.array(benches)
+    rates: Floats = np.maximum(speed[:, front], speed[:, front + 1])
+    return rates
+
+
+def _fastest(steady: Dance, benches: list[int], walks: list[Period], budget: Budget) -> list[FastestMoment]:
+    """The fastest moment of each bench."""
+    best, count = np.full(len(benches), -np.inf), len(benches)
+    low, high, walk = np.empty(count), np.empty(count), np.zeros(count, dtype=np.intp)
+    at_once = max(3, instants_at_once(steady))
+    for number, one in enumerate(walks):
+        travels = travels_between(one.first, min(one.last, steady.end.time))
+        for first in range(0, len(travels), at_once):
+            some = travels[first : first + at_once]
+            speed = one.speed * _rates(steady, benches, some, budget)
+            row, most = speed.argmax(axis=0), speed.max(axis=0)
+            better = most > best
+            best[better], walk[better] = most[better], number
+            low[better] = travels[np.maximum(first + row[better] - 1, 0)]
+            high[better] = travels[np.minimum(first + row[better] + 1, len(travels) - 1)]
+    travel = _peaks(steady, benches, low, high, budget)
+    speeds, moments = np.diagonal(_rates(steady, benches, travel, budget)), []
+    for k, bench in enumerate(benches):
+        one, at = walks[walk[k]], trajectory(steady, [travel[k]])
+        handle = bench + int(at.speed[0, bench + 1] > at.speed[0, bench])
+        place = at.position[0, handle].tolist()
+        moments.append(
+            FastestMoment(one.time(float(travel[k])), float(speeds[k] * one.speed), one.speed, handle, *place)
+        )
+    return moments
+
+
+# The highest of both ends and of all places tried, so that a kink or a second peak between two rows does no harm.
+def _peaks(steady: Dance, benches: list[int], low: Floats, high: Floats, budget: Budget) -> Floats:
+    """Travel at which each bench is fastest between two travels (B,) [m]."""
+
+    def rates(travels: Floats) -> Floats:
+        parts = [
+            np.diagonal(_rates(steady, benches[k : k + at_once], travels[k : k + at_once], budget))
+            for k in range(0, len(benches), at_once)
+        ]
+        return np.concatenate(parts)
+
+    at_once = instants_at_once(steady)
+    middle = 0.5 * (low + high)
+    tried = [(middle, rates(middle))]
+    low, high = low.copy(), high.copy()
+    tried += [(one.copy(), rates(one)) for one in (low, high)]
+    while float((high - low).max()) > FASTEST_WIDTH:
+        inner, outer = high - SECTION * (high - low), low + SECTION * (high - low)
+        at_inner, at_outer = rates(inner), rates(outer)
+        tried += [(inner, at_inner), (outer, at_outer)]
+        falls = at_inner >= at_outer
+        high, low = np.where(falls, outer, high), np.where(falls, low, inner)
+    best = np.argmax([rate for _, rate in tried], axis=0)
+    travels: Floats = np.stack([travel for travel, _ in tried])[best, np.arange(len(benches))]
+    return travels

@@ -1,0 +1,253 @@
+"""Meetings: the moments at which another bench comes abreast of a bench.
+
+Bench j is abreast of bench k when the middle of j is straight to the left or to the right of the middle of k, that is,
+when
+    a(s) = u_k . (m_j - m_k) = 0,
+where m are the middles, u_k is the direction of bench k and s is the travel of the head. Neighbours share a handle and
+are never abreast. It is a meeting if the other bench is more than EVEN ahead before it, and more than EVEN behind after
+it, or the other way round. A bench that walks along in a row stays ahead or behind, so its a keeps its sign.
+
+Input:  a dragon on a path, the benches to follow, a row of travels, the reach
+Output: the zeros of a, with the gap of the two benches there, if the gap is within the reach and no third bench stands
+        between the two middles
+
+Each zero is bracketed by two rows with other signs, and narrowed by false position (the Illinois variant), all zeros of
+a block of rows together. What is known: at the travel that comes back, |a| is at most ABREAST; the gap is the exact
+separation of the two rectangles at that travel. What may be missed: a bench that comes abreast and falls back between
+two rows, STEP of head travel apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.dance import Dance
+from core.errors import question_about
+from core.kernels import Budget
+from core.motion.trajectory import trajectory
+from core.shapes.rectangles import bench_poses, frames, frames_separation
+from core.values import Floats
+
+# Travel of the head between two rows [m], and most rows; on a longer way rows are further apart.
+STEP, ROWS_MAX = 0.25, 20_000
+# Largest distance of the other bench's middle from the line straight to the side, at a meeting [m].
+ABREAST = 1e-9
+# Least way that the other bench must be ahead before a meeting and behind after it, or the other way round [m].
+EVEN = 0.05
+# Most rounds of false position; eight are usual.
+ROUNDS = 60
+# Handles laid out at once [1]: 40 MB of positions and velocities; and rows at once: over a short way few benches come
+# near another one.
+HANDLES_AT_ONCE, ROWS_AT_ONCE = 1_000_000, 40
+# Spare of the boxes that hold a bench's middle between two rows [m]: a middle leaves the box of its rows by no more
+# than the bulge of its way over one STEP, a few millimetres, and by at most the way itself.
+SPARE = 0.5
+
+Indices = NDArray[np.intp]
+
+
+class Meetings(NamedTuple):
+    """Meetings in columns (M,): own and other bench, travel of the head [m], signed distance of the middles to the left
+    [m], gap of the benches [m], and the cosine of the angle between their directions."""
+
+    own: Indices
+    other: Indices
+    travel: Floats
+    left: Floats
+    gap: Floats
+    cosine: Floats
+
+
+class _Crossings(NamedTuple):
+    """Changes of sign in columns: own and other bench, the two travels [m], and a there [m]."""
+
+    own: Indices
+    other: Indices
+    low: Floats
+    high: Floats
+    at_low: Floats
+    at_high: Floats
+
+
+_NO_BENCHES, _NO_NUMBERS = np.empty(0, dtype=np.intp), np.empty(0)
+_NONE = _Crossings(_NO_BENCHES, _NO_BENCHES, _NO_NUMBERS, _NO_NUMBERS, _NO_NUMBERS, _NO_NUMBERS)
+
+
+def travels_between(first: float, last: float) -> Floats:
+    """Travels of the head from first to last, STEP apart or, on a long way, in ROWS_MAX rows [m]."""
+    return np.linspace(first, last, min(ROWS_MAX, int((last - first) / STEP) + 2))
+
+
+def steady_dance(dance: Dance) -> Dance:
+    """The same dance at 1 m/s without passages: its times are travels of the head."""
+    return Dance(dance.dragon, dance.path, 1.0)
+
+
+def instants_at_once(dance: Dance) -> int:
+    """Number of instants whose handles are laid out at once."""
+    return max(1, HANDLES_AT_ONCE // (dance.dragon.benches + 1))
+
+
+@question_about("dance", Dance, "the meetings were not found")
+def meetings_between(dance: Dance, benches: Sequence[int], travels: Floats, reach: float, budget: Budget) -> Meetings:
+    """All meetings of some benches with others, between rows of travels of the head.
+
+    dance: at 1 m/s without passages; travels: rising, (R,) [m]; reach: largest gap of a meeting [m]
+    returns: in the order of the own benches, then of travels
+    raises: TooMuchWork
+    """
+    parts = [Meetings(*_NONE)]
+    at_once = instants_at_once(dance)
+    rows, before = max(2, min(ROWS_AT_ONCE, at_once)), dict[int, _Before]()
+    for first in range(0, len(travels), rows):
+        some = travels[first : first + rows]
+        poses = bench_poses(trajectory(dance, some, budget=budget).position)
+        crossings = _crossings(poses, some, benches, _far(dance, reach), before)
+        budget.afford(float(len(some) * len(benches)))
+        for part in _parts(crossings, at_once):
+            parts.append(_met(dance, _zeros(dance, part, budget), reach, budget))
+    columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    order = np.lexsort((columns[2], columns[0]))
+    return Meetings(*(column[order] for column in columns))
+
+
+def _far(dance: Dance, reach: float) -> float:
+    """Distance of two middles beyond which the benches are further apart than the reach [m]."""
+    return reach + float(np.hypot(dance.dragon.lengths, dance.dragon.widths).max())
+
+
+def _parts(crossings: _Crossings, most: int) -> Iterator[_Crossings]:
+    for first in range(0, len(crossings.own), most):
+        some = slice(first, first + most)
+        own, other, low, high, at_low, at_high = crossings
+        yield _Crossings(own[some], other[some], low[some], high[some], at_low[some], at_high[some])
+
+
+class _Before(NamedTuple):
+    """For each bench near one bench, in rising order: a and the travel in the last row that counted; NaN without."""
+
+    near: Indices
+    along: Floats
+    travel: Floats
+
+
+# Two benches that walk side by side do not meet each time that one of them is a little ahead; so a row counts only if
+# |a| is more than EVEN, and a change of sign is one between two rows that count, with none that counts between them.
+# `before` carries the last row that counted from one block of rows to the next.
+def _crossings(
+    poses: Floats, travels: Floats, benches: Sequence[int], far: float, before: dict[int, _Before]
+) -> _Crossings:
+    """The changes of sign of a in a block of rows, or since the one before it. poses: (R, n, 3)"""
+    middles, heading = poses[..., :2], poses[..., 2]
+    low, high = middles.min(axis=0) - SPARE, middles.max(axis=0) + SPARE
+    rows, columns = np.arange(len(travels) + 1)[:, None], [_NONE]
+    for k in benches:
+        near = np.flatnonzero(((low <= high[k] + far) & (high >= low[k] - far)).all(axis=1))
+        near = near[np.abs(near - k) > 1]
+        away = middles[:, near] - middles[:, k, None]
+        known, when = _recalled(before.get(k), near)
+        along = away[..., 0] * np.cos(heading[:, k, None]) + away[..., 1] * np.sin(heading[:, k, None])
+        along, moments = np.vstack([known, along]), np.broadcast_to(travels[:, None], along.shape)
+        moments = np.vstack([when, moments])
+        counts = np.abs(along) > EVEN
+        last = np.maximum.accumulate(np.where(counts, rows, 0), axis=0)
+        earlier = np.take_along_axis(along, last, axis=0)
+        row, column = np.nonzero(counts[1:] & (np.abs(earlier[:-1]) > EVEN) & (along[1:] * earlier[:-1] < 0.0))
+        close = np.abs(away[row, column]).max(axis=1) <= far + SPARE
+        row, column = row[close], column[close]
+        start = last[row, column]
+        ends = moments[start, column], travels[row], along[start, column], along[row + 1, column]
+        columns.append(_Crossings(np.full(row.size, k, dtype=np.intp), near[column], *ends))
+        before[k] = _Before(near, earlier[-1], np.take_along_axis(moments, last[-1:], axis=0)[0])
+    return _Crossings(*(np.concatenate(column) for column in zip(*columns, strict=True)))
+
+
+def _recalled(before: _Before | None, near: Indices) -> tuple[Floats, Floats]:
+    """a and the travel in the last row that counted, for each of these benches; NaN for none."""
+    known, when = np.full(near.size, np.nan), np.full(near.size, np.nan)
+    if before is not None and before.near.size:
+        place = np.minimum(np.searchsorted(before.near, near), before.near.size - 1)
+        same = before.near[place] == near
+        known[same], when[same] = before.along[place[same]], before.travel[place[same]]
+    return known, when
+
+
+def _abreast(dance: Dance, own: Indices, other: Indices, travels: Floats, budget: Budget) -> Floats:
+    """a of each pair at its own travel (E,) [m]."""
+    position, rows = trajectory(dance, travels, budget=budget).position, np.arange(own.size)
+    front, rear = position[rows, own], position[rows, own + 1]
+    away = 0.5 * (position[rows, other] + position[rows, other + 1] - front - rear)
+    along = front - rear
+    a: Floats = (away * along).sum(axis=-1) / np.hypot(*along.T)
+    return a
+
+
+# False position of Illinois: the end that stays twice has its value halved, so that the other end comes near, too.
+def _zeros(dance: Dance, crossings: _Crossings, budget: Budget) -> tuple[Indices, Indices, Floats]:
+    """Own and other bench and the travel of each zero, |a| at most ABREAST there."""
+    own, other = crossings.own, crossings.other
+    low, high, at_low, at_high = (column.copy() for column in crossings[2:])
+    travel = np.where(np.abs(at_low) <= np.abs(at_high), low, high)
+    open_, stayed = np.flatnonzero(np.minimum(np.abs(at_low), np.abs(at_high)) > ABREAST), np.zeros(own.size)
+    for _ in range(ROUNDS):
+        if not open_.size:
+            break
+        share = at_low[open_] / (at_low[open_] - at_high[open_])
+        middle = low[open_] + share * (high[open_] - low[open_])
+        value = _abreast(dance, own[open_], other[open_], middle, budget)
+        travel[open_] = middle
+        same = (value > 0.0) == (at_low[open_] > 0.0)
+        lower, upper = open_[same], open_[~same]
+        at_high[lower] *= np.where(stayed[lower] > 0.0, 0.5, 1.0)
+        at_low[upper] *= np.where(stayed[upper] < 0.0, 0.5, 1.0)
+        low[lower], at_low[lower], stayed[lower] = middle[same], value[same], 1.0
+        high[upper], at_high[upper], stayed[upper] = middle[~same], value[~same], -1.0
+        open_ = open_[np.abs(value) > ABREAST]
+    return own, other, travel
+
+
+def _met(dance: Dance, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> Meetings:
+    """The zeros that are meetings: within the reach, and with no third bench between the two middles."""
+    own, other, travel = zeros
+    rows = np.arange(own.size)
+    poses = bench_poses(trajectory(dance, travel, budget=budget).position)
+    sizes = np.stack([dance.dragon.lengths, dance.dragon.widths], axis=-1)
+    mine, theirs = poses[rows, own], poses[rows, other]
+    gap = frames_separation(frames(mine, sizes[own]), frames(theirs, sizes[other])).separation
+    away = theirs[:, :2] - mine[:, :2]
+    left = away[:, 1] * np.cos(mine[:, 2]) - away[:, 0] * np.sin(mine[:, 2])
+    kept = np.flatnonzero(gap <= reach)
+    hidden = _hidden(poses[kept], sizes, own[kept], other[kept])
+    kept = kept[~hidden]
+    cosine = np.cos(theirs[kept, 2] - mine[kept, 2])
+    return Meetings(own[kept], other[kept], travel[kept], left[kept], gap[kept], cosine)
+
+
+# The segment p + t q, t in [0, 1], meets a rectangle if the intervals of t in which it is between the two long sides
+# and between the two short sides have a common part. p and q are taken in the frame of the rectangle.
+def _hidden(poses: Floats, sizes: Floats, own: Indices, other: Indices) -> NDArray[np.bool_]:
+    """True where a third bench meets the segment between the two middles. poses: (E, n, 3); returns (E,)"""
+    rows = np.arange(own.size)
+    mine, way = poses[rows, own, :2], poses[rows, other, :2] - poses[rows, own, :2]
+    reach = np.hypot(*way.T) + 0.5 * float(np.hypot(*sizes.T).max())
+    away = poses[..., :2] - mine[:, None]
+    near = np.einsum("ijk,ijk->ij", away, away) <= (reach * reach)[:, None]
+    near[rows, own] = near[rows, other] = False
+    event, third = np.nonzero(near)
+    heading, half = poses[event, third, 2], 0.5 * sizes[third]
+    cos, sin = np.cos(heading), np.sin(heading)
+    p, q = -away[event, third], way[event]
+    first, last = np.zeros(event.size), np.ones(event.size)
+    for side, (x, y) in enumerate(((cos, sin), (-sin, cos))):
+        begin, along = p[:, 0] * x + p[:, 1] * y, q[:, 0] * x + q[:, 1] * y
+        flat = along == 0.0
+        steps = np.where(flat, 1.0, along)
+        ends = np.stack([(-half[:, side] - begin) / steps, (half[:, side] - begin) / steps])
+        inside = np.abs(begin) <= half[:, side]
+        first = np.maximum(first, np.where(flat, np.where(inside, 0.0, 2.0), ends.min(axis=0)))
+        last = np.minimum(last, np.where(flat, 1.0, ends.max(axis=0)))
+    return np.bincount(event[first <= last], minlength=own.size) > 0
