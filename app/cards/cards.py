@@ -197,12 +197,12 @@ def _draw_track(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     track = on_card(line)
     # The arrow stands in the corner that is furthest from the track.
     corners = np.array([(x, y) for x in (left + 4.0, right - 4.0) for y in (top - 14.0, bottom + 1.0)])
-    away = np.hypot(*np.moveaxis(corners[:, None] + (0.0, 6.0) - track, -1, 0)).min(axis=1)
+    away = np.hypot(*np.moveaxis(corners[:, None] + np.array([0.0, 6.0]) - track, -1, 0)).min(axis=1)
     arrow = corners[int(away.argmax())]
     north_arrow(sheet, float(arrow[0]), float(arrow[1]), sheets.words.geographic)
     sheet.line(track, frame, color=BLUE, linewidth=1.2, zorder=4)
     _draw_arrows(sheet, track, frame)
-    taken: list[Floats] = [arrow + (0.0, 3.0), arrow + (0.0, 9.0)]
+    taken: list[Floats] = [arrow + np.array([0.0, up]) for up in (3.0, 9.0)]
     for number, cue in enumerate(card.cues, start=1):
         at = on_card((cue.x, cue.y))
         sheet.axes.plot(*at, marker="o", markersize=2.6, color=VERMILION, zorder=7)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Annotated, Self
 
 from pydantic import Field
 
@@ -18,7 +18,7 @@ from app.questions.plan import FIRST_CHINESE, PDF_TYPE, verdict_words
 from app.wire.clocks import time_of_day
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
-from app.wire.question import JSON, Answer, Question, Terms, Whole, measure
+from app.wire.question import AS_WHOLE, JSON, Answer, Question, Terms, measure
 from core import Dance, InvalidValue
 from core.errors import Given, Parameter, TooLarge
 from core.motion.places import handle_places
@@ -30,16 +30,16 @@ from core.people.cues import FOLLOWED_MAX, REACH, REACH_MAX, bench_cues
 # Estimated time of the cues of a bench and of its card on paper [s], measured 2026-11-27.
 SECONDS_PER_BENCH, SECONDS_PER_CARD = 0.02, 0.05
 
+BenchNumber = Annotated[int, Field(ge=0), AS_WHOLE]
+
 
 class CuesRequest(Marked, strict=True):
     """A dance, as for /check, and the benches that get cards."""
 
-    first_bench: Whole | None = Field(
-        None,
-        ge=0,
-        description=f"First bench with a card, 0 for the head; at most {FOLLOWED_MAX} get one; null: the head",
+    first_bench: BenchNumber | None = Field(
+        None, description=f"First bench with a card, 0 for the head; at most {FOLLOWED_MAX} get one; null: the head"
     )
-    last_bench: Whole | None = Field(None, ge=0, description="Last bench with a card; null: the tail")
+    last_bench: BenchNumber | None = Field(None, description="Last bench with a card; null: the tail")
     reach: float = measure(
         "m", "Largest gap of a meeting: a bench that comes abreast further away is no cue", REACH, ge=0, le=REACH_MAX
     )
