@@ -71,7 +71,7 @@ def measure(page: Page, base: str, square: str) -> list[list[float]]:
     return times
 
 
-def told(times: list[float]) -> str:
+def quantiles(times: list[float]) -> str:
     p50, p90 = times[len(times) // 2], times[len(times) * 9 // 10]
     return f"p50 {p50:.0f} ms, p90 {p90:.0f} ms, most {times[-1]:.0f} ms"
 
@@ -86,7 +86,7 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=browser_path(), args=ARGUMENTS)
         for words, square in (("no square", ""), ("a square with three obstacles", SQUARE)):
             verdicts, service = measure(browser.new_page(viewport=WIDE), base, square)
-            print(f"{words}: {len(verdicts)} moves, {told(verdicts)}; service {told(service)}; {load()}")
+            print(f"{words}: {len(verdicts)} moves, {quantiles(verdicts)}; service {quantiles(service)}; {load()}")
         browser.close()
 
 

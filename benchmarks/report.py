@@ -71,7 +71,7 @@ def seconds(results: Results, name: str) -> float:
     return float(entry["stats"]["median"] * entry["extra_info"].get("scale", 1.0))
 
 
-def shown(time: float) -> str:
+def format_time(time: float) -> str:
     """A time in seconds or milliseconds, to three digits."""
     value, unit = (time * 1e3, "ms") if time < 1.0 else (time, "s")
     return f"{value:,.0f} {unit}" if value >= 100 else f"{value:.3g} {unit}"
@@ -82,10 +82,10 @@ def table(results: Results) -> list[str]:
     lines = ["| work | must | aim | measured | plain SciPy | ratio |", "|---|---|---|---|---|---|"]
     for label, name, baseline, must, aim in ROWS:
         time = seconds(results, name)
-        cells = [label, must, aim, shown(time), "", ""]
+        cells = [label, must, aim, format_time(time), "", ""]
         if baseline:
             ratio = seconds(results, baseline) / time
-            cells[4:] = [shown(seconds(results, baseline)), f"{ratio:,.0f}x" if ratio >= 10 else f"{ratio:.1f}x"]
+            cells[4:] = [format_time(seconds(results, baseline)), f"{ratio:,.0f}x" if ratio >= 10 else f"{ratio:.1f}x"]
         lines.append(f"| {' | '.join(cells)} |")
     return lines
 
@@ -95,7 +95,7 @@ def beside(label: str, cases: list[str], times: list[float], words: str, one: fl
     return [
         f"| {label} | {' | '.join(cases)} |",
         f"|---|{'---|' * len(cases)}",
-        f"| time | {' | '.join(map(shown, times))} |",
+        f"| time | {' | '.join(map(format_time, times))} |",
         f"| {words} | {' | '.join(f'{time / one:.2f}x' for time in times)} |",
     ]
 
@@ -119,7 +119,7 @@ def strays(results: Results) -> list[str]:
     for work in ("first contact", "minimum pitch"):
         name = f"{work.replace(' ', '_')}_within"
         margin, stray = (seconds(results, f"{name}[{kept}]") for kept in ("margin", "stray"))
-        lines.append(f"| {work} | 1.5x | {shown(margin)} | {shown(stray)} | {stray / margin:.2f}x |")
+        lines.append(f"| {work} | 1.5x | {format_time(margin)} | {format_time(stray)} | {stray / margin:.2f}x |")
     return lines
 
 

@@ -179,7 +179,7 @@ def test_the_service_has_as_many_processes_as_asked_or_as_cores(platform: str, q
     assert process_count(query, platform) == count
 
 
-def test_windows_is_told_that_it_has_one_process() -> None:
+def test_on_windows_several_processes_are_refused_with_the_reason() -> None:
     with pytest.raises(InvalidValue, match="--workers must be 1 on Windows, where the service is one process, got 4"):
         process_count(4, "win32")
 

@@ -99,7 +99,7 @@ def test_every_module_of_app_has_a_file_of_tests_and_one_alone() -> None:
     assert [module for module in modules if module in SHARED and (TESTS / "app" / own_file(module)).is_file()] == []
 
 
-def test_no_module_is_said_to_be_tested_that_is_not_there() -> None:
+def test_every_module_in_the_list_exists() -> None:
     assert set(SHARED) - set(modules_of("app")) == set()
     assert len(SHARED) == sum(len(modules.split()) for modules in TOGETHER.values())
 

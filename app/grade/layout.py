@@ -79,10 +79,12 @@ def wide_table(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | 
     named = {k: label.component for k, label in _head_labels(heads, aside).items()}
     if {X, Y} <= set(named.values()) and len(named) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
         return _contact(grid, cells, lines, _head_labels(heads, aside), turned)
-    return _over_time(grid, cells, lines, _times(heads, cells, aside), _says_speed(grid, heads, cells, turned), turned)
+    return _over_time(
+        grid, cells, lines, _times(heads, cells, aside), _names_speeds(grid, heads, cells, turned), turned
+    )
 
 
-def _says_speed(grid: Grid, heads: list[list[Cell]], cells: list[list[Cell]], turned: bool) -> bool:
+def _names_speeds(grid: Grid, heads: list[list[Cell]], cells: list[list[Cell]], turned: bool) -> bool:
     """True if the title of a sheet, or a text before its numbers, names speeds and no places."""
     above = [row[0] for row in cells[:MARGIN]] if turned else []
     texts = [grid.title, *(cell for row in heads for cell in row), *above]
@@ -156,12 +158,12 @@ def _over_time(
     cells: list[list[Cell]],
     lines: list[tuple[int, Label]],
     times: dict[int, float],
-    says_speed: bool,
+    names_speeds: bool,
     turned: bool,
 ) -> Table | None:
     """Positions or speeds of handles at instants. says_speed: whether a text beside the numbers names speeds"""
     components = {label.component for _, label in lines}
-    by_speed = SPEED in components or (X not in components and says_speed)
+    by_speed = SPEED in components or (X not in components and names_speeds)
     if not by_speed and X not in components:
         # Labels without an axis: two lines for each handle are x above y.
         twice = len(lines) > 1 and lines[0][1].handle == lines[1][1].handle

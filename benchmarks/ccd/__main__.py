@@ -23,8 +23,8 @@ DANCES = 10
 def run(folder: Path, seed: int, count: int, names: Iterable[str]) -> None:
     """Make a least number of queries, file by file, and have these engines answer them."""
     folder.mkdir(parents=True, exist_ok=True)
-    workers, found, number = {name: Worker(name) for name in names}, 0, 0
-    while found < count:
+    workers, done, number = {name: Worker(name) for name in names}, 0, 0
+    while done < count:
         path = folder / f"queries-{number:04}.npz"
         if not path.exists():
             made = {k: dance_queries(seed, k) for k in range(DANCES * number, DANCES * (number + 1))}
@@ -35,8 +35,8 @@ def run(folder: Path, seed: int, count: int, names: Iterable[str]) -> None:
             answered = answers_path(path, name)
             if not answered.exists():
                 save_answers(answered, worker.answered(path, here))
-        found, number = found + here, number + 1
-        print(f"{path}: {found} queries answered", flush=True)
+        done, number = done + here, number + 1
+        print(f"{path}: {done} queries answered", flush=True)
     for worker in workers.values():
         worker.stop()
 
@@ -67,24 +67,24 @@ def main() -> None:
     )
     parser.add_argument("--sample", action="store_true", help=f"also write {SAMPLED} of the queries to {SAMPLE.name}")
     parser.add_argument("--only-report", action="store_true", help="write the report from the answers so far")
-    asked = parser.parse_args()
-    folder = asked.folder / f"seed-{asked.seed}"
-    if not (asked.docs / PAGE).is_file():
-        parser.error(f"--docs must be a folder with {PAGE}, the page that gets the tables, got {asked.docs}")
-    if not asked.only_report:
+    options = parser.parse_args()
+    folder = options.folder / f"seed-{options.seed}"
+    if not (options.docs / PAGE).is_file():
+        parser.error(f"--docs must be a folder with {PAGE}, the page that gets the tables, got {options.docs}")
+    if not options.only_report:
         try:
-            run(folder, asked.seed, asked.queries, installed())
+            run(folder, options.seed, options.queries, installed())
         except KeyboardInterrupt:
             print(f"interrupted: the answers so far are in {folder}, and the same command continues", file=sys.stderr)
             sys.exit(130)
     results = collected(folder)
     if results is None:
-        parser.error(f"--folder has no answered queries of the seed {asked.seed}: {folder}")
-    if asked.sample:
+        parser.error(f"--folder has no answered queries of the seed {options.seed}: {folder}")
+    if options.sample:
         sample = results.sample(SAMPLED)
         save_shard(SAMPLE, sample)
         save_csv(SAMPLE.with_suffix(".csv"), sample)
-    print(report(results, asked.docs))
+    print(report(results, options.docs))
 
 
 if __name__ == "__main__":

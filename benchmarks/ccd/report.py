@@ -147,13 +147,13 @@ def table(results: Results, rows: NDArray[np.bool_]) -> list[str]:
             f"{found.missed:,}",
             f"{found.invented:,}",
             other,
-            *map(shown, (found.late, found.early, found.median)),
+            *map(format_error, (found.late, found.early, found.median)),
         )
         lines.append(f"| {' | '.join(cells)} | {times} | {found.evaluations:,.0f} |")
     return lines
 
 
-def shown(time: float) -> str:
+def format_error(time: float) -> str:
     """An error in two digits."""
     return f"{time:.1e}" if time else "0"
 

@@ -33,10 +33,10 @@ def installed(engines: Sequence[Engine] = ENGINES) -> Installed:
 
     Each is loaded in a process of its own first, as one that ends its process must not end the run.
     """
-    found = {}
+    versions = {}
     for engine in engines:
         try:
-            found[engine.name] = engine.version
+            versions[engine.name] = engine.version
         except PackageNotFoundError:
             print(f"{engine.name} is left out: the package {engine.package} is not installed", flush=True)
             continue
@@ -44,9 +44,9 @@ def installed(engines: Sequence[Engine] = ENGINES) -> Installed:
         process.start()
         process.join()
         if process.exitcode:
-            del found[engine.name]
+            del versions[engine.name]
             print(f"{engine.name} is left out: the package {engine.package} cannot be loaded", flush=True)
-    return found
+    return versions
 
 
 def answers(engine: Engine, shard: Shard, first: int = 0) -> Iterator[Row]:
@@ -116,17 +116,17 @@ class Worker:
     def answered(self, path: Path, count: int) -> list[Row]:
         """One row for each of the queries in the file of a shard."""
         rows: list[Row] = []
-        asked = False
+        sent = False
         if self.afresh:
             self.stop()
         while len(rows) < count:
             if self.process is None:
                 self.start()
-                asked = False
+                sent = False
             try:
-                if not asked:
+                if not sent:
                     self.connection.send((path, len(rows)))
-                asked = True
+                sent = True
                 if self.connection.poll(PATIENCE):
                     rows.append(self.connection.recv())
                     continue

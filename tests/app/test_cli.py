@@ -243,7 +243,7 @@ def test_too_much_work_is_refused_before_it_starts() -> None:
     assert "instants x handles must be at most 1000000 here, got 67200000224" in done.stderr
 
 
-def test_too_much_work_before_an_answer_is_said_and_gets_exit_code_2() -> None:
+def test_too_much_work_before_an_answer_is_reported_with_exit_code_2() -> None:
     done = run("minimum-pitch", "--body-length", "0.001", "--overhang", "0")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith(
@@ -275,7 +275,7 @@ def test_a_setting_that_cannot_be_is_one_line_that_names_it() -> None:
         ("LOG_JSON", "maybe", "must be true or false, got 'maybe'"),
     ],
 )
-def test_a_setting_outside_its_limits_is_told_the_limit(
+def test_the_refusal_of_a_setting_names_its_limit(
     name: str, setting: str, rule: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(f"BENCH_DRAGON_{name}", setting)

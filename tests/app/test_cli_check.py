@@ -219,7 +219,7 @@ def test_a_least_clearance_is_not_rounded_above_what_is_proven_and_a_fold_has_no
     assert re.search(r"highest speed +grows without bound +238\.214985 s +towards the fold", output)
 
 
-def test_benches_that_overlap_at_the_start_are_said_to(tmp_path: Path) -> None:
+def test_benches_that_overlap_at_the_start_are_claimed_to(tmp_path: Path) -> None:
     file = tmp_path / "dance.json"
     file.write_text('{"path": {"pitch": 0.3}}')
     assert re.search(

@@ -320,7 +320,7 @@ def test_any_tag_at_all_is_unchanged_and_what_is_refused_is_not(held: Service) -
     assert httpx.get(f"{held.url}/turn?pitch=99", headers=star).status_code == 422
 
 
-def test_a_broken_body_is_told_by_its_place(held: Service) -> None:
+def test_the_refusal_of_a_broken_body_names_the_place(held: Service) -> None:
     answer = httpx.post(f"{held.url}/turn", content='{"pitch', headers={"Content-Type": "application/json"})
     assert answer.json()["detail"].startswith("The body is not JSON: Unterminated string starting at character 1.")
 

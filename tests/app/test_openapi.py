@@ -42,7 +42,7 @@ def document(client: httpx.Client) -> Any:
     return client.get("/openapi.json").raise_for_status().json()
 
 
-def can_be_asked(call: str, mode: GenerationMode) -> bool:
+def is_tried(call: str, mode: GenerationMode) -> bool:
     """Every call with right values, but for scans, curves, samples, envelopes, proposals, kits and plans of arbitrary
     dragons and films of any size, which take up to ten seconds each; with wrong ones if it takes any."""
     method, path = call.split()
@@ -67,7 +67,7 @@ def is_a_spiral_that_does_not_say_so(body: Any) -> bool:
 
 @pytest.mark.parametrize(
     ("call", "mode"),
-    [(call, mode) for call in CALLS for mode in GenerationMode if can_be_asked(call, mode)],
+    [(call, mode) for call in CALLS for mode in GenerationMode if is_tried(call, mode)],
     ids=lambda part: part.value if isinstance(part, GenerationMode) else part,
 )
 def test_every_call_conforms_to_its_description(server: str, call: str, mode: GenerationMode) -> None:
@@ -78,7 +78,7 @@ def test_every_call_conforms_to_its_description(server: str, call: str, mode: Ge
     def conforms(case: Any) -> None:
         assume(not (mode.is_negative and is_a_spiral_that_does_not_say_so(case.body)))
         # Without a body the question is a right one, about the default dance.
-        if call in SLOW or (call.startswith("POST ") and not can_be_asked(call, GenerationMode.POSITIVE)):
+        if call in SLOW or (call.startswith("POST ") and not is_tried(call, GenerationMode.POSITIVE)):
             assume(case.body is not NOT_SET)
         has_play = isinstance(case.body, dict) and "hole" in case.body
         if call == "POST /minimum-pitch" and has_play and case.body.get("dragon", {}) == {}:
@@ -191,7 +191,7 @@ def test_json_stands_first_and_only_files_are_binary(document: Any) -> None:
     assert content["text/csv"]["schema"] == {"type": "string"}
 
 
-def test_paths_are_told_apart_by_their_kind(document: Any) -> None:
+def test_paths_are_distinguished_by_their_kind(document: Any) -> None:
     schemas = document["components"]["schemas"]
     for body in ("CheckRequest", "CollisionRequest", "TrajectoryRequest", "MaximumHeadSpeedRequest"):
         path, null = schemas[body]["properties"]["path"]["anyOf"]

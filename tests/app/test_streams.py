@@ -12,7 +12,7 @@ from tests.support.command import COMMAND, ENVIRONMENT, PATIENCE
 pytestmark = pytest.mark.uncompiled
 
 # Short answers of every kind: JSON, a table, help of the command and of one question, the version.
-ASKED = (
+COMMANDS = (
     "collision-time --benches 3 --json",
     "trajectory --benches 3 --times 0",
     "--help",
@@ -28,14 +28,14 @@ def shell(command: str, **environment: str) -> subprocess.CompletedProcess[bytes
     return subprocess.run(words, env=ENVIRONMENT | environment, capture_output=True, timeout=PATIENCE)
 
 
-@pytest.mark.parametrize("command", ASKED)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_a_full_disk_is_one_line(command: str) -> None:
     done = shell(f"{command} >/dev/full")
     assert done.stderr == b"Error: standard output: No space left on device\n"
     assert done.returncode == 2
 
 
-@pytest.mark.parametrize("command", ASKED)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_a_closed_standard_output_is_one_line(command: str) -> None:
     done = shell(f"{command} >&-")
     assert done.stderr == b"Error: standard output: it is closed\n"

@@ -236,11 +236,11 @@ def least_fault(dance, least, look, contact, accuracy=GAP):
         and least.distance == 0.0
         and least.at_least is not None
     ):
-        return f"{found_words(contact)}, but {least!r}"
+        return f"{undecided_words(contact)}, but {least!r}"
     return ""
 
 
-def found_words(contact):
+def undecided_words(contact):
     """An undecided first contact."""
     return f"undecided from {contact.time_bracket[0]} s on"
 

@@ -264,7 +264,7 @@ def test_ends_of_a_bracket_differ_in_a_table() -> None:
     assert f"{low:.15g}" != f"{high:.15g}"
 
 
-def test_a_long_route_is_told_by_its_pieces() -> None:
+def test_a_long_route_is_displayed_by_its_pieces() -> None:
     lines = [Line((float(k), 0.0), (k + 1.0, 0.0)) for k in range(40)]
     assert repr(Route(lines, start=2.5)) == "<Route: 40 pieces (Line, Line, Line, Line, ...), s from -2.5 to 37.5 m>"
 

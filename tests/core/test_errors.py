@@ -135,7 +135,7 @@ def test_a_range_may_be_open_at_zero() -> None:
         checked_number("turns", 0.0, "turns", 0.0, 1.0, open_low=True)
 
 
-def test_a_number_without_a_unit_is_told_without_one() -> None:
+def test_a_number_without_a_unit_is_displayed_without_one() -> None:
     with pytest.raises(InvalidValue, match=r"^ratio must be at most 3, got 4$"):
         checked_number("ratio", 4.0, "", 1.0, 3.0)
 

@@ -92,7 +92,7 @@ def test_each_part_is_what_its_own_search_says() -> None:
     assert report.sharpest_bend == sharpest_bend(dance, **span)
 
 
-def test_all_that_fails_is_told_in_order_of_time() -> None:
+def test_all_failures_are_listed_in_order_of_time() -> None:
     crowded = venue(box("square", -30, -30, 30, 30), box("post", -0.05, -0.05, 0.05, 0.05), box("van", 5, 5, 8, 8))
     report = check(Dance(Dragon(), TURN), venue=crowded, margin=0.3, speed_limit=1.5, start=-100.0, stop=100.0)
     assert not report.passed

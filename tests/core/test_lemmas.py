@@ -65,7 +65,7 @@ def test_angles_of_a_chord_lie_between_those_of_two_circles(seed: int) -> None:
         assert turned[0] >= turned[1] - SUMMED
 
 
-def test_points_of_two_rings_are_apart_as_said_wherever_they_stand_to_each_other() -> None:
+def test_points_of_two_rings_are_apart_by_the_bound_wherever_they_stand_to_each_other() -> None:
     """The radial gap G + growth x may be negative: core/kernels/rings.py."""
     rng = np.random.default_rng(7)
     count, negative = 400_000, 0

@@ -58,7 +58,7 @@ def long_line() -> Route:
 @pytest.mark.parametrize(
     ("path", "head"), [(Spiral(0.55, 200.0), 30.0), (long_line(), 2_050.0)], ids=["spiral", "line and arc"]
 )
-def test_two_thousand_benches_of_two_lengths_stand_where_they_are_said_to(path: Spiral | Route, head: float) -> None:
+def test_two_thousand_benches_of_two_lengths_stand_at_their_places(path: Spiral | Route, head: float) -> None:
     lengths = np.where(np.arange(2_000) % 3 == 0, 1.2, 0.9)
     dragon = Dragon.of(lengths, np.full(2_000, 0.2), np.full(2_000, 0.1))
     errors = Errors()
@@ -133,7 +133,7 @@ def graze() -> float:
 
 @pytest.mark.parametrize("head_speed", [1.0, 3.0, 0.37])
 @pytest.mark.parametrize("below", [2e-12, 1e-10, 1e-8, 1e-6, 1e-3])
-def test_both_ends_of_a_bracket_are_what_they_are_said_to_be(graze: float, below: float, head_speed: float) -> None:
+def test_both_ends_of_a_bracket_keep_their_promise(graze: float, below: float, head_speed: float) -> None:
     spiral = Spiral(graze - below)
     contact = first_contact(Dance(Dragon(60), spiral, head_speed))
     assert contact.outcome is Outcome.CONTACT
@@ -227,7 +227,7 @@ def exact_climbs(growth: float, theta: float | arb, chords: np.ndarray) -> tuple
 
 @pytest.mark.parametrize("beyond", [1e-7, 1e-5, 1e-3, 1e-1, 1.0])
 @pytest.mark.parametrize("seed", range(6))
-def test_rates_and_slopes_near_the_centre_are_good_to_what_is_said_of_them(seed: int, beyond: float) -> None:
+def test_rates_and_slopes_near_the_centre_are_within_their_bounds(seed: int, beyond: float) -> None:
     rng = np.random.default_rng(seed)
     dragon = Dragon.of(rng.uniform(1.0, 3.0, 9), np.full(9, 0.3), np.full(9, 0.1))
     spiral = Spiral(rng.uniform(0.5, 1.2), 4.0)

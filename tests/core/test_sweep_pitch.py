@@ -14,7 +14,7 @@ REFERENCE = 1e-9
 
 
 @pytest.mark.parametrize("seed", range(DRAGONS))
-def test_what_is_said_of_a_random_dragon_is_true_of_a_slow_scan(seed: int) -> None:
+def test_the_minimum_pitch_of_a_random_dragon_is_that_of_a_slow_scan(seed: int) -> None:
     assert fault(seed)[1] == ""
 
 

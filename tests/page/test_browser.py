@@ -89,7 +89,7 @@ def test_a_run_without_a_browser_says_once_what_it_leaves_out(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("processes", [[], ["-p", "xdist", "--numprocesses", "2"]], ids=["one process", "two"])
-def test_it_is_said_also_by_several_processes_and_continuous_integration_fails(
+def test_it_is_reported_also_by_several_processes_and_continuous_integration_fails(
     tmp_path: Path, processes: list[str]
 ) -> None:
     # Of modules that import little: every process of these runs imports them.
@@ -124,7 +124,7 @@ case "$*" in *"recommends chromium") {installed};; esac
     return done.stdout, done.stderr, log.read_text().splitlines() if log.exists() else []
 
 
-def test_nothing_is_got_and_nothing_said_where_all_is_there(tmp_path: Path) -> None:
+def test_nothing_is_installed_or_reported_where_all_is_there(tmp_path: Path) -> None:
     browser = program(tmp_path / "chromium", "Chromium 1")
     program(tmp_path / "fc-list", "Noto Sans CJK SC")
     assert got(tmp_path, user=0) == (f"{browser}\n", "", [])

@@ -18,7 +18,7 @@ from tests.support.pending import reached, settled
 
 PHONE = {"width": 390, "height": 844}
 TOUCH = {"viewport": PHONE, "has_touch": True, "is_mobile": True}
-SAID = 6_000  # [ms]: how long a message stays
+MESSAGE_TIME = 6_000  # [ms]: how long a message stays
 FINGER = 44  # [px]: the least height of what a finger should hit
 SMALL = """(least) => [...document.querySelectorAll("button, select, input, summary, nav a")]
   .filter((one) => one.checkVisibility() && !["checkbox", "file"].includes(one.type))
@@ -188,7 +188,7 @@ def test_a_hanging_service_is_noticed_the_next_try_counts_down_and_messages_go_a
     tries[-1].continue_()
     page.locator("#lost").wait_for(state="hidden")
     shows(page, "#status", "The service is back.")
-    page.clock.fast_forward(SAID)
+    page.clock.fast_forward(MESSAGE_TIME)
     page.locator("#status:empty").wait_for(state="attached")
 
 

@@ -250,9 +250,7 @@ def test_contact_at_the_start_has_its_picture_and_its_depth(visit: Any) -> None:
 
 
 @pytest.mark.parametrize("margin", [0, 0.2])
-def test_benches_that_overlap_are_said_to_overlap_by_what_the_service_answers(
-    visit: Any, server: str, margin: float
-) -> None:
+def test_overlapping_benches_of_any_answer_are_reported_as_overlapping(visit: Any, server: str, margin: float) -> None:
     answer = collision_time(server, benches=40, pitch=0.3, margin=margin)
     depth = f"{-1000 * answer['gap']:.3f} mm"
     page = visit(f"?benches=40&pitch=0.3&margin={margin}")

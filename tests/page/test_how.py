@@ -74,7 +74,7 @@ def test_dragged_numbers_get_the_answers_of_the_service(figures: Any, server: st
     figures.check()
 
 
-def test_keys_move_the_numbers_and_a_refusal_is_said_in_the_figure(open_page: Any, server: str) -> None:
+def test_keys_move_the_numbers_and_a_refusal_stands_in_the_figure(open_page: Any, server: str) -> None:
     page = drawn(open_page("how?lang=en", failing=True))
     dial(page, "staircase", "Pitch of the spiral").press("ArrowUp")
     contact = answer_of(server, "collision-time", path={"kind": "spiral", "pitch": 0.4504})
@@ -131,7 +131,7 @@ def test_a_wide_screen_has_one_column_too(figures: Any) -> None:
     assert len(set(parts.evaluate_all("all => all.map((one) => one.getBoundingClientRect().left)"))) == 1
 
 
-def test_a_lost_service_is_said_in_the_figure_that_waits_for_it(figures: Any) -> None:
+def test_a_lost_service_is_reported_in_the_figure_that_waits_for_it(figures: Any) -> None:
     page, figures.failing = figures.page, True
     page.route("**/*", lambda route: route.abort())
     dial(page, "chord", "Chord of the head bench").press("ArrowUp")

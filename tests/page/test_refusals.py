@@ -224,7 +224,7 @@ def _is_in(part: str, text: str) -> bool:
     return all(word in text for word in words) and sum(pair not in text for pair in pairs) <= 3
 
 
-def test_every_proof_is_told_in_chinese_as_the_library_does(visit: Any) -> None:
+def test_every_proof_has_the_chinese_words_of_the_library(visit: Any) -> None:
     claims = {name: claim for name, claim in CLAIMS.items() if isinstance(claim, (ContactClaim, StrayClaim))}
     values = [
         getattr(wire, type(claim).__name__).model_validate(claim).model_dump(mode="json") for claim in claims.values()
@@ -233,7 +233,7 @@ def test_every_proof_is_told_in_chinese_as_the_library_does(visit: Any) -> None:
     assert dict(zip(claims, proofs, strict=True)) == {name: SENTENCES[name][1] for name in claims}
 
 
-def test_every_proof_of_the_service_is_told_in_chinese(visit: Any, server: str) -> None:
+def test_every_proof_of_the_service_has_chinese_words(visit: Any, server: str) -> None:
     paths = [{"kind": "waypoints", "points": POINTS, "start": 20}, {"kind": "turn", "pitch": 1.7}, {"kind": "spiral"}]
     few = [{"speed": 0.5, "until_s": 5}, {"speed": 0, "until_time": 60}, {"speed": 2, "until_time": 61}]
     many = [{"speed": 1, "until_time": 1 + 0.1 * k} for k in range(30)]

@@ -31,7 +31,7 @@ LOOP, LOOP_MS = (
 )
 
 
-def test_a_lost_service_is_said_the_page_recovers_by_itself_and_a_file_that_takes_long_becomes_a_job(
+def test_a_lost_service_is_reported_the_page_recovers_by_itself_and_a_file_that_takes_long_becomes_a_job(
     open_page: Any, picture: Any, alike: Any, server: str, tmp_path: Path
 ) -> None:
     """Two patient services, one after the other; then one that ends every longer computation at once."""
@@ -265,7 +265,7 @@ def test_old_answers_turn_pale_while_new_ones_are_computed(visit: Any, server: s
     assert {place: opacity(page, place) for place in OLD} == dict.fromkeys(OLD, 1.0)
 
 
-def test_a_service_that_fails_is_told_in_its_own_words(visit: Any) -> None:
+def test_a_failure_of_the_service_is_reported_in_its_own_words(visit: Any) -> None:
     page = visit(f"{SHORT}&pitch=0.5", failing=True)
     problem = '{"title": "Internal Server Error", "status": 500, "detail": "The service failed here.", "errors": []}'
     page.route("**/collision-time*", lambda route: route.fulfill(status=500, body=problem))

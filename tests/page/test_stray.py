@@ -69,7 +69,7 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
     assert polite.get(get[1]).json() == contact
 
 
-def test_a_margin_and_a_stray_are_said_together_and_play_counts(visit: Any, server: str) -> None:
+def test_a_margin_and_a_stray_stand_in_one_sentence_and_play_counts(visit: Any, server: str) -> None:
     page = visit("?benches=12&margin=0.03&stray=0.02&hole=0.055&pin=0.045")
     query = {"benches": 12, "margin": 0.03, "stray": 0.025}
     time = f"{answer_of(server, 'collision-time', **query)['time']:.6f} s"

@@ -111,7 +111,7 @@ def test_one_event_has_one_time_and_speeds_before_a_fold_are_marked(visit: Any) 
     assert "∞" in page.locator("#legend").inner_text()  # the colours are those of the whole dance
 
 
-def test_benches_that_are_too_near_at_the_start_are_not_said_to_be_clear_before(visit: Any) -> None:
+def test_of_benches_too_near_at_the_start_no_clear_time_is_claimed(visit: Any) -> None:
     page = visit("?benches=60&margin=0.2")
     page.locator("#first-contact[data-outcome=contact_at_start]").wait_for()
     page.locator("#first-contact summary").click()

@@ -85,7 +85,7 @@ def test_a_sweep_that_is_begun_again_keeps_its_progress_and_another_job_begins_a
         assert store.known(job).progress == progress
 
 
-def test_a_result_stands_when_its_state_could_not_be_written_and_is_said_again(store: Store) -> None:
+def test_a_result_is_kept_and_reported_again_when_its_state_could_not_be_written(store: Store) -> None:
     job = make(store)
     store.take()
     file = written(store, b"answer")

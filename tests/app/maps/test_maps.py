@@ -223,7 +223,7 @@ def test_a_drawing_without_a_unit_is_in_metres_or_refused_where_it_cannot_be(ver
             read(sink.getvalue().encode())
 
 
-def test_the_unit_is_told_by_the_range_or_by_who_asks() -> None:
+def test_the_unit_follows_from_the_range_or_from_the_request() -> None:
     small = {"type": "Polygon", "coordinates": [[[10.0, 20.0], [10.1, 20.0], [10.1, 20.1], [10.0, 20.0]]]}
     data = json.dumps(small).encode()
     assert np.ptp(rings(read(data))[0], axis=0) == pytest.approx([10_450, 11_070], rel=2e-3)

@@ -30,7 +30,9 @@ def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(server: st
 
 @pytest.mark.parametrize("path", FILES)
 @pytest.mark.parametrize("form", [UNPACKED, PACKED], ids=["plain", "gzip"])
-def test_who_has_a_file_is_told_so(server: str, path: str, form: dict[str, str]) -> None:
+def test_a_client_with_the_current_file_gets_304_without_its_content(
+    server: str, path: str, form: dict[str, str]
+) -> None:
     tag = httpx.get(server + path, headers=form).headers["ETag"]
     again = httpx.get(server + path, headers={**form, "If-None-Match": tag})
     assert (again.status_code, again.content, again.headers["ETag"]) == (304, b"", tag)
@@ -71,8 +73,8 @@ def test_browsers_keep_the_files_of_a_page_until_one_changes(server: str, path: 
     for address in addresses:
         kept = httpx.get(f"{server}/{address}").raise_for_status()
         assert kept.headers["Cache-Control"] == "public, max-age=31536000, immutable"
-        asked_again = httpx.get(f"{server}/page/{address.partition('/')[2]}")
-        assert (asked_again.content, asked_again.headers["Cache-Control"]) == (kept.content, "no-cache")
+        second = httpx.get(f"{server}/page/{address.partition('/')[2]}")
+        assert (second.content, second.headers["Cache-Control"]) == (kept.content, "no-cache")
         # A page that was open before a new version came.
         older = httpx.get(f"{server}/page-0123456789abcdef/{address.partition('/')[2]}")
         assert (older.content, older.headers["Cache-Control"]) == (kept.content, "no-cache")

@@ -73,7 +73,7 @@ def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], 
     assert isinstance(answers[0][spec.asks.shown], float)
 
 
-def test_what_core_refuses_is_said_in_the_words_of_the_spec() -> None:
+def test_a_refusal_of_core_uses_the_names_of_the_spec() -> None:
     spec = Spec.of({"question": "least_clearance", "over": {"benches": [2]}})
     [row] = rows(ShardPiece.whole(spec, spec.asks, 0))
     assert row["error.message"] == "benches must be at least 3, so that two share no handle, got 2"

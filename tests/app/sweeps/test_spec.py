@@ -121,7 +121,7 @@ def test_a_bad_value_of_a_parameter_that_varies_is_a_row_and_no_error_here() -> 
 
 
 @pytest.mark.parametrize(("name", "text"), [("a.toml", "over = ["), ("a.json", "{")])
-def test_what_is_no_toml_or_json_is_said_so(name: str, text: str, tmp_path: Path) -> None:
+def test_text_that_is_not_toml_or_json_is_refused(name: str, text: str, tmp_path: Path) -> None:
     (tmp_path / name).write_text(text)
     with pytest.raises(BenchDragonError, match=f"is not {name[2:].upper()}"):
         Spec.read(tmp_path / name)

@@ -19,7 +19,7 @@ from app.wire.problem import BYTES_MAX
 from app.wire.question import Wire, unit_of
 
 
-def told(answer: httpx.Response) -> list[tuple[str, str, str]]:
+def refusals(answer: httpx.Response) -> list[tuple[str, str, str]]:
     """Kind of the place, place and sentence of each error."""
     places = (("name" if "name" in one else "pointer", one) for one in answer.json()["errors"])
     return [(place, one[place], one["detail"]) for place, one in places]
@@ -37,10 +37,12 @@ def told(answer: httpx.Response) -> list[tuple[str, str, str]]:
         ("collision-time?start=1", "start", "leave it out"),
     ],
 )
-def test_a_query_is_told_of_names_of_its_own_call(client: httpx.Client, call: str, name: str, words: str) -> None:
+def test_an_unknown_name_in_a_query_gets_advice_from_its_own_call(
+    client: httpx.Client, call: str, name: str, words: str
+) -> None:
     answer = client.get(f"/{call}")
     assert answer.status_code == 422
-    assert told(answer) == [("name", name, f'"{name}" is unknown here: {words}')]
+    assert refusals(answer) == [("name", name, f'"{name}" is unknown here: {words}')]
 
 
 @pytest.mark.parametrize(
@@ -63,12 +65,12 @@ def test_a_query_is_told_of_names_of_its_own_call(client: httpx.Client, call: st
          "/benches/0/hedding", "did you mean heading?"),
     ],
 )  # fmt: skip
-def test_a_body_is_told_of_names_of_its_own_place(
+def test_an_unknown_name_in_a_body_gets_advice_from_its_own_place(
     client: httpx.Client, call: str, body: dict[str, Any], pointer: str, words: str
 ) -> None:
     answer = client.post(f"/{call}", json=body)
     assert answer.status_code == 422
-    assert told(answer) == [("pointer", pointer, f'"{pointer.split("/")[-1]}" is unknown here: {words}')]
+    assert refusals(answer) == [("pointer", pointer, f'"{pointer.split("/")[-1]}" is unknown here: {words}')]
 
 
 @pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity"])
@@ -77,7 +79,7 @@ def test_a_number_that_is_not_finite_is_shown_as_it_was_written(client: httpx.Cl
     answer = client.post("/trajectory", content=body, headers=headers)
     assert answer.status_code == 422
     detail = f"pitch must be a finite number [m], got {number}"
-    assert told(answer) == [("pointer", "/path/pitch", detail)]
+    assert refusals(answer) == [("pointer", "/path/pitch", detail)]
 
 
 @pytest.mark.parametrize(
@@ -89,12 +91,12 @@ def test_a_number_that_is_not_finite_is_shown_as_it_was_written(client: httpx.Cl
         ("pitch", "55in", '[m], got "55in"'),
     ],
 )
-def test_a_length_written_in_centimetres_is_told_in_metres(
+def test_the_refusal_of_a_length_in_centimetres_names_it_in_metres(
     client: httpx.Client, name: str, text: str, words: str
 ) -> None:
     answer = client.get("/collision-time", params={name: text})
     assert answer.status_code == 422
-    assert told(answer) == [("name", name, f"{name} must be a number {words}")]
+    assert refusals(answer) == [("name", name, f"{name} must be a number {words}")]
 
 
 def test_a_refusal_has_the_parts_of_its_sentence_with_numbers_and_units(client: httpx.Client) -> None:
@@ -158,7 +160,7 @@ def test_a_problem_stays_short_whatever_its_values_hold(client: httpx.Client, te
     assert answer.json()["errors"]
 
 
-def test_a_number_of_many_digits_is_told_by_its_value(client: httpx.Client) -> None:
+def test_a_number_of_many_digits_is_reported_by_its_value(client: httpx.Client) -> None:
     problem = client.get("/collision-time", params={"pitch": f"{'0' * 3000}55"}).json()
     assert problem["detail"] == "pitch must be at most 10 m, got 55 m: lengths are in metres, and 55 cm is 0.55 m"
     assert problem["got"] == {"text": "55 m", "value": 55.0, "unit": "m"}

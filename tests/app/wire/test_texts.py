@@ -39,7 +39,7 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
         (toml_of, b"a = '\xff'", "is not text in UTF-8: byte 0xff at position 5"),
     ],
 )
-def test_what_cannot_be_read_is_told_by_its_fault(read: Callable[[bytes], Any], data: bytes, words: str) -> None:
+def test_an_unreadable_text_is_refused_with_its_fault(read: Callable[[bytes], Any], data: bytes, words: str) -> None:
     with pytest.raises(Unreadable) as refused:
         read(data)
     assert str(refused.value) == f"the text {words}"

@@ -84,7 +84,7 @@ def test_a_claim_says_what_is_seen_at_the_start_and_what_is_not_decided() -> Non
     assert f"{never} {met}" in undecided.certificate.method
 
 
-def test_nothing_is_said_to_be_clear_where_benches_touch_at_the_start_or_nothing_is_decided() -> None:
+def test_no_clear_time_is_claimed_where_benches_touch_at_the_start_or_nothing_is_decided() -> None:
     dragon, spiral = Dragon(), Spiral()
     at_start = first_contact(Dance(dragon, spiral), margin=0.2)
     assert (at_start.outcome, at_start.certificate.clear_until) == (Outcome.CONTACT_AT_START, None)

@@ -53,7 +53,7 @@ def test_the_least_clearance_is_below_dense_samples_and_proven(
 
 
 @pytest.mark.parametrize(("pitch", "depth"), [(0.3, 0.1), (0.5, 0.0)])
-def test_nothing_is_said_to_be_at_least_zero_where_benches_overlap_at_the_start(pitch: float, depth: float) -> None:
+def test_no_least_clearance_is_claimed_where_benches_overlap_at_the_start(pitch: float, depth: float) -> None:
     dance = Dance(Dragon(), Spiral(pitch))
     least, there = least_clearance(dance), clearance_profile(dance, [0.0])
     assert least is not None

@@ -40,7 +40,7 @@ def poses_on(coil: Spiral, turned: float, count: int, radius: float) -> np.ndarr
     ("pitch", "chord", "overhang"),
     [(0.6, 1.65, 0.275), (3.0, 0.5, 0.2), (6.0, 0.5, 0.2), (9.0, 0.5, 0.24), (12.0, 0.5, 0.2), (9.9, 0.3, 0.14)],
 )
-def test_benches_said_to_stand_wholly_outside_a_radius_do(
+def test_benches_claimed_wholly_outside_a_radius_are_outside(
     pitch: float, chord: float, overhang: float, radius: float
 ) -> None:
     dragon = Dragon(4, chord + 2.0 * overhang, chord + 2.0 * overhang, 0.05, overhang)
@@ -56,9 +56,7 @@ def test_benches_said_to_stand_wholly_outside_a_radius_do(
 # A short head lies between no two benches, so its chord of 0.451 m does not weaken the bound.
 @pytest.mark.parametrize("head_length", [2.2, 1.001])
 @pytest.mark.parametrize("pitch", [0.9, 1.2, 1.7, 3.0])
-def test_two_coils_are_apart_by_more_than_the_margin_where_they_are_said_to_be(
-    pitch: float, head_length: float
-) -> None:
+def test_two_coils_claimed_apart_are_apart_by_more_than_the_margin(pitch: float, head_length: float) -> None:
     danced, dragon = Turn(pitch), Dragon(benches=60, head_length=head_length)
     radii = []
     # along a coil, with one between them, two benches are known to be 0.6 m apart

@@ -255,7 +255,7 @@ def test_a_dragon_inside_the_square_is_not_misplaced() -> None:
     assert venue_clearance(Dance(DRAGON, LAP), VENUE).misplaced is None
 
 
-def test_a_dragon_wholly_outside_is_told_though_it_touches_nothing() -> None:
+def test_a_dragon_wholly_outside_fails_though_it_touches_nothing() -> None:
     far = Venue(boxed("square", 100, 100, 120, 120))
     result = venue_clearance(Dance(DRAGON, LAP), far)
     assert result.misplaced is not None

@@ -190,7 +190,7 @@ def test_benches_far_across_the_circle_are_proven_by_bands_too() -> None:
     assert not is_feasible(Dragon(20), result.pitch - BESIDE, 1.5, 12.0, 0.0)
 
 
-def test_where_a_handle_turns_back_a_scan_is_said_with_its_step_and_where_the_proof_begins() -> None:
+def test_where_a_handle_turns_back_the_claim_names_the_step_of_the_scan_and_the_begin_of_the_proof() -> None:
     result = minimum_pitch(FOLDING, turning_radius=0.85, start_turns=5.0)
     assert (result.justified_by, result.proven_up_to) == ("scan", None)
     assert result.scan_step is not None
@@ -409,7 +409,7 @@ def test_just_above_the_infeasible_end_of_a_bracket_a_pitch_is_feasible() -> Non
 
 
 @pytest.mark.parametrize("seed", some([27, 62], 1))
-def test_a_contact_on_the_circle_of_a_wide_spiral_is_said_to_be_there(seed: int) -> None:
+def test_a_contact_on_the_circle_of_a_wide_spiral_is_claimed_there(seed: int) -> None:
     """Rounding hides a contact 1e-11 m of pitch below the border; the pair approaches on the whole way."""
     dragon, radius, turns, margin = random_case(seed)
     result = minimum_pitch(dragon, turning_radius=radius, start_turns=turns, margin=margin)

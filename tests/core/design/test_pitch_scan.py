@@ -105,7 +105,7 @@ def test_radii_are_those_of_first_contact_also_beside_jumps() -> None:
         pytest.param(Dragon(benches=40, head_length=0.9, overhang=0.1), 0.5, 0.0, id="a short head"),
     ],
 )
-def test_a_run_to_a_fold_is_told_from_a_contact_as_by_first_contact(
+def test_a_run_to_a_fold_and_a_contact_are_distinguished_as_by_first_contact(
     dragon: Dragon, pitch: float, margin: float
 ) -> None:
     head = first_contact(Dance(dragon, Spiral(pitch)), margin=margin).head

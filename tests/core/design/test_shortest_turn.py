@@ -32,7 +32,7 @@ from tests.support.depth import DEEP, some
 
 PITCH, RADIUS = 1.7, 4.5
 # Lengths that others found with free entry and exit on grids of 2 mm, and bounds by hand: ratio, length [m].
-FOUND = {2.0: 11.8105, 1.5: 9.4153, 1.2: 8.6309, 1.0: 8.2271, 0.8: 8.7917}
+SHORTEST = {2.0: 11.8105, 1.5: 9.4153, 1.2: 8.6309, 1.0: 8.2271, 0.8: 8.7917}
 # By how much a grid of 2 mm may miss the shortest one [m]: its length changes by up to 7 m for each metre.
 GRID_EXCESS = 0.06
 LEAST = 1.43 / 0.999  # [m], the bend that the contest's head can follow
@@ -104,7 +104,7 @@ def compared(low: float, turns: Iterable[tuple[float, float, float]]) -> tuple[i
     return shorter, longer
 
 
-@pytest.mark.parametrize("ratio", some(list(FOUND), 2))
+@pytest.mark.parametrize("ratio", some(list(SHORTEST), 2))
 def test_no_turn_on_a_slow_grid_is_shorter_than_the_bracket(ratio: float) -> None:
     """Every shorter turn on the grid has a contact; the grid is searched with lines, arcs and root finding alone."""
     low, high = answer(ratio).length_bracket
@@ -115,10 +115,10 @@ def test_no_turn_on_a_slow_grid_is_shorter_than_the_bracket(ratio: float) -> Non
     assert shorter or ratio > 1.3
 
 
-@pytest.mark.parametrize("ratio", some(list(FOUND), 2))
+@pytest.mark.parametrize("ratio", some(list(SHORTEST), 2))
 def test_the_shortest_turn_is_danced_by_all_benches_and_shorter_than_any_that_was_found(ratio: float) -> None:
     result = answer(ratio)
-    assert FOUND[ratio] - GRID_EXCESS < result.turn.length < FOUND[ratio]
+    assert SHORTEST[ratio] - GRID_EXCESS < result.turn.length < SHORTEST[ratio]
     assert result.turn.length == result.length_bracket[1]
     again = slow_turn(ratio, result.turn.entry_radius, result.turn.exit_radius)
     assert again is not None
@@ -223,7 +223,7 @@ def test_no_turn_of_any_ratio_is_shorter_than_the_bracket_over_all_ratios() -> N
     shorter, longer = compared(low, ((ratio, *rng.uniform(1.6, RADIUS, 2).tolist()) for ratio in ratios.tolist()))
     assert longer
     assert shorter or not DEEP
-    assert all(answer(ratio).turn.length > low for ratio in some(list(FOUND), 2))
+    assert all(answer(ratio).turn.length > low for ratio in some(list(SHORTEST), 2))
     assert first_contact(Dance(Dragon(), result.turn), start=-100.0, stop=500.0).outcome is Outcome.CLEAR
 
 

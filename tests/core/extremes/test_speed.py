@@ -182,7 +182,7 @@ def test_the_work_of_a_search_is_bounded_and_its_bracket_true(seed: int) -> None
     assert seen <= speed * (1.0 + UNSEEN)
 
 
-def test_a_proof_that_takes_too_long_is_given_up_and_said_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_proof_that_takes_too_long_is_given_up_with_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(core.extremes.speed, "LINKS_BUDGET", 20)
     span = {"start": -20.0, "stop": 40.0}
     result = maximum_head_speed(Dance(Dragon(), TURN), SPEED["speed_limit"], **span)

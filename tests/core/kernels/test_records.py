@@ -23,7 +23,7 @@ def test_records_are_the_same_for_the_compiler() -> None:
     assert structs == {name: record._fields for name, record in vars(records).items() if hasattr(record, "_fields")}
 
 
-def test_counts_and_numbers_are_told_apart_as_the_compiler_tells_them() -> None:
+def test_counts_and_numbers_are_distinguished_as_by_the_compiler() -> None:
     counts = set(", ".join(re.findall(r"Py_ssize_t (.+)", DECLARED)).split(", "))
     annotated = {
         field

@@ -34,7 +34,7 @@ def test_handles_are_at_their_places_on_the_path(dance: Dance) -> None:
     assert np.abs(result - trajectory(dance, times).position).max() < PLACE_ROUNDING
 
 
-def test_a_handle_is_where_it_is_said_to_pass_and_waits_through_a_pause() -> None:
+def test_a_handle_passes_its_place_at_the_answered_time_and_waits_through_a_pause() -> None:
     dance = Dance(Dragon(20), Turn(1.7, 4.5), 2.0, [Passage(1.0, until_s=5.0), Passage(0.0, until_time=20.0)])
     passing = Passing(dance, 0.0, 40.0)
     for handle, s in ((0, 3.0), (0, 30.0), (7, 0.0), (20, -20.0)):

@@ -38,7 +38,7 @@ def test_dragons_that_slide_along_each_other_are_undecided() -> None:
     assert met.certificate.claim.clear_until == met.time_bracket[0]
 
 
-def test_the_proof_is_told_in_both_languages() -> None:
+def test_the_proof_has_words_in_both_languages() -> None:
     certificate = first_encounter(lanes(0.36)).certificate
     assert "from 7.8100000" in certificate.method
     assert "no benches of two dragons touch; there the last path ends." in certificate.method

@@ -68,7 +68,7 @@ def test_no_chain_within_the_assumption_leaves_its_first_order_by_more_than_the_
     assert beyond.max() > 1.0  # others do leave it
 
 
-def test_nothing_is_said_of_steep_turns() -> None:
+def test_nothing_is_claimed_of_steep_turns() -> None:
     laid = chains(Wobble(0.1, 0.1))[0]
     assert left_out(DANCE.dragon, laid, 8.0) is None
     assert union_bound(DANCE, Wobble(0.1, 0.1), TIMES, Budget()) == 1.0
