@@ -27,8 +27,8 @@ DECIMALS_MOST = 12
 DECIMALS_OF_CONTEST, FLAT = 6, 2e-6
 # Error of a student's own arithmetic, in addition to the rounding of the written decimals [m, m/s].
 ARITHMETIC = 2e-6
-# Typical factors of numbers in centimetres and millimetres; the shares of the numbers, by size, that must have them;
-# and how much their factors may differ.
+# Ranges of the ratio to the right numbers of numbers in centimetres and millimetres; quantiles of their sizes at which
+# the ratio is taken; and the largest quotient of two of these ratios.
 SCALES = {1e-2: (50.0, 200.0), 1e-3: (500.0, 2000.0)}
 SPREAD, STEADY = (0.1, 0.25, 0.5, 0.75, 0.9), 1.25
 # Distance within which a number counts for a handle, when labels are compared with the order [m, m/s].
@@ -187,7 +187,7 @@ def judged(table: Table, workbook: Workbook, decimals_beside: int = 0) -> Judged
 
 
 def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:
-    """Decimals that numbers which are all equal stand for, where the right ones differ; -1 for numbers that differ.
+    """Decimals to count for numbers that are all equal although the right ones differ; -1 for numbers that differ.
 
     Equal numbers show no decimals of their own, so they count with those of the file, or with those that the contest
     asks for: all speeds 1 are right to two decimals by chance.
@@ -200,7 +200,7 @@ def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:
 
 
 def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
-    """Factor from the numbers to metres; sizes in one steady ratio to the right ones show centimetres and millimetres.
+    """Factor from the numbers to metres; numbers in a steady ratio to the right ones are in centimetres or millimetres.
 
     Angles of some hundred radians or degrees are as large as centimetres, but not spread alike.
     """

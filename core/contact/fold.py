@@ -200,7 +200,10 @@ def moved_until(search: ContactSearch, theta: float) -> tuple[Floats, Floats]:
 
 
 def _deltas(growth: float, low: float, high: float, chord: float) -> tuple[float, float]:
-    """delta of a follower whose leader is at high, and of one whose leader is at low [rad]; at a fold, that of it."""
+    """delta of a follower whose leader is at high, and of one whose leader is at low [rad].
+
+    Beyond a fold it is that of the fold.
+    """
     chord2 = (chord / growth) ** 2
     inner, outer = (float(kernels.first_root(theta, chord2)) for theta in (high, low))
     if NO_ROOT in (inner, outer):

@@ -46,9 +46,10 @@ def prove_collision_time(
     """A certificate that nothing touches in [0, time - 1e-10], and that a pair strictly overlaps at time + 1e-10 [s].
 
     margin: [m]; if positive, nothing comes within it until then, and a pair is strictly nearer after
-    every_pair: prove each pair of the chain by itself, without 6.: slower by the number of benches
+    every_pair: prove each pair of the chain by itself, without step 6 of core/proof/__init__.py; this is slower by the
+        number of benches
     progress: called with the fraction done, 0 to 1
-    returns: a dictionary that json can write and verify() verifies again
+    returns: a dictionary that json can write and verify() can check
     raises: ProofRefused if the claim is wrong, or too close to wrong for the balls to decide
     """
     path = _steady(dance).path.spiral
@@ -164,10 +165,10 @@ def _proven(
         claim.verify_overlap(overlap)
         repeats_from = max(0, chain.count - 3) if every_pair else chain.repeats_from
 
-        def going_on(share: float) -> None:
+        def report_sweeps(share: float) -> None:
             report(1.0 - (1.0 - claim.search_share) * (1.0 - share))
 
-        sweeps = proven_sweeps(chain, *claim.way, repeats_from, searched_stretches(chain), going_on, claim.follows)
+        sweeps = proven_sweeps(chain, *claim.way, repeats_from, searched_stretches(chain), report_sweeps, claim.follows)
     certificate = {
         "format": FORMAT,
         "versions": {"python-flint": __version__, "flint": __FLINT_VERSION__},
@@ -182,7 +183,7 @@ def _proven(
 
 
 def _values(claim: AnyClaim) -> dict[str, Any]:
-    """The members of a claim; a margin, or a stray shown, only if there is one."""
+    """The members of a claim; a margin, and the stray of an exhibited pose, only if there is one."""
     values = {field.name: getattr(claim, field.name) for field in fields(claim) if field.name != "dragon"}
     return {name: value for name, value in values.items() if value or name not in ("margin", "shown")}
 

@@ -1,4 +1,4 @@
-"""Routes in balls: lines, arcs and coils joined exactly, and the dragon at one exact place of them."""
+"""Routes in balls: lines, arcs and coils joined exactly, and the dragon on them with its head at one exact place."""
 
 from __future__ import annotations
 

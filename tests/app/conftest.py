@@ -20,7 +20,7 @@ ANSWER_TIMEOUT = 120.0  # [s]; no test waits this long for an answer that is com
 
 @pytest.fixture(scope="session")
 def client(server: str) -> Iterator[httpx.Client]:
-    """Keeps its connections to the real server open."""
+    """A client of the real server, which keeps its connections open."""
     with httpx.Client(base_url=server, timeout=ANSWER_TIMEOUT) as client:
         yield client
 

@@ -81,7 +81,7 @@ def test_a_wrong_claim_is_refused_and_leaves_no_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("time", [(), ("--time", "1e-11")], ids=["found", "claimed"])
+@pytest.mark.parametrize("time", [(), ("--time", "1e-11")], ids=["searched", "stated"])
 def test_a_contact_at_the_start_claims_no_time_before(tmp_path: Path, time: tuple[str, ...]) -> None:
     path = tmp_path / "start.json"
     done = run("collision-time", "--margin", "0.2", *time, "--output", str(path))

@@ -68,7 +68,7 @@ def test_angles_of_a_chord_lie_between_those_of_two_circles(seed: int) -> None:
 def test_points_of_two_rings_are_apart_by_the_bound_wherever_they_stand_to_each_other() -> None:
     """The radial gap G + growth x may be negative: core/kernels/rings.py."""
     rng = np.random.default_rng(7)
-    count, negative = 400_000, 0
+    count = 400_000
     growth, rho = 10 ** rng.uniform(-2.0, 1.0, count), 10 ** rng.uniform(-1.0, 1.5, count)
     gap = 2.0 * math.pi * growth * rng.uniform(0.0, 1.0, count)
     x = rng.uniform(-math.pi, math.pi, count)
@@ -76,7 +76,7 @@ def test_points_of_two_rings_are_apart_by_the_bound_wherever_they_stand_to_each_
     negative = int((radial < 0.0).sum())
     inner = rho * (1.0 + rng.exponential(0.3, count) * rng.integers(0, 2, count))
     between = radial + rng.exponential(0.3, count) * rng.integers(0, 2, count) * rho
-    outer = np.maximum(inner + between, rho)  # where the bound says nothing of the radii, only that both reach rho
+    outer = np.maximum(inner + between, rho)  # the bound assumes of the radii only that both reach rho
     distance = np.sqrt((outer - inner) ** 2 + 4.0 * outer * inner * np.sin(0.5 * x) ** 2)
     least = gap / np.sqrt(1.0 + (0.5 * math.pi * growth / rho) ** 2)
     assert negative > count // 20
@@ -116,5 +116,5 @@ def test_ten_thousand_benches_through_the_turn_are_decided_as_two_hundred_are() 
     assert many.end == few.end
     assert many.certificate.steps == few.certificate.steps
     touching = [first_contact(Dance(Dragon(benches), Turn(1.0))) for benches in (223, 10_000)]
-    # the same steps but for what their travels may be off by, which grows with the dragon's length
+    # The steps are the same but for the rounding of travels, which grows with the length of the dragon.
     assert touching[0].time == pytest.approx(touching[1].time, rel=0, abs=BRACKET)

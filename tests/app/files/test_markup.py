@@ -58,6 +58,6 @@ def test_an_unusual_encoding_is_named(coding: str) -> None:
         texts(f"<?xml version='1.0' encoding='{coding}'?><a/>".encode())
 
 
-def test_bytes_that_are_no_text_in_their_encoding_are_reported() -> None:
+def test_bytes_that_are_not_text_in_their_encoding_are_reported() -> None:
     with pytest.raises(InvalidValue, match=r"that it states, utf-8, got a wrong byte at position 3: save it as UTF-8"):
         texts(b"<a>\xb9\xe3</a>")

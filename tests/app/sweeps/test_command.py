@@ -63,7 +63,7 @@ def undisturbed(answered: Path, tmp_path_factory: pytest.TempPathFactory) -> byt
 
 
 def table(spec: Path, folder: Path) -> bytes:
-    """Bytes of the table of a sweep that is gone on with and compacted."""
+    """Bytes of the table of a sweep that was continued and compacted."""
     done = sweep("run", spec, "--output", folder, "--workers", 1)
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
     assert done.stderr == f"{folder}: 200 designs in {SHARDS} shards\n"
@@ -72,7 +72,7 @@ def table(spec: Path, folder: Path) -> bytes:
 
 
 def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], workers: int) -> tuple[int, str]:
-    """Exit code and last words of the command, stopped after its first part; what there was before stays."""
+    """Exit code and messages of the command, stopped as soon as it has written one part more."""
     before = len(parts(folder)) if folder.is_dir() else 0
     command = [COMMAND, "sweep", "run", str(spec), "--output", str(folder), "--workers", str(workers)]
     process = psutil.Popen(command, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, preexec_fn=heed_ctrl_c)
@@ -85,7 +85,7 @@ def stopped(spec: Path, folder: Path, stop: Callable[[psutil.Popen], None], work
     return process.returncode, output
 
 
-def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same_bytes(
+def test_after_ctrl_c_and_a_kill_no_worker_is_left_and_the_sweep_continues_to_the_same_bytes(
     spec: Path, tmp_path: Path, undisturbed: bytes
 ) -> None:
     children: list[psutil.Process] = []
@@ -108,7 +108,7 @@ def test_ctrl_c_and_a_kill_leave_no_worker_and_a_folder_that_goes_on_to_the_same
     assert table(spec, tmp_path / "a") == undisturbed
 
 
-def test_a_sweep_is_shown_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
+def test_a_sweep_is_printed_in_lines_and_drawn(answered: Path, tmp_path: Path) -> None:
     shutil.copytree(answered, tmp_path / "a")
     lines = sweep("show", tmp_path / "a").stdout.splitlines()
     assert lines[0].split() == ["designs", "200", "of", "200"]

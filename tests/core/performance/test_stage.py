@@ -24,7 +24,7 @@ def test_steps_break_where_a_speed_changes() -> None:
         0.0,
         1.0,
     ]
-    # before it begins it stands at its beginning
+    # Before its delay is over the dragon stands at its beginning.
     assert stage.players[0].travel(0.0) == slow.clock.travel(slow.begin)
 
 
