@@ -53,8 +53,8 @@ CROSSED = {
     ],
     "chained": False,
 }
-# Questions besides figures that commands of another name answer, and two that none does: the page draws with course, and a sweep of
-# collision-time over the pitch is the scan.
+# Questions besides figures that commands of another name answer, and two that none does: the page draws with course,
+# and a sweep of collision-time over the pitch is the scan.
 OTHERWISE = {"films", "proposals", "contest_kit", "course", "pitch_scan"}
 
 
