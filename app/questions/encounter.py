@@ -82,7 +82,7 @@ class Encounter(Answer):
     )
     dragons: Pair | None = Field(description="The two dragons, in the order of the dances, from 0")
     names: tuple[str | None, str | None] | None = Field(description="Their names; null for a dragon without one")
-    benches: Pair | None = Field(description="Their benches that meet, one of each")
+    benches: Pair | None = Field(description="Their benches that meet, or come nearer than the margin, one of each")
     heads: tuple[Head, Head] | None = Field(description="The heads of both at that time")
     gap: float | None = measure(
         "m",

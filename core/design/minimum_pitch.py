@@ -110,7 +110,7 @@ def minimum_pitch(
     >>> round(minimum_pitch(Dragon()).pitch, 9)
     0.450337393
     >>> round(minimum_pitch(Dragon(), dragons=2).pitch, 6)
-    0.8
+    0.896168
     """
     radius = checked_size("turning_radius", turning_radius)
     turns = checked_number("start_turns", start_turns, "turns", 0.0, START_TURNS_MAX, open_low=True)

@@ -17,7 +17,8 @@ APART_FROM_MARGINS = {
     *(("ContactProbability", name) for name in ("probability", "contacts", "benches", "tolerance", "strayed")),
     *(("Tolerance", name) for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")),
     *(("ToleranceCurve", name) for name in ("stray", "touching", "limited_by")),
-    *(("CollisionTime", name) for name in ("margin", "corner", "edge")),
+    *((model, name) for model in ("CollisionTime", "Encounter") for name in ("margin", "corner", "edge")),
+    ("Encounter", "cross_check"),
 }  # fmt: skip
 
 
