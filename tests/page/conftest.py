@@ -38,6 +38,11 @@ DEADLINE = 50.0
 PIXELS_UNLIKE = 1e-3
 
 # Stops playing and drawing, and leads to another address of the page as the browser's back button does.
+# A layout that changes the height of the picture lets it be drawn once more.
+IS_SIZED = """() => {
+  const { height, clientHeight } = document.querySelector("#canvas");
+  return Math.abs(height - clientHeight * devicePixelRatio) < 1;
+}"""
 GO = """(query) => {
   if (document.querySelector("#play").textContent.startsWith("❚❚")) document.querySelector("#play").click();
   if (document.querySelector("#edit[aria-pressed=true]"))
@@ -243,10 +248,11 @@ def look_at() -> Callable[..., None]:
 
 @pytest.fixture
 def picture() -> Callable[[Page], np.ndarray]:
-    """picture(page): the pixels of the dance (height, width, 4)."""
+    """picture(page): the pixels of the dance (height, width, 4), drawn in the size that its canvas has."""
     from matplotlib.image import imread  # takes a third of the start of a process, and not every one looks at pictures
 
     def pixels(page: Page) -> np.ndarray:
+        page.wait_for_function(IS_SIZED)
         address = page.locator("#canvas").evaluate("canvas => canvas.toDataURL()")
         return imread(io.BytesIO(base64.b64decode(address.partition(",")[2])))
 

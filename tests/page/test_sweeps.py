@@ -171,7 +171,7 @@ def test_who_has_the_token_sees_all_jobs_and_everyone_can_use_it(open_page: Any,
         page.locator("#token").press("Enter")
         page.locator("#files").set_input_files(sheet)
         expect(page.locator("#grades .answer .value")).to_contain_text("unreadable")
-        expect(page.locator("#jobs li", has_text="collision_time")).to_be_visible()
+        expect(page.locator("#jobs li", has_text="First contact with its certificate")).to_be_visible()
         page.locator("#sweep button").click()
         page.locator("#jobs li[data-state=successful]", has_text="Least clearance over Pitch and Benches").wait_for()
         page.locator("#map:visible").wait_for()
