@@ -1,6 +1,6 @@
 /** Charts drawn by uPlot (clearance over time; stray and radius at first contact against the pitch), and ticks of all axes. */
 
-import { colours, make } from "./elements.js";
+import { colours, inType, make } from "./elements.js";
 import { say } from "./text.js";
 
 const HEIGHT = 240;
@@ -48,7 +48,7 @@ export class Chart {
 
   #options({ labels, range, width, draw }) {
     const colour = colours();
-    const [grid, font] = [{ stroke: colour("line"), width: 1 }, "12px system-ui, sans-serif"];
+    const [grid, font] = [{ stroke: colour("line"), width: 1 }, `${inType(12)}px system-ui, sans-serif`];
     const looks = { stroke: colour("muted"), grid, ticks: grid, font, labelFont: font, labelSize: 22 };
     const place = () => this.now(this.#now);
     return {
@@ -57,7 +57,7 @@ export class Chart {
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
       scales: { x: { time: false }, y: { range } },
-      axes: labels.map((label, k) => ({ ...looks, label: say(label), size: [34, 52][k] })),
+      axes: labels.map((label, k) => ({ ...looks, label: say(label), size: inType([34, 52][k]) })),
       series: [{}, { stroke: colour("accent"), width, points: { show: false }, ...(width ? {} : { paths: () => null }) }],
       hooks: { draw: [(plot) => draw(pen(plot, colour))], setSize: [place], ready: [place] },
     };

@@ -1,6 +1,6 @@
 /** The picture: benches as rectangles between their handles, coloured by speed, over the faint path. */
 
-import { colours } from "./elements.js";
+import { colours, inType } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { View } from "./view.js";
 
@@ -151,7 +151,7 @@ class Pen {
     context.save();
     context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     const [right, bottom] = [width / devicePixelRatio - BAR_EDGE, height / devicePixelRatio - BAR_EDGE];
-    Object.assign(context, { font: "600 12px system-ui, sans-serif", textAlign: "center", lineJoin: "round" });
+    Object.assign(context, { font: `600 ${inType(12)}px system-ui, sans-serif`, textAlign: "center", lineJoin: "round" });
     for (const [strokeStyle, lineWidth] of [[halo, 5], [colour, 2]]) {
       Object.assign(context, { strokeStyle, lineWidth });
       context.beginPath();
@@ -175,7 +175,7 @@ class Pen {
     context.save();
     context.translate(x, y);
     context.scale(1 / scale, -1 / scale);
-    Object.assign(context, { font: "600 14px system-ui, sans-serif", lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
+    Object.assign(context, { font: `600 ${inType(14)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
     const { width } = context.measureText(text);
     const from = x + (10 + width) / scale > this.right ? -10 - width : 10;
     context.strokeText(text, from, -10);

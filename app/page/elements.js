@@ -30,6 +30,9 @@ export function colours(element = document.documentElement) {
   return (name) => style.getPropertyValue(`--${name}`).trim();
 }
 
+/** A length in the usual size of the type in the chosen one [px]. */
+export const inType = (pixels) => (pixels * Number.parseFloat(getComputedStyle(document.documentElement).fontSize)) / 16;
+
 /** Show or hide an element only on a change, because each assignment makes the browser compute all styles again. */
 export function hide(element, hidden) {
   if (element.hidden !== hidden) element.hidden = hidden;

@@ -13,6 +13,7 @@ import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
+import { addLook } from "./look.js";
 import { announce, announceAgain, lost, markContact, placeInset } from "./overlays.js";
 import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
@@ -81,6 +82,7 @@ const keep = new Keep({ service, questions, jobs, canvas: $("#canvas") });
 const grader = new Grader(service);
 const doors = new Doors(state);
 new Sharing(state);
+addLook();
 let limits = {};
 const DRAWING = Symbol("drawing");
 let drawing = false;
@@ -336,7 +338,8 @@ function listen() {
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
   for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? route.choose() : state.choosePath(button.dataset.path)));
   for (const button of $$("[data-section]")) button.addEventListener("click", () => $(`#${button.dataset.section}`).scrollIntoView());
-  for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", restyle);
+  addEventListener("look", restyle);
+  matchMedia("print").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
   const all = () => {
     dance.view.fitted = true;

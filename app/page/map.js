@@ -2,7 +2,7 @@
 
 import { ticks } from "./charts.js";
 import { palette } from "./dance.js";
-import { $, colours, make } from "./elements.js";
+import { $, colours, inType, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
 import { say } from "./text.js";
 
@@ -255,7 +255,7 @@ function drawLine(context, xs, values, at, colour) {
 }
 
 function drawAxes(context, { left, top, width, height }, { x, y }, at, [nameX, nameY], colour) {
-  Object.assign(context, { strokeStyle: colour("border"), fillStyle: colour("muted"), lineWidth: 1, font: "12px system-ui, sans-serif" });
+  Object.assign(context, { strokeStyle: colour("border"), fillStyle: colour("muted"), lineWidth: 1, font: `${inType(12)}px system-ui, sans-serif` });
   context.strokeRect(left, top, width, height);
   context.textBaseline = "top";
   context.textAlign = "center";

@@ -2,6 +2,7 @@
 
 import { trace } from "./dance.js";
 import { headingOf, isWhole, yardOf } from "./drawing.js";
+import { inType } from "./elements.js";
 import { radiiOf } from "./judgement.js";
 import { measures } from "./square.js";
 import { say } from "./text.js";
@@ -12,7 +13,6 @@ const BEND_WIDTH = 7;
 const BREACHES = { speed: "speed", margin: "head", stray: "pick" };
 const FAULT_WIDTH = 4;
 const RING = 14;
-const FONT = "600 12px system-ui, sans-serif";
 const NAME_HEIGHT = 13;
 /** Width and length of the arrow of a gate, and the shortest side that has its length [px]. */
 const [GATE, GATE_LENGTH, SIDE] = [4, 26, 44];
@@ -68,7 +68,7 @@ function label(pen, view, text, /** @type {number[]} */ [x, y], colour, colours,
   context.save();
   context.translate(x, y);
   context.scale(1 / pen.scale, -1 / pen.scale);
-  Object.assign(context, { font: FONT, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
+  Object.assign(context, { font: `600 ${inType(12)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: colours.card, fillStyle: colour, textAlign: "left" });
   const { width } = context.measureText(text);
   const places = [away, -width / 2, -away - width].flatMap((dx) => [-away, away + NAME_HEIGHT].map((dy) => [dx, dy]));
   const isInside = (/** @type {number[]} */ [dx]) => atX + dx >= 0 && atX + dx + width <= view.width;

@@ -104,8 +104,72 @@ def test_keys_move_the_numbers_and_a_refusal_stands_in_the_figure(open_page: Any
     expect(page.locator("#stray .verdict")).to_contain_text(f"From {first['time']:.6f} s on benches may touch")
     expect(page.locator("#stray .exhibit")).to_have_count(2)
     dial(page, "chord", "Place of the head").press("Home")
-    expect(page.locator("#chord .note")).to_contain_text("The bench folds here")
-    expect(page.locator("#chord .note")).to_contain_text("2.34509 turns")
+    # Figure and sentence agree: there is no second handle, and the limit is of a number on this page.
+    expect(page.locator("#chord .verdict")).to_contain_text("so there is no second handle")
+    expect(page.locator("#chord .verdict")).to_contain_text("the head must be more than 2.34509 turns from the centre")
+    expect(page.locator("#chord .label")).to_have_text(["head"])
+    expect(page.locator("#chord .bench")).to_have_count(0)
+    expect(page.locator("#chord .note")).to_be_empty()
+    dial(page, "chord", "Place of the head").press("End")
+    expect(page.locator("#chord .label")).to_have_text(["head", "second handle"])
+
+
+def test_an_address_keeps_the_numbers_and_the_language(open_page: Any) -> None:
+    page = drawn(open_page("how?lang=en&staircase_pitch=0.5&chord_turns=soup&step_time=1e9&graze_step=0.26"))
+    values = [(section, name) for section, name in (("staircase", "Pitch"), ("chord", "Place"), ("step", "Start"))]
+    assert [dial(page, *one).inner_text() for one in values] == ["0.5000 m", "5.00 turns", "412.40 s"]
+    expect(dial(page, "graze", "Time between")).to_have_text("0.3 s")
+    dial(page, "staircase", "Pitch of the spiral").press("ArrowUp")
+    page.wait_for_url("**staircase_pitch=0.5001**")
+    page.locator("[data-lang=zh]").click()
+    page.wait_for_url("**lang=zh**")
+    for part in ("staircase_pitch=0.5001", "step_time=412.4", "graze_step=0.3"):
+        assert part in page.url
+    assert "chord" not in page.url
+    page.reload()
+    expect(drawn(page).locator("#staircase .lead .dial")).to_have_text("0.5001 m")
+
+
+def test_the_look_is_kept_on_both_pages(browser: Any, server: str) -> None:
+    context = browser.new_context(locale="en-GB", viewport={"width": 1366, "height": 768})
+    page = context.new_page()
+    page.goto(f"{server}/how")
+    drawn(page)
+    box = page.locator(".article")
+    usual = [
+        page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor"),
+        box.bounding_box()["height"],
+    ]
+    page.locator("#look-open").click()
+    for name in ("Dark", "Large type, for a projector"):
+        page.locator("#look button", has_text=name).click()
+        expect(page.locator("#look button", has_text=name)).to_have_attribute("aria-pressed", "true")
+    assert serious(page) == []
+    dark = page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor")
+    assert dark != usual[0]
+    assert box.bounding_box()["height"] > 1.15 * usual[1]
+    page.goto(f"{server}/?benches=5&time=end")
+    settled(page)
+    assert page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor") == dark
+    assert page.locator("h2:visible").first.evaluate("one => parseFloat(getComputedStyle(one).fontSize)") == 19.5
+    assert page.evaluate("document.documentElement.scrollWidth") <= 1366
+    page.locator("#look-open").click()
+    page.locator("#look button", has_text="Light").click()
+    page.emulate_media(color_scheme="dark")
+    assert page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor") == usual[0]
+    page.locator("#look button", has_text="As the system").click()
+    assert page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor") == dark
+    page.emulate_media(color_scheme="light")
+    assert page.locator("body").evaluate("one => getComputedStyle(one).backgroundColor") == usual[0]
+    context.close()
+
+
+def test_a_browser_without_storage_has_a_look_while_the_page_lasts(open_page: Any) -> None:
+    page = open_page("how?lang=en")
+    page.evaluate("Object.defineProperty(window, 'localStorage', { get() { throw new Error('refused') } })")
+    page.locator("#look-open").click()
+    page.locator("#look button", has_text="Dark").click()
+    expect(page.locator("html")).to_have_attribute("data-theme", "dark")
 
 
 def test_a_phone_in_chinese_and_a_dark_screen_are_served_too(open_page: Any) -> None:

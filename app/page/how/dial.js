@@ -24,13 +24,18 @@ export class Dial {
 
   /** Set the number to the nearest step of the slider. */
   set(value) {
-    const { min, max, step, decimals } = this.plan;
-    const near = Number((min + Math.round((value - min) / step) * step).toFixed(decimals));
-    const next = Math.min(Math.max(near, min), max);
-    if (next === this.value) return;
-    this.value = next;
+    const before = this.value;
+    this.take(value);
+    if (this.value === before) return;
     this.show();
     this.changed();
+  }
+
+  /** Take over a number before the page is drawn. */
+  take(value) {
+    const { min, max, step, decimals } = this.plan;
+    const near = Number((min + Math.round((value - min) / step) * step).toFixed(decimals));
+    this.value = Math.min(Math.max(near, min), max);
   }
 
   /** The number with its unit. */

@@ -2,12 +2,13 @@
 
 import { ticks } from "../charts.js";
 import { addGround } from "../dance.js";
+import { inType } from "../elements.js";
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
 /** Length of a straight piece of a drawn spiral [rad]. */
 const PIECE = 0.05;
-/** Margins of a chart [px]: left, right, top, bottom; approximate distance of ticks [px]. */
-const [LEFT, RIGHT, TOP, BOTTOM] = [52, 14, 14, 42];
+/** Margins of a chart in the usual size of the type [px]: left, right, top, bottom; approximate distance of ticks [px]. */
+const MARGINS = [52, 14, 14, 42];
 const TICKS = { x: 90, y: 48 };
 
 const joined = (points) => points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
@@ -65,6 +66,9 @@ class Sheet {
   }
 }
 
+/** The place on a spiral about (0, 0) after a number of turns from the centre [m]. */
+export const onSpiral = (pitch, turn) => [pitch * turn * Math.cos(2 * Math.PI * turn), pitch * turn * Math.sin(2 * Math.PI * turn)];
+
 export class Picture extends Sheet {
   /** x, y: the middle [m]; span: visible length of the narrower side [m] */
   constructor(svg, box, { x, y, span }) {
@@ -87,8 +91,7 @@ export class Picture extends Sheet {
   spiral(pitch, from, to) {
     const count = Math.ceil((2 * Math.PI * (to - from)) / PIECE);
     const turns = Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count);
-    const place = (turn) => [pitch * turn * Math.cos(2 * Math.PI * turn), pitch * turn * Math.sin(2 * Math.PI * turn)];
-    this.line(turns.map(place), "spiral");
+    this.line(turns.map((turn) => onSpiral(pitch, turn)), "spiral");
   }
 
   circle(x, y, radius, className) {
@@ -142,30 +145,34 @@ export class Chart extends Sheet {
     super(svg, box);
     this.x = x;
     this.y = y;
-    const [right, bottom] = [this.width - RIGHT, this.height - BOTTOM];
-    for (const tick of marksOf(y, (bottom - TOP) / TICKS.y)) {
+    this.margins = MARGINS.map(inType);
+    const [left, rightMargin, top, bottomMargin] = this.margins;
+    const [right, bottom] = [this.width - rightMargin, this.height - bottomMargin];
+    for (const tick of marksOf(y, (bottom - top) / inType(TICKS.y))) {
       const [, py] = this.at(x[0], Number(tick));
-      this.add("path", { class: Number(tick) ? "grid" : "zero", d: `M${LEFT} ${py}H${right}` });
-      this.add("text", { class: "tick right", x: LEFT - 6, y: py + 4 }, tick);
+      this.add("path", { class: Number(tick) ? "grid" : "zero", d: `M${left} ${py}H${right}` });
+      this.add("text", { class: "tick right", x: left - 6, y: py + 4 }, tick);
     }
-    for (const tick of marksOf(x, (right - LEFT) / TICKS.x)) {
+    for (const tick of marksOf(x, (right - left) / inType(TICKS.x))) {
       const [px] = this.at(Number(tick), y[0]);
       this.add("path", { class: "grid", d: `M${px} ${bottom}v4` });
-      this.add("text", { class: "tick middle", x: px, y: bottom + 16 }, tick);
+      this.add("text", { class: "tick middle", x: px, y: bottom + inType(16) }, tick);
     }
-    this.add("text", { class: "tick middle", x: (LEFT + right) / 2, y: this.height - 6 }, labels[0]);
-    this.add("text", { class: "tick middle", transform: `translate(13 ${(TOP + bottom) / 2}) rotate(-90)` }, labels[1]);
-    this.layer = this.part([LEFT, TOP, right - LEFT, bottom - TOP], [LEFT, TOP]);
+    this.add("text", { class: "tick middle", x: (left + right) / 2, y: this.height - 6 }, labels[0]);
+    this.add("text", { class: "tick middle", transform: `translate(${inType(13)} ${(top + bottom) / 2}) rotate(-90)` }, labels[1]);
+    this.layer = this.part([left, top, right - left, bottom - top], [left, top]);
   }
 
   at(x, y) {
     const share = (value, [low, high]) => (value - low) / (high - low);
-    const [wide, high] = [this.width - LEFT - RIGHT, this.height - TOP - BOTTOM];
-    return [LEFT + share(x, this.x) * wide, TOP + (1 - share(y, this.y)) * high];
+    const [left, right, top, bottom] = this.margins;
+    const [wide, high] = [this.width - left - right, this.height - top - bottom];
+    return [left + share(x, this.x) * wide, top + (1 - share(y, this.y)) * high];
   }
 
   from(px) {
-    return this.x[0] + ((px - this.left - LEFT) / (this.width - LEFT - RIGHT)) * (this.x[1] - this.x[0]);
+    const [left, right] = this.margins;
+    return this.x[0] + ((px - this.left - left) / (this.width - left - right)) * (this.x[1] - this.x[0]);
   }
 
   /** A vertical line through the whole chart at x. */

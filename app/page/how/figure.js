@@ -21,16 +21,20 @@ export class Figure {
   #outputs = new Map();
 
   /**
-   * * plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data, say) -> sheet, outputs(data, say)}, perhaps refine(ask), refused: key of what a refusal means, and,
-   * where the drawing is dragged, pull(place, data) -> {name of a dial: value}; word(key, values): a text
+   * plan: {dials, ask(ask, values) -> data, draw(svg, {width, height}, data, say) -> sheet, outputs(data, say)}, perhaps
+   * refine(ask), refused(error, values) -> data that shows what a refusal means or null, and, where the drawing is dragged,
+   * pull(place, data) -> {name of a dial: value}; word(key, values): a text; changed(): called when a number changes
    * @param {Service} service
    */
-  constructor(section, plan, service, word) {
+  constructor(section, plan, service, word, changed = () => {}) {
     this.section = section;
     this.plan = plan;
     this.service = service;
     this.word = word;
-    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => word(one.unit) }, () => this.change())];
+    const dial = ([name, one]) => [name, new Dial({ ...one, unit: () => word(one.unit) }, () => {
+      changed();
+      this.change();
+    })];
     this.dials = Object.fromEntries(Object.entries(plan.dials).map(dial));
     this.svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     this.svg.setAttribute("role", "img");
@@ -89,7 +93,9 @@ export class Figure {
     } catch (error) {
       if (error instanceof Superseded) return;
       if (!(error instanceof Problem)) throw error;
-      this.#refused = error.problem;
+      const meaning = error.errors[0] && this.plan.refused?.(error.errors[0], values);
+      if (meaning) this.data = { ...meaning, values };
+      this.#refused = meaning ? null : error.problem;
     }
     this.figure.setAttribute("aria-busy", "false");
     this.draw();
@@ -111,14 +117,8 @@ export class Figure {
   /** Show the error below the drawing, which is then older than the numbers. */
   #tell() {
     const waits = this.missed && this.figure.getAttribute("aria-busy") === "true";
-    this.note.textContent = waits ? this.missed : this.#refused ? this.#refusal() : "";
+    this.note.textContent = waits ? this.missed : this.#refused ? refusalWords(this.#refused).textContent : "";
     this.figure.classList.toggle("stale", Boolean(this.#refused || waits));
-  }
-
-  /** The service's words, after the figure's explanation. */
-  #refusal() {
-    const { textContent } = refusalWords(this.#refused);
-    return this.plan.refused ? `${this.word(this.plan.refused)} ${textContent}` : textContent;
   }
 
   draw() {

@@ -2,7 +2,9 @@
 
 import { Service } from "../api.js";
 import { $, $$, onClick } from "../elements.js";
+import { addLook } from "../look.js";
 import { lost } from "../overlays.js";
+import { Pause } from "../pending.js";
 import { say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
@@ -25,7 +27,34 @@ const service = new Service({
     for (const figure of figures) figure.lost("");
   },
 });
-const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word));
+const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word, keep));
+
+/** Each number to drag with its name in the address, such as chord_turns. */
+const dials = figures.flatMap(({ section, dials: own }) => Object.entries(own).map(([name, dial]) => [`${section.id}_${name}`, dial]));
+const writing = new Pause("address");
+
+/** Keep the numbers in the address after a pause: browsers refuse more than a few changes of it per second. */
+function keep() {
+  if (!writing.lasts) writing.begin(300, write);
+}
+
+function write() {
+  writing.end();
+  for (const [name, { value, plan }] of dials) {
+    if (value === plan.value) address.searchParams.delete(name);
+    else address.searchParams.set(name, String(value));
+  }
+  const query = address.searchParams.toString();
+  history.replaceState(null, "", `${location.pathname}${query && `?${query}`}${location.hash}`);
+}
+
+/** Take over the numbers of the address; what is no number there leaves the figure as it is. */
+function read() {
+  for (const [name, dial] of dials) {
+    const text = address.searchParams.get(name)?.trim();
+    if (text && Number.isFinite(Number(text))) dial.take(Number(text));
+  }
+}
 
 function translate(choice) {
   const language = setLanguage(choice);
@@ -41,11 +70,14 @@ for (const button of $$("[data-lang]")) {
   button.addEventListener("click", () => {
     const { lang } = button.dataset;
     address.searchParams.set("lang", lang);
-    history.replaceState(null, "", `${address.search}${location.hash}`);
+    write();
     translate(lang);
   });
 }
 onClick("#lost button", () => service.retry());
+addEventListener("look", () => figures.forEach((figure) => figure.draw()));
+addLook();
+read();
 
 const language = address.searchParams.get("lang");
 translate(["en", "zh"].includes(language) ? language : undefined);

@@ -2,12 +2,14 @@
 
 import { staircase } from "../charts.js";
 import { benchName } from "../text.js";
-import { Chart, Picture } from "./draw.js";
+import { Chart, Picture, onSpiral } from "./draw.js";
 
 /** Number of the contest's benches, of drawn ones, and of judged ones if only the first ones meet [1]. */
 const DRAGON = { overhang: 0.275, width: 0.3 };
 const [SHOWN, JUDGED] = [60, 40];
 const START_TURNS = 16;
+/** Pitch of the contest's spiral [m]. */
+const PITCH = 0.55;
 /** Least width of a drawing with two parts side by side [px]; in a narrower one the second part is below. */
 const WIDE = 600;
 const MM = 1000;
@@ -33,32 +35,40 @@ const chord = {
     turns: { value: 5, min: 1.5, max: 6, step: 0.05, decimals: 2, unit: "turns" },
   },
   knob: true,
-  refused: "chord_refused",
   async ask(ask, { chord, turns }) {
     const dragon = { benches: 11, head_length: chord + 2 * DRAGON.overhang };
-    return { pose: await poseAt(ask, spiralOf(0.55, turns), 0, dragon) };
+    const pose = await poseAt(ask, spiralOf(PITCH, turns), 0, dragon);
+    this.way = Math.atan2(pose.y[1] - pose.y[0], pose.x[1] - pose.x[0]);
+    return { pose };
   },
-  draw(svg, box, { pose, values }, word) {
+  /** Where a bench folds there is no pose: the figure shows the head and its circle, whose knob stays where it was last. */
+  refused({ values: { least, bench } }, { chord, turns }) {
+    if (!least || bench?.value !== 0) return null;
+    const [x, y] = onSpiral(PITCH, turns);
+    const way = this.way ?? Math.atan2(-y, -x);
+    const knob = { x: [x, x + chord * Math.cos(way)], y: [y, y + chord * Math.sin(way)] };
+    return { pose: knob, folds: least.value };
+  },
+  draw(svg, box, { pose, folds, values }, word) {
     const { x, y } = pose;
     const picture = new Picture(svg, box, { x: 0, y: 0, span: 9.4 });
-    picture.spiral(0.55, 0, START_TURNS);
-    drawDragon(picture, pose, DRAGON, []);
+    picture.spiral(PITCH, 0, START_TURNS);
+    if (!folds) drawDragon(picture, pose, DRAGON, []);
     picture.circle(x[0], y[0], values.chord, "compass");
     picture.line([[x[0], y[0]], [x[1], y[1]]], "radius");
     for (let k = x.length - 1; k > 1; k--) picture.dot(x[k], y[k], "hole", 3);
     picture.dot(x[0], y[0], "center", 5);
     picture.dot(x[1], y[1], "knob", 8);
     picture.text(word("chord_first"), x[0], y[0], "label", [10, -10]);
-    picture.text(word("chord_second"), x[1], y[1], "label", [12, 18]);
+    if (!folds) picture.text(word("chord_second"), x[1], y[1], "label", [12, 18]);
     picture.bar(1);
     return picture;
   },
   pull: ([x, y], { pose }) => ({ chord: Math.hypot(x - pose.x[0], y - pose.y[0]) }),
-  outputs: ({ pose: { x, y, speed } }) => ({
-    x: `${x[1].toFixed(3)} m`,
-    y: `${y[1].toFixed(3)} m`,
-    speed: `${speed[1].toFixed(6)} m/s`,
-  }),
+  outputs({ pose: { x, y, speed }, folds }, word) {
+    if (folds) return { verdict: word("chord_folds", { least: `${folds} ${word("turns")}` }) };
+    return { verdict: word("chord_meets", { x: `${x[1].toFixed(3)} m`, y: `${y[1].toFixed(3)} m`, speed: `${speed[1].toFixed(6)} m/s` }) };
+  },
 };
 
 /** The staircase: a first view, and later with its jumps. */

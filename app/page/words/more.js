@@ -1,6 +1,14 @@
 /** Words of charts, tables, files, sweeps and grading: [English, Simplified Chinese]. */
 
 export const MORE = {
+  look: ["Look", "外观"],
+  look_theme: ["Colours", "配色"],
+  look_system: ["As the system", "跟随系统"],
+  look_light: ["Light", "浅色"],
+  look_dark: ["Dark", "深色"],
+  look_type: ["Size of the type", "字号"],
+  look_usual: ["Usual type", "标准字号"],
+  look_large: ["Large type, for a projector", "大字号（投影）"],
   charts: ["Charts", "图表"],
   clearance: ["Clearance over time", "间距随时间的变化"],
   clearanceHelp: ["Smallest gap between two benches that share no handle. Dots: local minima; dashed: the margin; cross: the first time at the margin. Click or drag to move the dance.", "不共用把手的两节板凳之间的最小间距。圆点：局部最小值；虚线：安全间距；叉：首次达到安全间距。点击或拖动可移动时间。"],
