@@ -81,6 +81,8 @@ class Channel {
 export class Service {
   #channels = new Map();
   #return = null;
+  /** The check of the service that is in progress. @type {Promise<boolean> | null} */
+  #health = null;
   #retryNow = () => {};
   /** End the requests to a service that does not answer any more. */
   #hanging = new AbortController();
@@ -137,6 +139,8 @@ export class Service {
       if (response?.status === EMPTY) return null;
       const body = response?.ok && (await this.#read(response, options.headers.Accept.includes("json")));
       if (body) return body.content;
+      // A body that was cut off because nobody needs it is no sign of a lost service.
+      signal.throwIfAborted();
       if (!response || response.ok) await this.#untilBack();
       else if (BUSY.includes(response.status) && pauseOf(response) <= MOMENT) await wait(1000 * pauseOf(response));
       else throw new Problem(response.status, await response.json().catch(() => null));
@@ -190,8 +194,12 @@ export class Service {
     }
   }
 
-  async #alive() {
-    return Boolean((await this.#fetch("healthz", { cache: "no-store", signal: AbortSignal.timeout(PATIENCE) }))?.ok);
+  /** Whether the service is alive; whoever asks meanwhile waits for the same answer. */
+  #alive() {
+    this.#health ??= this.#fetch("healthz", { cache: "no-store", signal: AbortSignal.timeout(PATIENCE) })
+      .then((response) => Boolean(response?.ok))
+      .finally(() => (this.#health = null));
+    return this.#health;
   }
 
   /** Check regularly whether the service is alive, while the page is visible. */

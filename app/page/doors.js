@@ -3,11 +3,15 @@
 import { EMPTY } from "./drawing.js";
 import { $, $$, onClick } from "./elements.js";
 import { setExact } from "./numbers.js";
+import { announce } from "./overlays.js";
 import { PRESETS } from "./presets.js";
 import { say } from "./text.js";
 
 /** The kinds of path behind a door, of which the first one opens; behind `all` is the whole page, as behind an old address. */
 const PATHS = { contest: ["spiral", "turn"], village: ["route"], look: ["spiral", "turn"] };
+
+/** Longest name of an unknown door in a message [characters]. */
+const LONGEST = 40;
 
 /** A first dance for a village, with its things named in the language of the page. */
 const village = () => ({ ...PRESETS.village, things: PRESETS.village.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) })) });
@@ -35,6 +39,12 @@ export class Doors {
   #offerMore(is) {
     $("main").classList.toggle("more", is);
     $("#more").setAttribute("aria-expanded", is);
+  }
+
+  /** Say that the address names a door that the page does not have. */
+  refuse() {
+    const { noDoor } = this.state;
+    if (noDoor !== null) announce(() => say("noDoor", { door: noDoor.slice(0, LONGEST) }));
   }
 
   /** Show what belongs to the door. */

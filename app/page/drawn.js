@@ -62,7 +62,13 @@ export class Drawn {
   #invite() {
     const presets = Object.keys(PRESETS).map((name) => textButton(`preset_${name}`, () => this.form.beginWith(name), { "data-preset": name }));
     const words = (tag, key) => make(tag, { "data-text": key });
-    $("#invite").append(words("h3", "inviteTitle"), textButton("inviteDraw", () => this.editor.turn(true), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
+    $("#invite").append(words("h3", "inviteTitle"), textButton("inviteDraw", () => this.#draw(), { className: "main" }), words("p", "inviteOr"), make("div", {}, ...presets));
+  }
+
+  /** Draw from nothing; by keyboard too, so the picture gets the focus. */
+  #draw() {
+    this.editor.turn(true);
+    $("#canvas").focus();
   }
 
   /** Begin to draw; an empty drawing starts with an S-shaped path. */

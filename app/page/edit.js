@@ -12,6 +12,8 @@ const [STEP, LONG_STEP] = [0.1, 1];
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 /** Tools of which every tap begins a new thing. */
 const ONE_POINT = ["circle", "gate"];
+/** Distance of a point put by a key from the one before, as a share of the width of the picture. */
+const STRIDE = 0.15;
 const TREE_RADIUS = 0.5;
 const WALL_RADIUS = 0.15;
 
@@ -43,6 +45,7 @@ export class Editor {
     onClick("#redo", () => steps.redo());
     onClick("#delete", () => this.#delete());
     addEventListener("keydown", (event) => this.#shortcut(event));
+    $("#canvas").addEventListener("keydown", (event) => this.#next(event));
   }
 
   get #drawing() {
@@ -174,7 +177,8 @@ export class Editor {
       const [x, y] = this.#points[k];
       this.steps.take(moved(this.#drawing, this.item, k, [x + by * way[0], y + by * way[1]]), `${this.item} ${k}`);
       this.#reveal(k);
-    } else if (event.key === "Enter") this.#divide(k);
+    } else if (event.key.toLowerCase() === "n") return this.#next(event);
+    else if (event.key === "Enter") this.#divide(k);
     else if (event.key === "Delete" || event.key === "Backspace") this.#remove(k);
     else return;
     event.preventDefault();
@@ -213,6 +217,28 @@ export class Editor {
     this.dance.view.reveal(...this.#points[k]);
   }
 
+  /** Handle the key that puts the next point without a pointer: it gets the focus, to be moved by arrow keys. */
+  #next(event) {
+    if (!this.active || !this.#isRoute || event.key.toLowerCase() !== "n" || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const { view } = this.dance;
+    view.fitted = false;
+    this.#put(this.#after().map((one) => Math.round(10 * one) / 10));
+    this.#knots.at(-1)?.focus({ preventScroll: true });
+  }
+
+  /** Place of the next point: the middle of the picture, or beyond the last point, for a thing with a turn to the left. */
+  #after() {
+    const { view } = this.dance;
+    const points = ONE_POINT.includes(this.tool) ? [] : pointsOf(this.#drawing, this.item);
+    if (!points.length || (this.item === null && this.tool !== "path")) return view.toWorld(view.width / 2, view.height / 2);
+    const [[ax, ay], [bx, by]] = [points.at(-2) ?? points[0].with(0, points[0][0] - 1), points.at(-1)];
+    const far = (STRIDE * view.width) / view.scale / (Math.hypot(bx - ax, by - ay) || 1);
+    const [dx, dy] = [far * (bx - ax), far * (by - ay)];
+    return this.tool === "path" || this.tool === "wall" || points.length < 2 ? [bx + dx, by + dy] : [bx - dy, by + dx];
+  }
+
   /** Handle a tap on the picture; returns true if it drew something. */
   #tap(px, py) {
     if (!this.active || !this.#isRoute) return false;
@@ -220,13 +246,17 @@ export class Editor {
     const point = this.dance.view.toWorld(px, py).map((one) => Math.round(10 * one) / 10);
     this.#last = null;
     this.dance.view.fitted = false;
-    if (this.tool === "path") {
-      const spot = drawing.points.length > 1 ? this.#onPath(px, py) : null;
-      this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
-    } else if (this.item === null || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
+    this.#put(point, this.tool === "path" && drawing.points.length > 1 ? this.#onPath(px, py) : null);
+    return true;
+  }
+
+  /** Add a point to what is drawn. spot: where it divides the path; null: after the last one */
+  #put(point, spot = null) {
+    const drawing = this.#drawing;
+    if (this.tool === "path") this.steps.take(inserted(drawing, null, spot?.k ?? drawing.points.length, spot?.point ?? point));
+    else if (this.item === null || ONE_POINT.includes(this.tool)) this.#begin(drawing, point);
     else this.steps.take(inserted(drawing, this.item, pointsOf(drawing, this.item).length, point));
     this.chosen();
-    return true;
   }
 
   /** The division of the path by a tap: number of the next point, and place of the new one. */

@@ -14,7 +14,7 @@ import { Graphs } from "./graphs.js";
 import { Grader } from "./grade.js";
 import { Keep } from "./keep.js";
 import { addLook } from "./look.js";
-import { announce, announceAgain, lost, markContact, placeInset } from "./overlays.js";
+import { announce, announceAgain, lost, markContact, placeInset, showPrinted } from "./overlays.js";
 import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { passagesText, quickened, timeOfDay } from "./passages.js";
@@ -347,7 +347,7 @@ function listen() {
     draw();
   };
   const follow = () => state.set({ follow: !state.get("follow") });
-  const full = () => (document.fullscreenElement ? document.exitFullscreen() : $("#dance").requestFullscreen());
+  const full = () => (document.fullscreenElement ? document.exitFullscreen() : $("#dance").requestFullscreen()).catch(() => {});
   $("#full").hidden = !document.fullscreenEnabled;
   const views = { full, "zoom-in": () => dance.view.zoom(ZOOM), "zoom-out": () => dance.view.zoom(1 / ZOOM), "show-all": all, follow };
   for (const [id, act] of Object.entries(views)) onClick(`#${id}`, act);
@@ -360,6 +360,9 @@ function restyle() {
   graphs.restyle();
   map.draw();
   grader.show();
+  const { kind, answer, end = 0, extras } = questions.dance ?? {};
+  const last = answer?.end?.time ?? end;
+  showPrinted(kind === "route" ? `${last.toFixed(2)} s${extras.clock && ` (${timeOfDay(last, extras.clock)})`}` : "");
   // Printing does not wait for the next frame.
   dance.draw();
 }
@@ -375,6 +378,7 @@ async function readDocument() {
 
 listen();
 showState(new Set([...Object.keys(SHOW_STATE), "pitch"]));
+doors.refuse();
 readDocument().catch((error) => {
   // Without the document the page lacks only the limits and units.
   if (!(error instanceof Problem)) throw error;

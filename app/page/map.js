@@ -4,7 +4,7 @@ import { ticks } from "./charts.js";
 import { palette } from "./dance.js";
 import { $, colours, inType, make } from "./elements.js";
 import { FIELDS } from "./fields.js";
-import { say } from "./text.js";
+import { columnName, say } from "./text.js";
 
 const HEIGHT = 340;
 const [LEFT, RIGHT, TOP, BOTTOM] = [64, 16, 12, 44];
@@ -21,6 +21,8 @@ export class SweepMap {
   #units = {};
   #table = null;
   #cell = null;
+  /** Key of the words for the main value. */
+  #own = {};
 
   /** open(design): values by name, and the answer's under `answer`; colour(name): of the page */
   constructor(box, open) {
@@ -47,8 +49,8 @@ export class SweepMap {
     this.box.hidden = false;
     const drawable = over.length <= 2 && over.every((name) => columns[name].every((one) => typeof one === "number")) && values.length > 0;
     this.#table = drawable ? { columns, over, axes: over.map((name) => [...new Set(columns[name])].sort((a, b) => a - b)) } : null;
-    const named = (name) => (name === own ? { "data-text": title, textContent: say(title) } : { textContent: name });
-    this.select.replaceChildren(...values.map((name) => make("option", { value: name, ...named(name) })));
+    this.#own = { [own]: title };
+    this.select.replaceChildren(...values.map((name) => make("option", { value: name })));
     if (values.includes(own)) this.select.value = own;
     this.#cell = null;
     this.draw();
@@ -64,6 +66,7 @@ export class SweepMap {
   /** Draw it again, also after a change of language, size or colours. */
   draw() {
     const { canvas } = this;
+    for (const option of this.select.options) option.textContent = option.value in this.#own ? say(this.#own[option.value]) : columnName(option.value);
     if (this.box.hidden || !canvas.clientWidth) return;
     const context = canvas.getContext("2d");
     Object.assign(canvas, { width: canvas.clientWidth * devicePixelRatio, height: HEIGHT * devicePixelRatio });

@@ -64,6 +64,9 @@ export function placeInset(covered) {
   inset.dataset.corner = counts[CORNERS.indexOf(now)] === least ? now : CORNERS[counts.indexOf(least)];
 }
 
+/** What stands on paper alone: when the dance ends, and the address that shows it. end: in words, or an empty text */
+export const showPrinted = (end) => ($("#printed").textContent = `${end && say("printedEnds", { end })}\n${location.href}`);
+
 /** Mark first contact on the slider of the time. answer: {time, outcome}; begin, end: of the slider [s] */
 export function markContact({ time, outcome }, begin, end) {
   const mark = $("#contact-mark");

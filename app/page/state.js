@@ -61,6 +61,8 @@ export class State {
     const address = new URLSearchParams(location.search);
     const values = { ...DEFAULTS };
     for (const [name, text] of address) if (name in DEFAULTS) values[name] = (READ[name] ?? String)(text) ?? DEFAULTS[name];
+    /** The door of the address, if there is none of that name. */
+    this.noDoor = address.has("door") && !values.door ? address.get("door") : null;
     if (history.state?.csv) values.csv = history.state.csv;
     values.drawing = history.state?.drawing ?? (PARTS.some((name) => address.has(name)) ? fromAddress(address) : EMPTY);
     this.#values = values;

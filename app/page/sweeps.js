@@ -49,11 +49,13 @@ export class SweepForm {
     const number = (key, value, more = {}) => make("input", { id: `sweep-${key}-${k}`, type: "number", step: "any", required: true, value, "data-label": key, ...more });
     const row = {
       k,
-      name: make("select", { id: `sweep-name-${k}`, "data-label": "sweepParameter", onchange: ({ target }) => this.#choose(row, target.value) }),
+      name: make("select", { id: `sweep-name-${k}`, "data-label": "sweepParameter", onchange: ({ target }) => this.#choose(row, (row.chosen = target.value)) }),
       from: number("sweepFrom", from),
       to: number("sweepTo", to),
       count: number("sweepCount", count, { step: 1, min: 2, max: COUNT_MAX }),
       wanted: name,
+      chosen: name,
+      kept: {},
     };
     const legend = make("legend", { "data-text": `sweepParameter${k}` });
     const part = (key) => make("label", { htmlFor: row[key].id }, make("span", { "data-text": row[key].dataset.label }), row[key]);
@@ -62,15 +64,16 @@ export class SweepForm {
     return row;
   }
 
-  /** Offer the parameters of the question, and replace a chosen one that it does not have. */
+  /** Offer the parameters of the question; one that it does not have is replaced until a question has it again. */
   #offer() {
     const { parameters } = QUESTIONS[this.question.value];
-    const taken = new Set();
+    const has = ({ chosen }) => parameters.includes(chosen);
+    const taken = new Set(this.#rows.filter(has).map(({ chosen }) => chosen));
     for (const row of this.#rows) {
       const known = row.k ? [NONE, ...parameters] : parameters;
       const options = known.map((name) => make("option", { value: name, "data-text": name || "sweepNone", textContent: say(name || "sweepNone") }));
       row.name.replaceChildren(...options);
-      const wanted = known.includes(row.wanted) && !taken.has(row.wanted) ? row.wanted : known.find((name) => !taken.has(name));
+      const wanted = has(row) || row.chosen === NONE ? row.chosen : known.find((name) => !taken.has(name));
       if (wanted === row.wanted) row.name.value = wanted;
       else this.#choose(row, wanted);
       taken.add(wanted);
@@ -78,11 +81,12 @@ export class SweepForm {
   }
 
   #choose(row, name) {
+    row.kept[row.wanted] = [row.from.value, row.to.value];
     row.name.value = row.wanted = name;
     for (const part of row.numbers) part.hidden = !name;
     for (const key of ["from", "to", "count"]) row[key].disabled = !name;
     const field = FIELDS.find((one) => one.name === name);
-    if (field) [row.from.value, row.to.value] = field.slider.map((one) => (field.centimetres ? one / 100 : one));
+    if (field) [row.from.value, row.to.value] = row.kept[name] ?? field.slider.map((one) => (field.centimetres ? one / 100 : one));
   }
 
   /** The spec of the sweep. */

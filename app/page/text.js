@@ -51,6 +51,13 @@ export function titleOf(key, request) {
   return stray > 0 ? say(request.hole > 0 ? "withinPlay" : "within", { title, stray: Number((100 * stray).toPrecision(9)) }) : title;
 }
 
+/** Name of a value in the table of a sweep: the words of its parts, of which numbers count from 1; others stay. */
+export function columnName(name) {
+  const parts = name.split(".");
+  const words = parts.map((part) => (/^\d+$/.test(part) ? String(Number(part) + 1) : `column_${part}` in WORDS ? say(`column_${part}`) : part));
+  return words.join(" · ");
+}
+
 /** A refusal of the service in the language of the page: the properties of an element. problem: a problem or one of its errors */
 export const refusalWords = (problem) => refusalIn(problem.errors?.[0] ?? problem, column === 1, say);
 

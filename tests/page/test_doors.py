@@ -58,6 +58,58 @@ def test_an_old_address_opens_all_that_it_opened_and_an_unknown_door_does_too(vi
         expect(page.locator("#more")).to_be_hidden()
 
 
+def test_an_unknown_door_is_named_in_a_sentence_once(open_page: Any) -> None:
+    page = open_page(f"{EASY}&door=cel%3Cb%3Elar{'x' * 200}")
+    expect(page.locator("#status")).to_have_text(f"The page has no door “cel<b>lar{'x' * 31}”: here is everything.")
+    settled(page)
+    expect(page.locator("#status")).to_be_empty()  # it closes by itself
+    page.locator("#doors [data-door=look]").click()
+    settled(page)
+    expect(page.locator("#status")).to_be_empty()
+
+
+def test_a_printed_route_has_its_picture_its_end_and_its_address_and_no_buttons(open_page: Any) -> None:
+    page = open_page(f"?door=village{ROUTE}&limit=0.5")
+    settled(page)
+    page.emulate_media(media="print")
+    page.pdf()
+    expect(page.locator("#printed")).to_contain_text("The dance ends at 50.00 s (19:30:50).")
+    expect(page.locator("#printed")).to_contain_text(page.url)
+    expect(page.locator("#canvas")).to_be_visible()
+    expect(page.locator("#judgement .value")).to_be_visible()
+    flat = """[...document.querySelectorAll("button, select, input, a")].filter((one) => one.checkVisibility())
+      .filter((one) => getComputedStyle(one).borderTopWidth !== "0px").map((one) => one.outerHTML)"""
+    assert page.evaluate(flat) == []
+
+
+def test_a_route_is_drawn_by_keyboard_from_nothing(open_page: Any) -> None:
+    page = open_page("?door=village&path=route&benches=3")
+    settled(page)
+    page.locator("#invite .main").focus()
+    page.keyboard.press("Enter")
+    expect(page.locator("#canvas")).to_be_focused()
+    for count in range(1, 6):
+        page.keyboard.press("n")
+        expect(page.locator(f"#knots .knot >> nth={count - 1}")).to_be_focused()
+    page.keyboard.press("Shift+ArrowUp")
+    settled(page)
+    expect(page.locator("#judgement .value")).to_have_text(re.compile("[Cc]an be danced"))
+    points = re.search(r"route=([^&]*)", page.url)
+    assert points
+    assert len(points[1].split("_")) == 5
+    # A square around it, too: four corners turn to the left.
+    page.locator("[data-tool=area]").focus()
+    page.keyboard.press("Enter")
+    page.locator("#canvas").focus()
+    for _ in range(4):
+        page.keyboard.press("n")
+    settled(page)
+    expect(page.locator("#knots .knot")).to_have_count(4)
+    expect(page.locator("#judgement .failures li").first).to_be_visible()
+    page.keyboard.press("Control+z")
+    expect(page.locator("#knots .knot")).to_have_count(3)
+
+
 @pytest.mark.parametrize("door", FEW)
 def test_behind_a_door_stand_few_numbers_and_more_on_demand(visit: Any, door: str) -> None:
     page = visit(f"?door={door}{ROUTE if door == 'village' else '&benches=20'}")

@@ -302,6 +302,36 @@ def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(op
         expect(page.locator("#play")).to_have_text("▶ Play")
 
 
+# Counts checks of the service, each of which takes longer here.
+COUNTED = """() => {
+  const real = window.fetch;
+  Object.assign(window, { checks: 0, most: 0 });
+  let running = 0;
+  window.fetch = async (...request) => {
+    if (request[0] !== "healthz") return real(...request);
+    window.checks++;
+    window.most = Math.max(window.most, ++running);
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    return real(...request).finally(() => running--);
+  };
+}"""
+
+
+def test_one_check_at_a_time_asks_whether_the_service_lives(visit: Any) -> None:
+    page = visit("?benches=5&time=end", failing=True)
+    page.evaluate(COUNTED)
+    page.route("**/{collision-time*,healthz}", lambda route: route.abort())
+    page.locator("#pitch").fill("0.6")
+    page.locator("#lost").wait_for()
+    for _ in range(3):
+        page.locator("#lost button").click()
+    page.wait_for_timeout(2_000)
+    assert page.evaluate("[checks > 2, most]") == [True, 1]
+    page.unroute_all()
+    settled(page)
+    expect(page.locator("#lost")).to_be_hidden()
+
+
 def test_the_policy_lets_the_page_load_from_its_service_alone(visit: Any, server: str) -> None:
     policy = polite.get(server).headers["content-security-policy"]
     assert policy == "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"

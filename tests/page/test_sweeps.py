@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import expect
 
+from app.sweeps.columns import answer_columns
+from app.sweeps.questions import question_of
 from tests.support import polite
 from tests.support.axe import serious
 from tests.support.job_service import SHORT, JobService, wait_for
@@ -73,11 +75,53 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
     assert len(drawn(page)) > 10
     page.select_option("#map-value", "head.radius")
     page.locator("#map canvas").hover(position=middle(page))
-    expect(reading).to_contain_text(f"head.radius {answer['head']['radius']:.6g}")
+    expect(reading).to_contain_text(f"head · radius [m] {answer['head']['radius']:.6g}")
     page.locator("#map canvas").click(position=middle(page))
     expect(page.locator("#pitch")).to_have_value("0.55")
     expect(page.locator("#width")).to_have_value("0.25")
     page.locator("#first-contact .value", has_text=f"{answer['time']:.6f}").wait_for()
+
+
+def test_every_value_of_a_map_has_its_name_in_chinese(visit: Any) -> None:
+    page = visit("?benches=5&time=end")
+    left: set[str] = set()
+    for name in ("collision_time", "minimum_pitch", "least_clearance", "shortest_turn", "quickest_turn", "tolerance"):
+        question = question_of(name, ["benches"])
+        columns = answer_columns(question.answer, question.left_out)
+        left |= {one.name for one in columns if one.kind in (int, float) and not one.as_json}
+    assert len(left) > 50
+    script = """async (names) => {
+      const { columnName, setLanguage } = await import("/page/text.js");
+      setLanguage("zh");
+      const words = names.map(columnName);
+      setLanguage("en");
+      return words;
+    }"""
+    words = page.evaluate(script, sorted(left))
+    assert [one for one in words if re.search("[a-z]{4}|_", one)] == []
+    assert len(set(words)) == len(words)
+
+
+def test_a_switch_of_the_question_keeps_the_axes_that_it_can(visit: Any) -> None:
+    page = visit("?benches=5&time=end")
+    page.select_option("#sweep-name-0", "pitch")
+    page.select_option("#sweep-name-1", "width")
+    page.locator("#sweep-sweepFrom-0").fill("0.51")
+    page.locator("#sweep-sweepTo-1").fill("0.33")
+
+    def axes() -> list[str]:
+        ids = ("name-0", "sweepFrom-0", "name-1", "sweepTo-1")
+        return [page.locator(f"#sweep-{one}").input_value() for one in ids]
+
+    assert axes() == ["pitch", "0.51", "width", "0.33"]
+    page.select_option("#sweep-question", "minimum_pitch")  # which has no pitch
+    first, _, *second = axes()
+    assert (first not in ("pitch", "width"), second) == (True, ["width", "0.33"])
+    page.select_option("#sweep-question", "least_clearance")
+    assert axes() == ["pitch", "0.51", "width", "0.33"]
+    page.select_option("#sweep-name-1", "")
+    page.select_option("#sweep-question", "collision_time")
+    assert axes()[::2] == ["pitch", ""]
 
 
 def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum_pitch_is_danced(

@@ -1,0 +1,93 @@
+"""The page in Firefox: drawing, dragging, saving, the language and a job."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from tests.support.firefox import Firefox, running_firefox
+
+pytestmark = pytest.mark.firefox
+QUIET = "document.documentElement.dataset.pending === ''"
+# Asks for a small film, which takes a second.
+SMALL = """(() => {
+  const real = window.fetch;
+  const small = (how) => ({ ...how, body: JSON.stringify({ ...JSON.parse(how.body), height: 90, seconds: 2 }) });
+  window.fetch = (url, how) => real(url, url === "films" ? small(how) : how);
+})()"""
+ROUTE = "path=route&route=*-40,0_40,0&begin=30&benches=9&time=40"
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Firefox]:
+    with running_firefox(tmp_path_factory.mktemp("firefox")) as firefox:
+        yield firefox
+
+
+@pytest.fixture
+def firefox(running: Firefox) -> Iterator[Firefox]:
+    """The browser of this file; a page must stay without errors."""
+    running.errors.clear()
+    yield running
+    assert running.errors == []
+
+
+def words(firefox: Firefox, selector: str) -> str:
+    return str(firefox.evaluate(f"document.querySelector({selector!r}).textContent"))
+
+
+def test_the_first_contact_is_that_of_the_service_in_both_languages(firefox: Firefox, server: str) -> None:
+    firefox.open(f"{server}/?time=end&lang=en")
+    firefox.wait(QUIET)
+    assert words(firefox, "#first-contact .value") == "✕Contact at 412.473838 s"
+    firefox.click("[data-lang=zh]")
+    firefox.wait("document.documentElement.lang === 'zh-Hans'")
+    assert "412.473838 s" in words(firefox, "#first-contact .value")
+    firefox.wait("location.search.includes('lang=zh')")
+
+
+def test_a_slider_is_dragged_and_the_answer_follows(firefox: Firefox, server: str) -> None:
+    firefox.open(f"{server}/?door=contest&benches=20&time=0&lang=en")
+    firefox.wait(QUIET)
+    before = words(firefox, "#first-contact .value")
+    firefox.drag("[data-field=pitch] input[type=range]", right=60)
+    firefox.wait(QUIET)
+    assert firefox.evaluate("Number(document.querySelector('#pitch').value)") > 0.8
+    assert words(firefox, "#first-contact .value") != before
+
+
+def test_a_path_is_drawn_by_taps_and_a_point_is_dragged(firefox: Firefox, server: str) -> None:
+    firefox.open(f"{server}/?path=route&benches=3&lang=en")
+    firefox.wait(QUIET)
+    firefox.click("#invite .main")
+    for x in (-250, -50, 150):
+        firefox.click("#canvas", at=(x, 0))
+    firefox.wait("document.querySelectorAll('#knots .knot').length === 3")
+    firefox.wait(QUIET)
+    before = firefox.evaluate("location.search")
+    firefox.drag("#knots .knot:nth-child(2)", down=40)
+    firefox.wait(QUIET)
+    firefox.wait(f"location.search !== {before!r}")
+    assert "be danced" in words(firefox, "#judgement .value")
+    firefox.press("n")
+    firefox.wait("document.querySelectorAll('#knots .knot').length === 4")
+
+
+def test_a_figure_and_a_table_are_saved(firefox: Firefox, server: str) -> None:
+    firefox.open(f"{server}/?benches=5&time=end&lang=en")
+    firefox.wait(QUIET)
+    firefox.click("#keepTrajectory-CSV")
+    assert firefox.saved("trajectory.csv").startswith(b"time,handle,x,y,speed")
+    firefox.click("#keepInstant-SVG")
+    assert b"<svg" in firefox.saved("instant.svg")
+
+
+def test_a_film_is_a_job_that_shows_its_progress_and_opens(firefox: Firefox, server: str) -> None:
+    firefox.open(f"{server}/?door=village&{ROUTE}&lang=en")
+    firefox.wait(QUIET)
+    firefox.evaluate(SMALL)
+    firefox.click("#keepFilm-GIF")
+    firefox.wait("document.querySelector('#keepFilm-GIF').textContent.includes('%')")
+    firefox.wait("document.querySelector('#kept img.film')?.naturalWidth === 160")
+    assert words(firefox, "#keepFilm-GIF") == "GIF"

@@ -1,0 +1,210 @@
+"""A real Firefox for the tests of the page, driven by WebDriver BiDi, which it speaks itself.
+
+Playwright drives only a Firefox of its own making, and Debian 12 has no geckodriver. So this is the part of BiDi that
+the tests need, over a WebSocket of the standard library. An error of a page ends its test.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import re
+import shutil
+import socket
+import subprocess
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+NAMES = ("firefox-esr", "firefox")
+MISSING = "no Firefox starts here: apt install firefox-esr, or set FIREFOX to the path of one"
+# Longest wait for the browser, and for what is coming on a page [s].
+PATIENCE = 120.0
+LISTENS = re.compile(r"WebDriver BiDi listening on ws://127\.0\.0\.1:(\d+)")
+# Keys of WebDriver.
+KEYS = {"Enter": "\ue007", "ArrowUp": "\ue013"}
+# Files are saved without a question, and Firefox asks nobody else for anything.
+SETTINGS = {
+    "browser.download.folderList": 2,
+    "browser.download.useDownloadDir": True,
+    "browser.download.always_ask_before_handling_new_types": False,
+    "browser.helperApps.neverAsk.saveToDisk": "text/csv,application/zip,image/svg+xml,application/octet-stream",
+    "intl.accept_languages": "en-GB,en",
+    "app.update.auto": False,
+    "browser.aboutwelcome.enabled": False,
+    "datareporting.policy.dataSubmissionEnabled": False,
+}
+
+
+@cache
+def firefox_path() -> str | None:
+    """Path of the first Firefox that reports its version. Ubuntu's command only says that a snap is missing."""
+    for program in filter(None, [os.environ.get("FIREFOX"), *map(shutil.which, NAMES)]):
+        try:
+            version = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=PATIENCE)
+        except (OSError, subprocess.TimeoutExpired):
+            continue
+        if version.returncode == 0 and "Firefox" in version.stdout:
+            return program
+    return None
+
+
+class Socket:
+    """The end of a WebSocket (RFC 6455) for messages of text."""
+
+    def __init__(self, port: int) -> None:
+        self._stream = socket.create_connection(("127.0.0.1", port), PATIENCE)
+        key = base64.b64encode(os.urandom(16)).decode()
+        lines = ["GET /session HTTP/1.1", f"Host: 127.0.0.1:{port}", "Upgrade: websocket", "Connection: Upgrade"]
+        lines += [f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", "", ""]
+        self._stream.sendall("\r\n".join(lines).encode())
+        self._read = self._stream.makefile("rb").read
+        head = b""
+        while not head.endswith(b"\r\n\r\n"):
+            head += self._read(1) or b""
+        assert b" 101 " in head.partition(b"\r\n")[0], head
+
+    def send(self, text: str) -> None:
+        data, mask = text.encode(), os.urandom(4)
+        if len(data) < 126:
+            size = bytes([0x80 | len(data)])
+        elif len(data) < 1 << 16:
+            size = bytes([0x80 | 126]) + len(data).to_bytes(2)
+        else:
+            size = bytes([0x80 | 127]) + len(data).to_bytes(8)
+        masked = bytes(byte ^ mask[k % 4] for k, byte in enumerate(data))
+        self._stream.sendall(b"\x81" + size + mask + masked)
+
+    def receive(self) -> str:
+        parts = []
+        while True:
+            head = self._read(2)
+            assert head, "Firefox has closed its connection"
+            first, size = head
+            if size >= 126:
+                size = int.from_bytes(self._read(2 if size == 126 else 8))
+            data = self._read(size)
+            if first & 0x0F in (0, 1):  # text, or its continuation; others are signs of life
+                parts.append(data)
+                if first & 0x80:
+                    return b"".join(parts).decode()
+
+    def close(self) -> None:
+        self._stream.close()
+
+
+class Firefox:
+    """One tab. downloads: folder of saved files; errors: what the pages complained of"""
+
+    def __init__(self, port: int, downloads: Path) -> None:
+        self.downloads, self.errors = downloads, list[str]()
+        self._socket, self._number = Socket(port), 0
+        self._ask("session.new", capabilities={})
+        self._ask("session.subscribe", events=["log.entryAdded"])
+        self._tab = self._ask("browsingContext.getTree")["contexts"][0]["context"]
+
+    def _ask(self, method: str, **params: Any) -> Any:
+        self._number += 1
+        self._socket.send(json.dumps({"id": self._number, "method": method, "params": params}))
+        while True:
+            message = json.loads(self._socket.receive())
+            if message.get("method") == "log.entryAdded" and message["params"]["level"] == "error":
+                self.errors.append(message["params"]["text"])
+            if message.get("id") == self._number:
+                assert message["type"] == "success", message
+                return message["result"]
+
+    def open(self, url: str, width: int = 1366, height: int = 900) -> None:
+        self._ask("browsingContext.setViewport", context=self._tab, viewport={"width": width, "height": height})
+        self._ask("browsingContext.navigate", context=self._tab, url=url, wait="complete")
+
+    def evaluate(self, expression: str) -> Any:
+        """Value of a JavaScript expression, which may be a promise."""
+        code = f"(async () => JSON.stringify((await ({expression})) ?? null))()"
+        answer = self._ask("script.evaluate", expression=code, target={"context": self._tab}, awaitPromise=True)
+        assert answer["type"] == "success", answer.get("exceptionDetails")
+        return json.loads(answer["result"]["value"])
+
+    def wait(self, expression: str) -> Any:
+        """Value of an expression as soon as it is true."""
+        end = time.monotonic() + PATIENCE
+        while not (value := self.evaluate(expression)):
+            assert time.monotonic() < end, expression
+            time.sleep(0.1)
+        return value
+
+    def _middle(self, selector: str) -> tuple[int, int]:
+        place = f"""(() => {{
+          const one = document.querySelector({json.dumps(selector)});
+          one.scrollIntoView({{ block: "center" }});
+          const {{ left, top, width, height }} = one.getBoundingClientRect();
+          return [Math.round(left + width / 2), Math.round(top + height / 2)];
+        }})()"""
+        x, y = self.evaluate(place)
+        return x, y
+
+    def drag(self, selector: str, right: int = 0, down: int = 0, *, at: tuple[int, int] = (0, 0)) -> None:
+        """Press the mouse on the middle of an element, or beside it, move it by pixels, and release it."""
+        x, y = (one + off for one, off in zip(self._middle(selector), at, strict=True))
+        steps = [{"type": "pointerMove", "x": x + right * k // 4, "y": y + down * k // 4} for k in range(1, 5)]
+        moves = steps if right or down else []
+        press = [{"type": "pointerMove", "x": x, "y": y}, {"type": "pointerDown", "button": 0}]
+        actions = [*press, *moves, {"type": "pointerUp", "button": 0}]
+        mouse = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}
+        self._ask("input.performActions", context=self._tab, actions=[mouse])
+
+    def click(self, selector: str, at: tuple[int, int] = (0, 0)) -> None:
+        self.drag(selector, at=at)
+
+    def press(self, *keys: str) -> None:
+        """Keys by their names, one after another."""
+        actions = [{"type": kind, "value": KEYS.get(key, key)} for key in keys for kind in ("keyDown", "keyUp")]
+        self._ask(
+            "input.performActions", context=self._tab, actions=[{"type": "key", "id": "keys", "actions": actions}]
+        )
+
+    def saved(self, name: str) -> bytes:
+        """The content of a file that the page saves, once it is there."""
+        end, file = time.monotonic() + PATIENCE, self.downloads / name
+        while not file.is_file() or not file.stat().st_size or list(self.downloads.glob("*.part")):
+            assert time.monotonic() < end, name
+            time.sleep(0.1)
+        return file.read_bytes()
+
+    def close(self) -> None:
+        self._socket.close()
+
+
+@contextmanager
+def running_firefox(folder: Path) -> Iterator[Firefox]:
+    """A Firefox without windows that keeps its profile and its downloads in a folder."""
+    program = firefox_path()
+    assert program, MISSING
+    profile, downloads = folder / "profile", folder / "downloads"
+    for place in (profile, downloads):
+        place.mkdir()
+    lines = {**SETTINGS, "browser.download.dir": str(downloads)}
+    text = "".join(f"user_pref({json.dumps(name)}, {json.dumps(value)});\n" for name, value in lines.items())
+    (profile / "user.js").write_text(text, encoding="utf-8")
+    command = [program, "--headless", "--no-remote", "--profile", str(profile), "--remote-debugging-port", "0"]
+    log = folder / "firefox.log"
+    with log.open("w") as sink:
+        process = subprocess.Popen(command, stdout=sink, stderr=sink, env=os.environ | {"HOME": str(folder)})
+    try:
+        end = time.monotonic() + PATIENCE
+        while not (found := LISTENS.search(log.read_text(encoding="utf-8", errors="replace"))):
+            assert process.poll() is None, log.read_text(encoding="utf-8", errors="replace")
+            assert time.monotonic() < end, "Firefox does not listen"
+            time.sleep(0.1)
+        firefox = Firefox(int(found[1]), downloads)
+        try:
+            yield firefox
+        finally:
+            firefox.close()
+    finally:
+        process.terminate()
+        process.wait(PATIENCE)
