@@ -9,7 +9,7 @@ import { announce, announceRefusal } from "./overlays.js";
 import { passagesText } from "./passages.js";
 import { language, say } from "./text.js";
 
-const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.dxf,.csv,.tsv,.xlsx";
+const ACCEPT = ".json,.geojson,.toml,.kml,.kmz,.gpx,.dxf,.csv,.tsv,.xlsx";
 /** Fields of a dance's file that are numbers of the page too. */
 const NUMBERS = ["head_speed", "margin", "stray", "hole", "pin"];
 const UNIFORM = ["benches", "head_length", "body_length", "width", "overhang"];
@@ -48,7 +48,9 @@ export class Files {
 
   /** Buttons that open and save. */
   buttons() {
-    return [textButton("open", () => this.input.click(), { id: "open" }), this.input, textButton("save", () => this.save(), { id: "save" })];
+    /** Takes the times of a track that was walked as passages; shown after such a track was opened. */
+    this.times = textButton("useTimes", () => this.#useTimes(), { id: "use-times", hidden: true });
+    return [textButton("open", () => this.input.click(), { id: "open" }), this.input, textButton("save", () => this.save(), { id: "save" }), this.times];
   }
 
   /** Open a dance, or a map with a venue and a path. */
@@ -73,7 +75,14 @@ export class Files {
     return { ...dance, ...content, notes };
   }
 
+  #useTimes() {
+    this.state.set({ passages: passagesText(this.walked) });
+    this.times.hidden = true;
+  }
+
   #take(content, name) {
+    this.walked = "dragon" in content ? null : content.passages;
+    this.times.hidden = !this.walked;
     const { dragon = {}, path, venue } = content;
     const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
     const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof content[one] === "number").map((one) => [one, String(content[one])]));
@@ -85,8 +94,8 @@ export class Files {
     if (!venue && !("dragon" in content)) Object.assign(opened, { things, origin, grid });
     const others = {
       ...("dragon" in content && { csv: tableOf(dragon) }),
-      ...("passages" in content && { passages: passagesText(content.passages) }),
-      ...("start_clock" in content && { start_clock: content.start_clock ?? "" }),
+      ...(content.passages && "dragon" in content && { passages: passagesText(content.passages) }),
+      ...(("start_clock" in content || "begin_clock" in content) && { start_clock: content.start_clock ?? "", begin_clock: content.begin_clock ?? "" }),
     };
     this.state.set({ ...own, ...numbers, ...others, time: null, view: null });
     this.steps.take(opened);

@@ -48,7 +48,7 @@ export class Judgement {
     const { length } = course ?? {};
     const time = (dance.end - dance.begin).toFixed(1);
     const lines = [length === undefined ? "" : say(Number(time) ? "pathLength" : "pathOnly", { length: length.toFixed(2), time })];
-    const { clock } = dance.extras;
+    const { clock } = dance;
     const [start, end] = [dance.begin, dance.answer.end?.time ?? dance.end].map((one) => clock && timeOfDay(Number(one.toFixed(DECIMALS)), clock));
     if (clock) lines.push(say("startsEnds", { start, end }));
     this.#fill(outcome, mark, say(`verdict_${dance.verdict}`), lines, rows, rows[0]?.textContent);

@@ -148,7 +148,7 @@ function showTable(pose) {
   table.show(pose);
   const fold = nearFold(pose);
   const last = fold !== null && pose.time === questions.dance.end;
-  const clock = state.get("start_clock");
+  const { clock } = questions.dance;
   const time = (last ? fold : pose.time).toFixed(6);
   $("#table-time").textContent = say(last ? "tableAtFold" : "tableAt", { time }) + (clock ? ` · ${timeOfDay(pose.time, clock)}` : "");
   Object.assign($("#table-fold"), { hidden: fold === null, textContent: fold === null ? "" : say("nearFold", { time: fold.toFixed(6) }) });
@@ -160,7 +160,7 @@ function showTime() {
   const text = `${player.playing || !questions.dance ? time.toFixed(2) : answers.instantWords(time, questions.dance)} s`;
   $("#time").value = time;
   $("#time").setAttribute("aria-valuetext", text);
-  const clock = state.get("start_clock");
+  const clock = questions.dance?.clock;
   $("#clock").textContent = clock ? `${text}\n${timeOfDay(time, clock)}` : text;
   graphs.time(time);
 }
@@ -173,6 +173,7 @@ const SHOW = {
     markContact(answer, begin, end);
     Object.assign($("#verdict"), { hidden: false, textContent: answers.verdictWords(answer, numbers) });
     answers.showFirstContact($("#first-contact"), answer, numbers);
+    pace.begun(questions.dance);
     answers.showEnd($("#run-end"), answer, end, numbers);
     graphs.pitch();
     keep.show();

@@ -1,7 +1,7 @@
 /** The editor of the head's speeds and times: passages, and the time of day at time 0. */
 
 import { button, make, numberIn, textButton } from "./elements.js";
-import { ENDS, beginsOf, clockIn, passagesIn } from "./passages.js";
+import { ENDS, beginsOf, clockIn, endOf, passagesIn, timeOfDay } from "./passages.js";
 import { refusalWords, say } from "./text.js";
 
 /** Duration of an added pause, and of an added passage [s]. */
@@ -22,11 +22,13 @@ export class Pace {
     const adds = ["passageAdd", "pauseAdd"].map((id) => textButton(id, () => this.#add(id === "pauseAdd"), { id }));
     const help = make("p", { className: "hint", "data-text": "passagesHelp" });
     const box = make("details", { id: "passages" }, this.title, help, this.list, this.error, ...adds);
-    this.clock = make("input", { id: "start_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error", onchange: () => this.#start() });
+    this.clock = make("input", { id: "begin_clock", autocomplete: "off", placeholder: "19:30", "aria-describedby": "clock-error clock-help", onchange: () => this.#start() });
     this.wrong = make("p", { id: "clock-error", className: "error", hidden: true, "data-text": "clockWrong" });
-    const label = make("label", { className: "starts" }, make("span", { "data-text": "start_clock" }), " ", this.clock);
-    field.after(make("div", { id: "pace" }, box, label, this.wrong));
-    state.listen((names) => (names.has("passages") || names.has("start_clock")) && this.show());
+    const label = make("label", { className: "starts" }, make("span", { "data-text": "begin_clock" }), " ", this.clock);
+    /** Said of an address or a file with the time of day at time 0, if the dance begins at another time. */
+    this.help = make("p", { id: "clock-help", className: "hint", hidden: true });
+    field.after(make("div", { id: "pace" }, box, label, this.wrong, this.help));
+    state.listen((names) => ["passages", "start_clock", "begin_clock"].some((name) => names.has(name)) && this.show());
     this.show();
   }
 
@@ -40,7 +42,7 @@ export class Pace {
     const last = Math.round(beginsOf(passagesIn(this.state.get("passages")), 0).at(-1).time) || 0;
     const until = Math.round((isPause && this.state.get("time")) || last + LONG);
     const begun = Math.max(until, last);
-    const added = [...(begun > last ? [`${this.state.get("head_speed")}@${begun}s`] : []), ...(isPause ? [`0@${begun + PAUSE}s`] : [])];
+    const added = [...(begun > last ? [`${this.state.get("head_speed")}@${begun}s`] : []), ...(isPause ? [`0@${PAUSE}d`] : [])];
     this.state.set({ passages: [...this.#typed, ...added].join("_") });
     this.#rows.at(-1).until.focus();
   }
@@ -51,19 +53,28 @@ export class Pace {
     this.clock.setAttribute("aria-invalid", clock === null);
     if (clock === null) return;
     this.clock.value = clock;
-    this.state.set({ start_clock: clock });
+    this.state.set({ begin_clock: clock, start_clock: "" });
+  }
+
+  /** Show when a dance begins whose time of day is given at time 0, as in old addresses and files. */
+  begun({ extras: { clock }, begin }) {
+    const isOther = Boolean(clock) && begin !== 0;
+    this.help.hidden = !isOther;
+    if (!clock) return;
+    const start = isOther ? timeOfDay(begin, clock) : clock;
+    this.help.textContent = isOther ? say("clockAtZero", { clock, start }) : "";
+    if (document.activeElement !== this.clock) this.clock.value = start;
   }
 
   #row() {
     const label = (key) => ({ "data-label": key, "aria-label": say(key) });
     const onchange = () => this.state.set({ passages: this.#typed.join("_") });
     const number = (key) => make("input", { inputMode: "decimal", autocomplete: "off", onchange, ...label(key) });
-    const unit = make("select", { onchange, ...label("passageUnit") }, ...Object.keys(ENDS).map((one) => new Option(one, one)));
+    const unit = make("select", { onchange, ...label("passageUnit") }, ...Object.keys(ENDS).map((one) => make("option", { value: one, "data-text": `passageEnd_${one}`, textContent: say(`passageEnd_${one}`) })));
     const drop = () => this.state.set({ passages: this.#typed.toSpliced(this.#rows.indexOf(row), 1).join("_") });
     const remove = button({ className: "reset", textContent: "✕", ...label("passageRemove") }, drop);
     const row = { until: number("passageUntil"), unit, speed: number("passageSpeed") };
-    const word = make("span", { "data-text": "passageUntilWord", textContent: say("passageUntilWord") });
-    row.box = make("li", {}, word, row.until, unit, row.speed, make("span", { className: "unit", textContent: "m/s" }), remove);
+    row.box = make("li", {}, unit, row.until, row.speed, make("span", { className: "unit", textContent: "m/s" }), remove);
     return row;
   }
 
@@ -74,14 +85,15 @@ export class Pace {
       this.#rows.push(this.#row());
       this.list.append(this.#rows.at(-1).box);
     }
-    passages.forEach(({ speed, until_s: place, until_time: time }, k) => {
+    passages.forEach((passage, k) => {
       const row = this.#rows[k];
-      for (const [field, value] of [[row.until, place ?? time], [row.speed, speed]]) if (document.activeElement !== field) field.value = value;
-      row.unit.value = place === undefined ? "s" : "m";
+      const [sign, end] = endOf(passage);
+      for (const [field, value] of [[row.until, end], [row.speed, passage.speed]]) if (document.activeElement !== field) field.value = value;
+      row.unit.value = sign;
     });
     this.list.parentElement.open ||= passages.length > 0;
     this.title.textContent = passages.length ? say("passagesCount", { count: passages.length }) : say("passages");
-    if (document.activeElement !== this.clock) this.clock.value = this.state.get("start_clock");
+    if (document.activeElement !== this.clock) this.clock.value = this.state.get("begin_clock") || this.state.get("start_clock");
   }
 
   /** error: of the service about the passages, or none */

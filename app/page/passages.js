@@ -5,24 +5,44 @@ import { numberIn } from "./elements.js";
 const DAY = 86_400;
 const [HOUR, MINUTE] = [3_600, 60];
 const CLOCK = /^([01]\d|2[0-3]):[0-5]\d(:[0-5]\d)?$/;
-/** End of a passage: a place [m] or a time [s]. */
-export const ENDS = { m: "until_s", s: "until_time" };
+/** End of a passage by its sign in an address: a place [m], a time [s], or its duration [s]. */
+export const ENDS = { m: "until_s", s: "until_time", d: "duration" };
 
-/** Passages of an address, such as 0.5@20m_0@100s, in the service's format; the service refuses wrong numbers. */
+/** Passages of an address, such as 0.5@20m_0@100s_0@10d, in the service's format; the service refuses wrong numbers. */
 export function passagesIn(text) {
   return text.split("_").filter(Boolean).map((one) => {
-    const [, speed, until, unit] = /^(.*?)@(.*?)([ms]?)$/.exec(one) ?? [null, one, "", ""];
+    const [, speed, until, unit] = /^(.*?)@(.*?)([msd]?)$/.exec(one) ?? [null, one, "", ""];
     return { speed: numberIn(speed), [ENDS[unit] ?? ENDS.s]: numberIn(until) };
   });
 }
 
+/** The end of a passage: [its sign, its value]. */
+export function endOf(passage) {
+  const [sign, name] = Object.entries(ENDS).find(([, one]) => (passage[one] ?? null) !== null) ?? ["s", ENDS.s];
+  return [sign, passage[name]];
+}
+
 /** Passages as the text of an address. */
 export const passagesText = (passages) =>
-  passages.map(({ speed, until_s: place, until_time: time }) => `${speed}@${place ?? time}${place === undefined || place === null ? "s" : "m"}`).join("_");
+  passages.map((one) => {
+    const [sign, value] = endOf(one);
+    return `${one.speed}@${value}${sign}`;
+  }).join("_");
 
 /** The passages of the dance made faster by a factor. */
 export const quickened = (passages, factor) =>
-  passages.map(({ speed, until_time: time, ...place }) => ({ speed: speed * factor, ...place, ...(time !== undefined && { until_time: time / factor }) }));
+  passages.map(({ speed, ...ends }) => ({ speed: speed * factor, ...Object.fromEntries(Object.entries(ends).map(([name, end]) => [name, name === ENDS.m ? end : Number(end) / factor])) }));
+
+/** The passages of a dance whose head is this far and this late at its new time 0 [m], [s]; those that are over are left out. */
+export function laterBy(passages, gone, time) {
+  const begins = beginsOf(passages, 1);
+  return passages.flatMap(({ speed, until_s: place, until_time: until, duration }, k) => {
+    if (begins[k + 1].time <= time) return [];
+    if (place !== undefined) return [{ speed, until_s: place - gone }];
+    const end = until ?? begins[k].time + duration;
+    return [duration !== undefined && begins[k].time >= time ? { speed, duration } : { speed, until_time: end - time }];
+  });
+}
 
 /** A typed time of day, such as 19:30, 7:30 or 19:30:15, in the service's format; null if it is none. */
 export function clockIn(text) {
@@ -40,13 +60,28 @@ export function timeAfter(distance, speed, passages) {
 /** Time [s], way of the head since time 0 [m] and speed [m/s] where each passage begins, and what comes after them. */
 export function beginsOf(passages, after) {
   const begins = [{ time: 0, gone: 0 }];
-  for (const { speed, until_s: place, until_time: until } of passages) {
+  for (const { speed, until_s: place, until_time: until, duration } of passages) {
     const { time, gone } = Object.assign(begins.at(-1), { speed });
-    const stop = until ?? time + (place - gone) / speed;
+    const stop = until ?? (duration === undefined ? time + (place - gone) / speed : time + duration);
     begins.push({ time: stop, gone: place ?? gone + speed * (stop - time) });
   }
   Object.assign(begins.at(-1), { speed: after });
   return begins;
+}
+
+/** Way of the head at a time since time 0 [m]. */
+export function wayAt(time, speed, passages) {
+  const { time: begun, gone, speed: own } = beginsOf(passages, speed).findLast((one) => one.time <= time) ?? { time: 0, gone: 0, speed };
+  return gone + own * (time - begun);
+}
+
+/** The time of day at time 0 of a dance that begins at `begin` [s]; extras: {clock: then, or beginClock: when it begins}; null without one */
+export function clockAtZero({ clock, beginClock }, begin) {
+  if (!beginClock) return clock || null;
+  const [hours, minutes, seconds = 0] = beginClock.split(":").map(Number);
+  const now = Number(((((HOUR * hours + MINUTE * minutes + seconds - begin) % DAY) + DAY) % DAY).toFixed(6)) % DAY;
+  const rest = now % MINUTE;
+  return [Math.floor(now / HOUR), Math.floor((now / MINUTE) % MINUTE)].map((part) => String(part).padStart(2, "0")).join(":") + `:${rest < 10 ? "0" : ""}${Number(rest.toFixed(6))}`;
 }
 
 /** Seconds from one time of day to the next occurrence of another, or back to one less than half a day before. */
@@ -58,6 +93,6 @@ export function secondsBetween(from, to) {
 /** The time of day at a time of the dance [s], down to the whole second; clock: that at time 0, such as 19:30 */
 export function timeOfDay(time, clock) {
   const [hours, minutes, seconds = 0] = clock.split(":").map(Number);
-  const now = (((Math.floor(HOUR * hours + MINUTE * minutes + seconds + time) % DAY) + DAY) % DAY);
+  const now = (((Math.floor(Number((HOUR * hours + MINUTE * minutes + seconds + time).toFixed(6))) % DAY) + DAY) % DAY);
   return [now / HOUR, (now / MINUTE) % MINUTE, now % MINUTE].map((part) => String(Math.floor(part)).padStart(2, "0")).join(":");
 }

@@ -79,7 +79,7 @@ export class Player {
       field.remove();
     };
     const take = () => {
-      const start = this.state.get("start_clock");
+      const start = this.questions.dance?.clock;
       const [time, day] = [numberIn(field.value), start && clockIn(field.value)];
       end();
       if (typeof time === "number") this.seek(time);

@@ -3,7 +3,7 @@
 import { Problem, Superseded } from "./api.js";
 import { pathOf, placeOf, venueOf } from "./drawing.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf } from "./fields.js";
-import { timeAfter } from "./passages.js";
+import { clockAtZero, timeAfter } from "./passages.js";
 import { Pause } from "./pending.js";
 import { EXTRAS } from "./state.js";
 import { Track, speedTimes } from "./track.js";
@@ -46,7 +46,7 @@ const picked = (from, names) => Object.fromEntries(names.map((name) => [name, fr
 export const isPlain = ({ extras: { csv, passages } }) => !csv && !passages.length;
 
 export class Questions {
-  /** {kind, query, numbers, extras, answer, begin, end, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
+  /** {kind, query, numbers, extras, answer, begin, end, clock: time of day at time 0 or null, report: of /check if it answered, track; drawn: drawing, failures, verdict} */
   dance = null;
   /** The drawn path from the service: {s, x, y, knots, bends, drawing} */
   course = null;
@@ -132,7 +132,7 @@ export class Questions {
       return this.#latest.clear();
     }
     const body = this.checkBody(request);
-    const { start_clock: clock, ...course } = body;
+    const { start_clock: clock, begin_clock: begins, ...course } = body;
     if (this.#isNew("course", course)) this.#askCourse({ ...course, breaches: true }, drawing);
     if (!this.#isNew("contact", body)) return;
     // Questions about the former dance would delay the verdict on the new one.
@@ -148,9 +148,11 @@ export class Questions {
   }
 
   /** Body of a request about a dance; default: the shown dance. */
-  body(more, { numbers, kind, drawing, extras: { csv, passages, clock } } = this.dance) {
+  body(more, { numbers, kind, drawing, extras: { csv, passages, clock, beginClock } } = this.dance) {
     const dragon = csv ? { csv } : picked(numbers, DRAGON);
-    const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }) };
+    // Where a dance on a proposed path starts at 0 s, that is its beginning for every question.
+    const begins = beginClock && { [kind === "route" && drawing.path && drawing.start === 0 ? "start_clock" : "begin_clock"]: beginClock };
+    const pace = { head_speed: numbers.head_speed, ...(passages.length && { passages }), ...(clock && { start_clock: clock }), ...begins };
     if (kind === "route") return { dragon, path: pathOf(drawing), ...pace, ...more };
     const names = ["pitch", "start_turns", ...(kind === "turn" ? TURN : [])];
     return { dragon, path: { kind, ...picked(numbers, names) }, ...pace, ...more };
@@ -209,7 +211,7 @@ export class Questions {
   }
 
   #accept(dance) {
-    this.#take({ ...dance, track: null });
+    this.#take({ ...dance, clock: clockAtZero(dance.extras, dance.begin), track: null });
     this.tell("dance");
     if (dance.kind !== "route") this.#askPath();
     if (!this.#rest.lasts) this.#askDance();

@@ -4,7 +4,7 @@ import { FIELDS } from "./fields.js";
 import { PLACES, REASONS, RULES, WHOLE } from "./words/refusals.js";
 
 /** Names in tables of benches and of passages: the key of their words. */
-const NAMES = { length: "csvLength", speed: "passageSpeed", until_s: "passagePlace", until_time: "passageTime" };
+const NAMES = { length: "csvLength", speed: "passageSpeed", until_s: "passagePlace", until_time: "passageTime", duration: "passageDuration" };
 const UNITS = { m: "metres", cm: "centimetres", "m/s": "metres per second", s: "seconds", turns: "turns", rad: "radians" };
 const CHINESE = { turns: " 圈", degrees: "°" };
 /** An example of a number in each unit, for fields without a default. */

@@ -2,6 +2,7 @@
 
 import { EMPTY, bent, freeName, moved, removed, withThing } from "./drawing.js";
 import { button, hide, make, numberIn } from "./elements.js";
+import { laterBy, passagesText, wayAt } from "./passages.js";
 import { PRESETS, isPresetVenue } from "./presets.js";
 import { say } from "./text.js";
 
@@ -106,13 +107,18 @@ export class RouteForm {
 
   /** Offer to begin at time 0 if the dance begins later, because the dragon does not yet fit on the path. dance: as judged, or null */
   offer(dance) {
-    this.later.hidden = !(dance?.begin > 0) || dance.extras.passages.length > 0;
+    this.later.hidden = !(dance?.begin > 0);
     if (this.later.hidden) return;
-    const { begin, numbers } = dance;
+    const { begin, numbers, extras: { passages } } = dance;
     const [words, button] = this.later.children;
-    const place = Math.ceil(10 * (this.#drawing.begin + numbers.head_speed * begin)) / 10;
+    const place = Math.ceil(10 * (this.#drawing.begin + wayAt(begin, numbers.head_speed, passages))) / 10;
+    const start = () => {
+      // Passages keep their places, and their times after the new beginning.
+      if (passages.length) this.state.set({ passages: passagesText(laterBy(passages, place - this.#drawing.begin, begin)) });
+      this.#take({ begin: place });
+    };
     words.textContent = say("beginsLater", { time: begin.toFixed(2) });
-    Object.assign(button, { textContent: say("beginThere", { place }), onclick: () => this.#take({ begin: place }) });
+    Object.assign(button, { textContent: say("beginThere", { place }), onclick: start });
   }
 
   /** Set the place of x = y = 0 on earth when both of its numbers are given, or none. */

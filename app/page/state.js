@@ -14,8 +14,8 @@ const DRAWN_BENCHES = "24";
 /** Longest address that all browsers and chat programs accept [characters]. */
 const ADDRESS_MOST = 8_000;
 
-/** Parts of a dance in addition to its numbers, as text: a table of benches, passages, the time of day at time 0. */
-export const EXTRAS = ["csv", "passages", "start_clock"];
+/** Parts of a dance in addition to its numbers, as text: a table of benches, passages, the time of day at time 0 or when it begins. */
+export const EXTRAS = ["csv", "passages", "start_clock", "begin_clock"];
 const NUMBERS = Object.fromEntries([...FIELDS.map(({ name, value }) => [name, value]), ...EXTRAS.map((name) => [name, ""])]);
 /** True if the address has nothing except the language: then the page opens with the dance in motion. */
 const isBare = (address) => [...address.keys()].every((name) => name === "lang");
@@ -36,6 +36,7 @@ const READ = {
   },
   lang: oneOf(["en", "zh"]),
   start_clock: clockIn,
+  begin_clock: clockIn,
 };
 
 export class State {
@@ -86,10 +87,10 @@ export class State {
     return Object.fromEntries(names.map((name) => [name, this.#values[name]]).filter(([name, text]) => text || DEFAULTS[name]));
   }
 
-  /** Parts in addition to the numbers: the table of benches and its benches, passages, the time of day at time 0. */
+  /** Parts in addition to the numbers: the table of benches and its benches, passages, the time of day at time 0 or when the dance begins. */
   extras() {
-    const { csv, passages, start_clock } = this.#values;
-    return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), clock: start_clock };
+    const { csv, passages, start_clock: clock, begin_clock: begins } = this.#values;
+    return { csv, listed: csv ? benchesOf(csv) : null, passages: passagesIn(passages), clock: begins ? "" : clock, beginClock: begins };
   }
 
   /** listener(names): called after each change with the set of names that changed */

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import Annotated
 
 from pydantic import AfterValidator, Field
 from pydantic_core import PydanticCustomError
 
 from app.wire.question import Instant, Wire, measure
-from core import Passage
+from core import InvalidValue, Passage
+from core.errors import Parameter, Quantity
+from core.passages import checked_passages, nodes
 
 DAY = 86_400  # [s]
 CLOCK = re.compile(r"([01]\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?", re.ASCII)
@@ -76,12 +79,29 @@ def time_of_day(time: float, start_clock: str) -> str:
 class PassageBody(Wire, strict=True):
     """A stretch of the dance at a speed of its own, from the end of the passage before it, or from time 0."""
 
-    speed: float = measure("m/s", "Speed of the head; 0: a pause, which ends at a time", ge=0, le=20)
+    speed: float = measure("m/s", "Speed of the head; 0: a pause, which has a duration or ends at a time", ge=0, le=20)
     until_s: float | None = measure(
         "m", "Place of the head at which the passage ends, along the path from where it is at time 0", None,
         ge=-1e6, le=1e6,
     )  # fmt: skip
     until_time: Instant | None = measure("s", "Time at which the passage ends, in place of a place", None)
+    duration: float | None = measure("s", "Duration of the passage, in place of its end", None, gt=0, le=1e6)
 
-    def to_passage(self) -> Passage:
-        return Passage(self.speed, self.until_s, self.until_time)
+
+def passages_of(bodies: Sequence[PassageBody]) -> list[Passage]:
+    """The passages of a request, where a duration becomes the time at its end. raises: InvalidValue
+
+    >>> passages_of([PassageBody(speed=0.5, until_s=20.0), PassageBody(speed=0.0, duration=10.0)])[1].until_time
+    50.0
+    """
+    passages: list[Passage] = []
+    for k, body in enumerate(bodies):
+        until = body.until_time
+        if body.duration is not None:
+            for name in ("until_s", "until_time"):
+                if getattr(body, name) is not None:
+                    rule, other = "must be left out beside {other}, at which the passage ends", Parameter(name)
+                    raise InvalidValue(f"passages.{k}.duration", rule, got=Quantity(body.duration, "s"), other=other)
+            until = nodes(checked_passages(passages))[0][-1] + body.duration
+        passages.append(Passage(body.speed, body.until_s, until))
+    return passages

@@ -15,7 +15,7 @@ from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
 from app.wire.benches import BenchCsv
-from app.wire.clocks import BeginClock, PassageBody, StartClock, clock_at_zero
+from app.wire.clocks import BeginClock, PassageBody, StartClock, clock_at_zero, passages_of
 from app.wire.paths import KINDS, AnyPath, SpiralPath
 from app.wire.question import (
     Coordinates,
@@ -177,8 +177,8 @@ class PathFields(HeadSpeed, DragonFields, strict=True):
 
     def to_dance(self, benches_max: int) -> Dance:
         """raises: TooLarge, InvalidValue"""
-        passages = [one.to_passage() for one in self.passages]
-        return Dance(self.dragon.to_dragon(benches_max), self.path.to_path(), self.head_speed, passages)
+        dragon, path = self.dragon.to_dragon(benches_max), self.path.to_path()
+        return Dance(dragon, path, self.head_speed, passages_of(self.passages))
 
 
 class DanceFields(PathFields, strict=True):

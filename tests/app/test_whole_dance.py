@@ -147,6 +147,8 @@ def test_a_table_may_come_from_a_spreadsheet() -> None:
         ("/passages/1/until_time", {"passages": [{"speed": 1, "until_s": 5}, {"speed": 0, "until_time": 5}]}),
         ("/passages/0/until_time", {"passages": [{"speed": 0, "until_s": 5}]}),
         ("/passages/0", {"passages": [{"speed": 1}]}),
+        ("/passages/0/duration", {"passages": [{"speed": 1, "until_s": 5, "duration": 3}]}),
+        ("/passages/0/duration", {"passages": [{"speed": 0, "duration": 0}]}),
         ("/passages/0/speed", {"passages": [{"speed": -1, "until_s": 5}]}),
         ("/path/centre/1", {"path": SPIRAL | {"centre": [0, 1e9]}}),
         ("/path/clockwise", {"path": SPIRAL | {"clockwise": 1}}),
@@ -265,3 +267,15 @@ def test_a_film_shows_the_time_of_day() -> None:
     stage = FilmPicture(PLACED, FilmSpec(0.0, 130.0, height=90, start_clock="19:30"), None, "")
     stage.frame(101.5, core.bench_outlines(PLACED.dragon, core.trajectory(PLACED, 101.5).position))
     assert stage.time.get_text() == "19:31:41  101.50 s"
+
+
+def test_a_pause_has_a_length(client: httpx.Client) -> None:
+    body = {"path": LANE, "dragon": {"benches": 2}, "head_speed": 1}
+    until = [{"speed": 0.5, "until_s": 5}, {"speed": 0, "until_time": 17.5}, {"speed": 2, "until_time": 20}]
+    lasting = [{"speed": 0.5, "until_s": 5}, {"speed": 0, "duration": 7.5}, {"speed": 2, "duration": 2.5}]
+    first, second = (
+        client.post("/check", json=body | {"passages": one}).raise_for_status() for one in (until, lasting)
+    )
+    assert first.json() == second.json()
+    refused = client.post("/check", json=body | {"passages": [{"speed": 0, "until_time": 5, "duration": 3}]})
+    assert "must be left out beside passages[0].until_time" in refused.json()["detail"] or "until_time" in refused.text

@@ -96,8 +96,8 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
         for field, value in zip(row.locator("input").all(), (until, speed), strict=True):
             field.fill(value)
             field.press("Tab")
-    page.locator("#start_clock").fill("7:30")
-    page.locator("#start_clock").press("Tab")
+    page.locator("#begin_clock").fill("7:30")
+    page.locator("#begin_clock").press("Tab")
     contact = contact_of(server, dragon={"benches": 30}, passages=PASSAGES)
     expect(page.locator("#first-contact .value")).to_contain_text(contact)
     expect(page.locator("#clock")).to_have_text(re.compile(r"^50.000000 s\s*07:30:50$"))
@@ -107,8 +107,8 @@ def test_passages_and_the_time_of_day_change_every_time_and_are_shared(visit: An
     page.reload()
     expect(page.locator("#first-contact .value")).to_contain_text(contact)
     expect(page.locator("#passages li")).to_have_count(3)
-    page.locator("#start_clock").fill("25 o'clock")
-    page.locator("#start_clock").press("Tab")
+    page.locator("#begin_clock").fill("25 o'clock")
+    page.locator("#begin_clock").press("Tab")
     expect(page.locator("#clock-error")).to_be_visible()
     page.locator("#passages li").nth(1).locator("select").select_option("m")
     expect(page.locator("#passages .error")).to_contain_text("“until, in seconds” must be given.")
@@ -139,9 +139,9 @@ def test_a_pause_lies_at_the_instant_shown(visit: Any) -> None:
     page = visit("?benches=30&time=50")
     page.locator("#passages summary").click()
     page.locator("#pauseAdd").click()
-    page.wait_for_url("**passages=1@50s_0@60s*")
+    page.wait_for_url("**passages=1@50s_0@10d*")
     page.locator("#passageAdd").click()
-    page.wait_for_url("**passages=1@50s_0@60s_1@80s*")
+    page.wait_for_url("**passages=1@50s_0@10d_1@80s*")
 
 
 def test_a_drawn_dance_takes_them_too_and_its_failures_tell_the_time_of_day(visit: Any, server: str) -> None:
@@ -181,3 +181,40 @@ def test_a_route_without_a_drawing_invites_to_draw_and_waits_for_nothing(visit: 
     page.locator("[data-preset=eight]").tap()
     expect(page.locator("#judgement .value")).to_have_text(re.compile("表演"))
     expect(page.locator("#invite")).to_be_hidden()
+
+
+def test_a_dance_that_begins_later_is_begun_at_once_also_with_a_pause(visit: Any) -> None:
+    page = visit("?path=route&route=*-40,0_40,0&benches=9&passages=0.5@30m_0@20d&begin_clock=19:30")
+    settled(page)
+    hint = page.locator("#route .hint", has_text="The dance begins at")
+    expect(hint).to_be_visible()
+    expect(page.locator("#judgement")).to_contain_text("It starts at 19:30:00")
+    before = page.locator("#judgement").inner_text()
+    hint.locator("button").click()
+    settled(page)
+    expect(hint).to_be_hidden()
+    page.wait_for_url(
+        re.compile(r"passages=0\.5@1\d(\.\d+)?m_0@20d.*begin=1\d|begin=1\d.*passages=0\.5@1\d(\.\d+)?m_0@20d")
+    )
+    # Up to the ten centimetres to which the place is rounded, the dance is the same.
+    ends = [re.search(r"ends at 19:(\d+):(\d+)", text) for text in (before, page.locator("#judgement").inner_text())]
+    assert all(ends)
+    first, second = (60 * int(one[1]) + int(one[2]) for one in ends if one)
+    assert abs(first - second) <= 1
+
+
+def test_an_old_address_with_the_time_of_day_at_time_0_shows_when_the_dance_starts(visit: Any) -> None:
+    page = visit("?path=route&route=*-40,0_40,0&benches=9&start_clock=19:30")
+    settled(page)
+    expect(page.locator("#judgement")).to_contain_text("It starts at 19:30:16")
+    expect(page.locator("#begin_clock")).to_have_value("19:30:16")
+    expect(page.locator("#clock-help")).to_have_text(
+        "The file or the address says 19:30 at 0 s; the dance starts at 19:30:16."
+    )
+    page.locator("#begin_clock").fill("20:00")
+    page.locator("#begin_clock").press("Tab")
+    settled(page)
+    expect(page.locator("#judgement")).to_contain_text("It starts at 20:00:00")
+    expect(page.locator("#clock-help")).to_be_hidden()
+    page.wait_for_url(re.compile("begin_clock=20:00"))
+    assert "start_clock" not in page.url

@@ -36,6 +36,7 @@ export const RULES = {
   "be at most {most}": [undefined, "最多为 {most}"],
   "be from {least} to {most}": [undefined, "应在 {least} 至 {most} 之间"],
   "be at most {most}, where it would turn by {turn} at the larger of its curvatures": [undefined, "最多为 {most}（否则以其较大的曲率转过的角度将超过 {turn}）"],
+  "be left out beside {other}, at which the passage ends": ["not stand beside another end of the passage", "不能与该段的另一个终点同时给出"],
   "be positive": [undefined, "应大于 0"],
   "be zero or more": [undefined, "应为 0 或更大"],
   "be smaller": [undefined, "应更小"],
