@@ -65,6 +65,7 @@ from .performance.answer import EncounterEvidence, FirstEncounter, NearPass
 from .performance.cross_check import EncounterCheck, encounter_check
 from .performance.encounter import first_encounter
 from .performance.performance import Part, Performance, PerformanceEnd
+from .performance.safe_delay import SafeDelays, safe_delay
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
 from .proposal.gates import Gate
@@ -161,6 +162,7 @@ __all__ = [
     "Report",
     "Route",
     "RunEnd",
+    "SafeDelays",
     "Separation",
     "SharpestBend",
     "ShortestTurn",
@@ -208,6 +210,7 @@ __all__ = [
     "propose",
     "quick_check",
     "quickest_turn",
+    "safe_delay",
     "separation",
     "sharpest_bend",
     "shortest_turn",

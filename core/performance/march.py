@@ -113,6 +113,11 @@ class March:
                 break
         return met
 
+    def try_once(self, begin: float, until: float, half: float) -> Met:
+        """A march between two times [s] that looks for no narrower bracket than this, and so for no shorter steps."""
+        self.halves = [half]
+        return self._run(begin, until)
+
     def _run(self, begin: float, until: float) -> Met:
         self.time, self.half, self.aim, self.touching, self._seen = begin, self.halves[0], None, None, []
         self.length = FIRST_STEP
