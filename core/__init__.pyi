@@ -66,6 +66,7 @@ from .performance.cross_check import EncounterCheck, encounter_check
 from .performance.encounter import first_encounter
 from .performance.performance import Part, Performance, PerformanceEnd
 from .performance.safe_delay import SafeDelays, safe_delay
+from .performance.verdict import PerformanceFailure, PerformanceReport, performance_check, performance_trajectory
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
 from .proposal.gates import Gate
@@ -150,6 +151,8 @@ __all__ = [
     "PathSummary",
     "Performance",
     "PerformanceEnd",
+    "PerformanceFailure",
+    "PerformanceReport",
     "Piece",
     "PitchScan",
     "ProbabilityClaim",
@@ -205,6 +208,8 @@ __all__ = [
     "maximum_head_speed",
     "minimum_pitch",
     "overlaps",
+    "performance_check",
+    "performance_trajectory",
     "pitch_check",
     "pitch_scan",
     "propose",

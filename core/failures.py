@@ -73,7 +73,7 @@ def touch_failures(contact: FirstContact, least: LeastClearance | None, margin: 
 
 def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     """The first approach of two benches within the margin [m], or that it is undecided; none if there is none."""
-    meet = _meeting(margin, "come", "", contact.stray)
+    meet = approach_words(margin, contact.stray)
     if contact.outcome is Outcome.UNDECIDED:
         assert contact.time_bracket is not None
         time = contact.time_bracket[0]
@@ -89,6 +89,11 @@ def contact_failures(contact: FirstContact, margin: float) -> list[Failure]:
     a, b = map(contact.dance.dragon.called, contact.benches)
     message = f"Benches {a} and {b} {meet} at {contact.time:.6f} s{_gap(contact.gap, margin, 'overlap')}."
     return [Failure(FailureKind.CONTACT, contact.time, contact.benches, None, message, contact.time_bracket)]
+
+
+def approach_words(margin: float, stray: float) -> str:
+    """The predicate of two benches that come within the margin [m]."""
+    return _meeting(margin, "come", "", stray)
 
 
 def _at_the_latest(meet: str, bracket: tuple[float, float]) -> str:

@@ -1,0 +1,178 @@
+"""One verdict on a performance: each dragon by itself, with the venue, and any two together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from core.contact.answer import Outcome
+from core.display import Readable, display
+from core.dragon import Stray
+from core.errors import question_about
+from core.failures import Failure, FailureKind, approach_words
+from core.judgement import Judgement, Report, check
+from core.kernels import Budget
+from core.motion.trajectory import Trajectory, trajectory
+from core.performance.answer import FirstEncounter
+from core.performance.encounter import first_encounter
+from core.performance.performance import Part, Performance
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class PerformanceFailure(Readable):
+    """One failed or undecided condition of a performance.
+
+    kind: see FailureKind; time: of the performance [s], as in a Failure; dragons: the one at fault, or the two that
+        meet; benches: those at fault, for two dragons one of each; message: one sentence that names the dragon
+    time_bracket: (proven not to fail up to, failing at) on the clock of the performance [s]; None without a search
+    failure: of a dragon by itself, on the clock of its own dance; None for two dragons
+    """
+
+    kind: FailureKind
+    time: float
+    dragons: tuple[int, ...]
+    benches: tuple[int, ...]
+    message: str
+    time_bracket: tuple[float, float] | None = None
+    failure: Failure | None = None
+
+    def _line(self) -> str:
+        return self.message
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class PerformanceReport(Readable):
+    """The verdict on a performance, and the answers behind it.
+
+    start, stop: the judged interval [s]; verdict: see Judgement; passed: True for PASSES
+    failures: in order of time; a dragon by itself is judged to the stop, or to a touch of two of its own benches, also
+        after an encounter
+    encounter: the first one of two dragons; reports: of each dragon by itself, on the clock of its own dance; None for
+        one that stands during the whole interval
+    """
+
+    start: float
+    stop: float
+    verdict: Judgement
+    passed: bool
+    failures: tuple[PerformanceFailure, ...]
+    encounter: FirstEncounter
+    reports: tuple[Report | None, ...]
+    performance: Performance = field(repr=False, compare=False)
+
+    def _line(self) -> str:
+        span = f"{self.verdict.value}, judged from {display(self.start)} to {display(self.stop, 's')}"
+        more = f" And {len(self.failures) - 1} more." if len(self.failures) > 1 else ""
+        return f"{span}: {self.failures[0].message}{more}" if self.failures else span
+
+
+@question_about("performance", Performance)
+def performance_check(
+    performance: Performance,
+    *,
+    margin: float = 0.0,
+    stray: float | Stray = 0.0,
+    speed_limit: float | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+    budget: Budget | None = None,
+) -> PerformanceReport:
+    """Verdict on a performance: check() of every dragon in the venue, and the first encounter of two.
+
+    margin: required between benches, dragons and to the venue [m]; stray: largest distance of every hole from its place
+        [m]; speed_limit: of every handle [m/s]; start, stop: [s], None for the beginning and the end
+    The report of a single dragon is that of check() to the last bit. A dragon that stands, before its dance or after
+    it, is judged only together with the others.
+    raises: InvalidValue; OutsideRun; TooMuchWork
+
+    >>> from core import Dance, Dragon, Line, Part, Performance, Route
+    >>> streets = [Line((-40.0, 0.0), (40.0, 0.0)), Line((0.0, -40.0), (0.0, 40.0))]
+    >>> crossing = Performance([Part(Dance(Dragon(5), Route([street]))) for street in streets])
+    >>> performance_check(crossing).failures[0].message
+    'Bench 0 of dragon 0 and bench 0 of dragon 1 touch at 39.575000 s.'
+    """
+    begin, until = performance.span(start, stop)
+    met = first_encounter(performance, margin=margin, stray=stray, start=begin, stop=stop, budget=budget)
+    failures, reports = _encounter_failures(met), list[Report | None]()
+    for k, part in enumerate(performance.parts):
+        first = None if start is None and begin <= part.begin else part.own_time(begin)
+        last = None if part.end <= until else part.own_time(until)
+        if max(begin, part.begin) >= min(until, part.end):
+            reports.append(None)
+            continue
+        report = check(
+            part.dance, venue=performance.venue, margin=margin, stray=stray, speed_limit=speed_limit, start=first,
+            stop=last, budget=budget,
+        )  # fmt: skip
+        reports.append(report)
+        failures += [_of_dragon(performance, k, failure) for failure in report.failures]
+    failures.sort(key=lambda failure: failure.time)
+    undecided = all(failure.kind is FailureKind.UNDECIDED for failure in failures)
+    verdict = Judgement.PASSES if not failures else Judgement.UNDECIDED if undecided else Judgement.FAILS
+    return PerformanceReport(begin, until, verdict, not failures, tuple(failures), met, tuple(reports), performance)
+
+
+def _of_dragon(performance: Performance, k: int, failure: Failure) -> PerformanceFailure:
+    """The failure of a dragon by itself, on the clock of the performance."""
+    delay, bracket = performance.parts[k].delay, failure.time_bracket
+    shifted = None if bracket is None else (bracket[0] + delay, bracket[1] + delay)
+    own = f" (at {failure.time + delay:.6f} s of the performance)" if delay else ""
+    name = performance.name_of(k)
+    message = failure.message if len(performance.parts) == 1 else f"{name[0].upper()}{name[1:]}{own}: {failure.message}"
+    return PerformanceFailure(failure.kind, failure.time + delay, (k,), failure.benches, message, shifted, failure)
+
+
+def _encounter_failures(met: FirstEncounter) -> list[PerformanceFailure]:
+    """The first encounter of two dragons as a failure, or that it is undecided; none if there is none."""
+    words = approach_words(met.margin, met.stray)
+    bracket = met.time_bracket
+    if met.outcome is Outcome.UNDECIDED and bracket is not None:
+        if met.overlapping is None:
+            message = f"Whether benches of two dragons {words} is not decided from {bracket[0]:.6f} s on."
+            return [PerformanceFailure(FailureKind.UNDECIDED, bracket[0], (), (), message, None)]
+        dragons, benches = met.overlapping
+        message = f"{_pair(met, dragons, benches)} {words} at {bracket[1]:.6f} s at the latest."
+        return [PerformanceFailure(FailureKind.CONTACT, bracket[1], dragons, benches, message, bracket)]
+    if met.time is None or met.dragons is None or met.benches is None:
+        return []
+    message = f"{_pair(met, met.dragons, met.benches)} {words} at {met.time:.6f} s."
+    return [PerformanceFailure(FailureKind.CONTACT, met.time, met.dragons, met.benches, message, bracket)]
+
+
+def _pair(met: FirstEncounter, dragons: tuple[int, int], benches: tuple[int, int]) -> str:
+    """Two benches at the beginning of a sentence, with their households and dragons."""
+    parts = met.performance.parts
+    one, two = (
+        f"ench {parts[k].dance.dragon.called(bench)} of {met.performance.name_of(k)}"
+        for k, bench in zip(dragons, benches, strict=True)
+    )
+    return f"B{one} and b{two}"
+
+
+@question_about("performance", Performance, "the trajectories were not computed")
+def performance_trajectory(
+    performance: Performance, times: ArrayLike, *, budget: Budget | None = None
+) -> tuple[Trajectory, ...]:
+    """Position and velocity of every handle of every dragon at every time of the performance, a Trajectory for each.
+
+    times: (T,) or one [s]. Before and after its dance a dragon stands, with velocity 0. The Trajectory of a part
+        without a delay is that of its dance, to the last bit, while it dances; others have no `dance` to plot
+    raises: InvalidValue (times); TooMuchWork
+    """
+    return tuple(_trajectory_of(part, times, budget) for part in performance.parts)
+
+
+def _trajectory_of(part: Part, times: ArrayLike, budget: Budget | None) -> Trajectory:
+    time = np.asarray(times)
+    if time.dtype.kind not in "iuf" or not np.isfinite(time).all():
+        return trajectory(part.dance, times, budget=budget)  # which refuses them
+    time = time.astype(np.float64)
+    own = np.clip(time - part.delay, part.dance.begin, part.dance.end.time)
+    placed = trajectory(part.dance, own, budget=budget)
+    stands = (time < part.begin) | (time > part.end)
+    velocity, speed = placed.velocity.copy(), placed.speed.copy()
+    velocity[stands], speed[stands] = 0.0, 0.0
+    dances = part.dance if part.delay == 0.0 and not stands.any() else None
+    return replace(placed, time=time, velocity=velocity, speed=speed, dance=dances)
