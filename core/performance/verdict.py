@@ -165,7 +165,10 @@ def performance_trajectory(
 
 
 def _trajectory_of(part: Part, times: ArrayLike, budget: Budget | None) -> Trajectory:
-    time = np.asarray(times)
+    try:
+        time = np.asarray(times)
+    except ValueError:
+        return trajectory(part.dance, times, budget=budget)
     if time.dtype.kind not in "iuf" or not np.isfinite(time).all():
         return trajectory(part.dance, times, budget=budget)  # which refuses them
     time = time.astype(np.float64)
