@@ -31,8 +31,16 @@ def report(name: str) -> Report:
 
 
 def test_every_example_has_its_test() -> None:
-    # docs/sweeps.md runs the sweep, docs/performances.md the two dragons.
-    names = {"paper_dance", "contest_turn", "clothoid_turn", "village_square", "two_dragons", "sweep"}
+    # docs/sweeps.md runs the sweep, docs/performances.md the several dragons.
+    names = {
+        "paper_dance",
+        "contest_turn",
+        "clothoid_turn",
+        "village_square",
+        "two_dragons",
+        "crossing_streets",
+        "sweep",
+    }
     assert {path.stem for path in EXAMPLES.glob("*.toml")} == names
     others = {path.name for path in EXAMPLES.glob("*.*") if path.suffix != ".toml"}
     assert others == {

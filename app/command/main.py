@@ -37,6 +37,7 @@ ROOMS = {
     "cues": "people",
     "collision-time": "contacts",
     "encounter": "encounter",
+    "safe-delay": "encounter",
     "clearance": "contacts",
     "minimum-pitch": "designs",
     "turn": "designs",

@@ -174,6 +174,7 @@ _ALL = {
     "clearance": _ways("clearance", 0.2, "clearance", answer=clearance_row, model=ClearanceRow),
     "trajectory": _ways("trajectory", 2e-3, "greatest_speed", answer=trajectory_row, model=TrajectoryRow),
     "encounter": _ways("encounter", 0.1, "time", *_words("certificate.")),
+    "safe_delay": _ways("safe_delay", 2.0, "first_safe"),
     "overlaps": _ways("overlaps", 1e-2, "separation", answer=overlaps_row, model=OverlapsRow),
 }
 QUESTIONS = _ALL | {name: ways[1:] for own, ways in _ALL.items() if (name := f"{own}_of") in CALLS}

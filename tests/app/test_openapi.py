@@ -29,7 +29,17 @@ SLOW = ("POST /contest-kit", "POST /cues", "POST /films", "POST /maps.{format}",
 EXAMPLES_OF_SLOW = examples(3, 8)
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
-SPENT = {"steps", "bound", "evaluations", "method", "evidence", "at_least", "head_speed_bracket", "speed_bracket"}
+SPENT = {
+    "steps",
+    "marches",
+    "bound",
+    "evaluations",
+    "method",
+    "evidence",
+    "at_least",
+    "head_speed_bracket",
+    "speed_bracket",
+}
 # Requests that fit the schema may still be refused: an overhang beyond half a bench, an instant after the fold.
 CHECKED = [check for check in CHECKS.get_all() if check.__name__ != "positive_data_acceptance"]
 
@@ -43,12 +53,12 @@ def document(client: httpx.Client) -> Any:
 
 
 def is_tried(call: str, mode: GenerationMode) -> bool:
-    """Every call with right values, but for scans, curves, samples, envelopes, proposals, kits and plans of arbitrary
-    dragons and films of any size, which take up to ten seconds each; with wrong ones if it takes any."""
+    """Every call with right values, but for scans, curves, samples, envelopes, proposals, kits, delays and plans of
+    arbitrary dragons and films of any size, which take up to ten seconds each; with wrong ones if it takes any."""
     method, path = call.split()
     if mode.is_positive:
         slow = "pitch-scan pitch-scan.{format} tolerance-curve contact-probability envelope proposals"
-        slow += " contest-kit cues films plan"
+        slow += " contest-kit cues films plan safe-delay"
         return not path.endswith(tuple(slow.split()))
     description = SCHEMA.raw_schema["paths"][path][method.lower()]
     return "requestBody" in description or "parameters" in description

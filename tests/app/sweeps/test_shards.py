@@ -96,6 +96,15 @@ REQUESTS = {
     "collision_time_of": ({"dragon": {"benches": 8}}, "path.pitch", 0.55),
     "contact_probability": ({"dragon": {"benches": 8}, "samples": 20, "stop": 9.0}, "lateral", 0.01),
     "overlaps": ({"benches": [BENCH] * 3}, "margin", 0.01),
+    "safe_delay": (
+        {
+            "dances": [
+                {"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [20, y]]}} for y in (0, 9)
+            ]
+        },
+        "margin",
+        0.01,
+    ),
     "encounter": ({"dances": [{"dragon": {"benches": 8}}, {"dragon": {"benches": 8}}]}, "margin", 0.01),
 }
 

@@ -1,0 +1,95 @@
+"""The question safe_delay: the delays of one dragon of a performance at which no dragons meet."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import BeforeValidator, Field
+from pydantic_core import PydanticCustomError
+
+import core
+from app.wire.answers import TOTAL_STRAY, Point
+from app.wire.performances import Moment, PerformanceFields
+from app.wire.question import Answer, Margin, Question, Strays, Terms, measure
+from core.performance.performance import DELAY_MAX
+
+
+def _number_or_name(value: Any) -> Any:
+    if isinstance(value, float) and value.is_integer():
+        return int(value)
+    if isinstance(value, bool) or not isinstance(value, (int, str)):
+        raise PydanticCustomError("rule", "must be the number of a dragon, in the order of the dances, or its name")
+    return value
+
+
+Delay = Annotated[float, Field(ge=-DELAY_MAX, le=DELAY_MAX)]
+
+
+class DelayFields(Strays):
+    """The delays of one dragon that are tried, and what counts as a contact."""
+
+    part: Annotated[int | str, BeforeValidator(_number_or_name)] = Field(
+        1,
+        description="The dragon that waits: its number in the order of the dances, from 0, or its name. Its own delay "
+        "does not count",
+    )
+    least: Delay = measure("s", "Shortest delay", 0.0)
+    most: Delay = measure("s", "Longest delay", 600.0)
+    margin: Margin = 0.0
+    stop: Moment | None = measure(
+        "s",
+        "End of the judged time; needed, and before the fold, if a dragon folds; default: the end of the performance "
+        "at every delay",
+        None,
+    )
+
+
+class SafeDelayRequest(DelayFields, PerformanceFields, strict=True):
+    """The delays of one dragon at which no benches of two dragons touch, or come within a margin."""
+
+    def to_part(self) -> int | str:
+        """The dragon that waits, as core takes it: a number in digits is a number unless it is a name."""
+        is_number = isinstance(self.part, str) and self.part.isdecimal()
+        is_name = self.part in [one.name for one in self.dances]
+        return int(self.part) if is_number and not is_name else self.part
+
+
+class SafeDelays(Answer):
+    """The delays of one dragon at which no benches of two dragons come within the margin, or touch if it is 0."""
+
+    part: int = Field(description="Number of the dragon that waits")
+    name: str | None = Field(description="Its name; null without")
+    first_safe: float | None = measure("s", "The shortest safe delay; null: none is known")
+    safe: list[Point] = measure(
+        "s",
+        "Intervals of delays, each proven safe for all of its delays. An end is within 0.01 s of a delay that is not, "
+        "or at an end of the interval that was asked about, or at an undecided one",
+    )
+    undecided: list[Point] = measure(
+        "s",
+        "Intervals of delays of which neither is proven; at all other delays two dragons certainly meet, but for 0.01 "
+        "s beside a safe interval",
+    )
+    least: float = measure("s", "Shortest delay of the question")
+    most: float = measure("s", "Longest delay of the question")
+    margin: float = measure("m", "Required clearance; 0: only a touch counts")
+    stray: float | None = TOTAL_STRAY
+    stop: float | None = measure("s", "End of the judged time; null: the end of the performance at every delay")
+    marches: int = Field(description="Number of searches")
+
+    @classmethod
+    def of(cls, result: core.SafeDelays, request: SafeDelayRequest) -> Self:
+        first = result.safe[0][0] if result.safe else None
+        name = result.performance.parts[result.part].name
+        return cls.from_result(result, name=name, first_safe=first, stray=request.total_stray)
+
+
+def safe_delay(request: SafeDelayRequest, terms: Terms) -> SafeDelays:
+    """The delays of one dragon at which no benches of two dragons touch or come within a margin, proven."""
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "stop": request.stop}
+    performance = request.to_performance(terms.settings)
+    result = core.safe_delay(performance, request.to_part(), request.least, request.most, budget=terms.budget, **limits)
+    return SafeDelays.of(result, request)
+
+
+QUESTION = Question(safe_delay, SafeDelays, body=SafeDelayRequest)
