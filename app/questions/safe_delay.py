@@ -67,12 +67,12 @@ class SafeDelays(Answer):
     )
     undecided: list[Point] = measure(
         "s",
-        "Intervals of delays of which neither is proven; at all other delays two dragons certainly meet, but for 0.01 "
-        "s beside a safe interval",
+        "Intervals of delays of which neither is proven; at all other delays two dragons certainly come within "
+        "the margin, but for 0.01 s beside a safe interval",
     )
     least: float = measure("s", "Shortest delay of the question")
     most: float = measure("s", "Longest delay of the question")
-    margin: float = measure("m", "Required clearance; 0: only a touch counts")
+    margin: float = measure("m", "The required margin; 0: only a touch counts")
     stray: float | None = TOTAL_STRAY
     stop: float | None = measure("s", "End of the judged time; null: the end of the performance at every delay")
     marches: int = Field(description="Number of searches")
