@@ -19,6 +19,9 @@ APART_FROM_MARGINS = {
     *(("ToleranceCurve", name) for name in ("stray", "touching", "limited_by")),
     *((model, name) for model in ("CollisionTime", "Encounter") for name in ("margin", "corner", "edge")),
     ("Encounter", "cross_check"),
+    # Cue cards list who comes near, within a reach and not a margin.
+    ("Meeting", "gap"), ("CueCard", "meetings"),
+    *(("Cue", name) for name in ("kind", "time", "since", "until", "x", "nearest")),
 }  # fmt: skip
 
 
