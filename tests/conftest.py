@@ -41,8 +41,6 @@ START_TIMEOUT = 60.0  # longest wait for the first answer [s]; a cold start take
 STOP_TIMEOUT = 30.0  # longest wait from the signal to the end [s]; uvicorn lets running computations finish
 # Where this is set, a test that cannot run here is an error.
 STRICT = "EVERY_TEST" in os.environ
-# What may be missing there too: not every system has a second browser.
-MAY_LACK = {firefox.MISSING}
 # Number of tests left out for each reason, and its name in what a process of several reports.
 LEFT_OUT_OUTPUT = "left_out"
 LEFT_OUT = pytest.StashKey[dict[str, int]]()
@@ -71,7 +69,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.workeroutput[LEFT_OUT_OUTPUT] = left_out
     for group in groups.values():
         config.hook.pytest_deselected(items=group)
-    items[:] = [] if STRICT and left_out.keys() - MAY_LACK else kept
+    items[:] = [] if left_out and STRICT else kept
 
 
 def _why_left_out(item: pytest.Item) -> str:
@@ -117,7 +115,7 @@ def pytest_testnodedown(node: Any) -> None:
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    if STRICT and session.config.stash.get(LEFT_OUT, {}).keys() - MAY_LACK:
+    if STRICT and session.config.stash.get(LEFT_OUT, {}):
         session.exitstatus = pytest.ExitCode.USAGE_ERROR
 
 
@@ -140,7 +138,7 @@ def pytest_collection() -> Generator[None, object, object]:
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     for reason, count in config.stash.get(LEFT_OUT, {}).items():
         terminalreporter.write_line(f"{count} tests are left out: {reason}", yellow=True)
-    if STRICT and config.stash.get(LEFT_OUT, {}).keys() - MAY_LACK:
+    if STRICT and config.stash.get(LEFT_OUT, {}):
         terminalreporter.write_line("No test ran: where EVERY_TEST is set, each must be able to.", red=True)
 
 
