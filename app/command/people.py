@@ -33,7 +33,7 @@ def cues(
     first_bench: Annotated[int | None, typer.Option(help="First bench with a card; default: 0, the head.")] = None,
     last_bench: Annotated[int | None, typer.Option(help="Last bench with a card; default: the tail.")] = None,
     reach: Annotated[float | None, typer.Option(help="Largest gap of a meeting [m]; default: 8")] = None,
-    step: Annotated[float | None, typer.Option(help="Length of a step [m]; default: 0.75")] = None,
+    step_length: Annotated[float | None, typer.Option(help="Length of a step [m]; default: 0.75")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the dance on every card")] = None,
     language: Annotated[Language | None, typer.Option(help="Language of the words; default: en.")] = None,
@@ -43,8 +43,8 @@ def cues(
     if ending == ".pdf":
         require("figures", "output", "A card on paper")
     changes = {
-        "first_bench": first_bench, "last_bench": last_bench, "reach": reach, "step": step, "spacing": spacing,
-        "title": title, "language": language,
+        "first_bench": first_bench, "last_bench": last_bench, "reach": reach, "step_length": step_length,
+        "spacing": spacing, "title": title, "language": language,
     }  # fmt: skip
     values = read_dance(file) | {name: value for name, value in changes.items() if value is not None}
     request = checked(CuesRequest, values, object_words(file))

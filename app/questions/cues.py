@@ -43,7 +43,9 @@ class CuesRequest(Marked, strict=True):
     reach: float = measure(
         "m", "Largest gap of a meeting: a bench that comes abreast further away is no cue", REACH, ge=0, le=REACH_MAX
     )
-    step: float = measure("m", "Length of a step, in which distances from chalk marks are counted", 0.75, ge=0.2, le=2)
+    step_length: float = measure(
+        "m", "Length of a step, in which distances from chalk marks are counted", 0.75, ge=0.2, le=2
+    )
     title: str = Field("", max_length=80, description="Title of the dance on every card")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
@@ -220,7 +222,7 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | bytes:
 def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> CardWords:
     start, _ = dance.span(request.start, request.stop)
     tail = float(handle_places(dance, [start], budget=terms.budget)[0, -1])
-    chalk = Chalk.of(dance, tail, request.spacing, request.step)
+    chalk = Chalk.of(dance, tail, request.spacing, request.step_length)
     clock = TimeFormat(clock_of(request, dance))
     geographic = request.origin_at(place) is not None
     return CardWords(Say(request.language), dance.dragon.names, clock, chalk, geographic)

@@ -146,7 +146,7 @@ def bench_cues(
     >>> cues = bench_cues(dance, [5])[0]
     >>> met = cues.meetings[0]
     >>> met.bench, met.side.value, round(met.time, 2), round(met.gap, 3), met.oncoming
-    (0, 'left', 21.04, 3.7, True)
+    (0, 'left', 19.09, 3.699, True)
     """
     followed = _checked_benches(dance, benches)
     reach = checked_number("reach", reach, "m", 0.0, REACH_MAX)

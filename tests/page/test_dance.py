@@ -129,7 +129,7 @@ def test_the_engines_judge_the_pair_while_a_hand_drags_and_the_whole_dragon_when
     query: list[str] = []
     page.on("request", lambda request: query.append(request.url))
     page.evaluate(HELD)
-    page.locator("#controls input[aria-label^=Width]").press("ArrowLeft")
+    page.locator("#controls input[type=range][aria-label^=Width]").press("ArrowLeft")
     text_of(page, "#minimum-pitch caption", "alone. They agree.")
     text_of(page, "#first-contact caption", "alone. They agree.")
     page.evaluate("rest()")

@@ -20,6 +20,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from tests.support.pending import QUIET
+
 NAMES = ("firefox-esr", "firefox")
 MISSING = "no Firefox starts here: apt install firefox-esr, or set FIREFOX to the path of one"
 # Longest wait for the browser, and for what is coming on a page [s].
@@ -138,8 +140,12 @@ class Firefox:
         return value
 
     def _middle(self, selector: str) -> tuple[int, int]:
+        one = f"document.querySelector({json.dumps(selector)})"
+        # What comes into sight may be asked for then, and move what stands below it.
+        self.evaluate(f"{one}.scrollIntoView({{ block: 'center' }})")
+        self.evaluate(f"({QUIET})(null)")
         place = f"""(() => {{
-          const one = document.querySelector({json.dumps(selector)});
+          const one = {one};
           one.scrollIntoView({{ block: "center" }});
           const {{ left, top, width, height }} = one.getBoundingClientRect();
           return [Math.round(left + width / 2), Math.round(top + height / 2)];

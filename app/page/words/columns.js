@@ -5,6 +5,7 @@ export const COLUMNS = {
   at_least: ["proven least", "已证明的下限"],
   bench: ["bench", "板凳"],
   benches: ["benches", "板凳"],
+  dragons: ["dragons", "龙"],
   bound: ["bound of the second derivative", "二阶导数上界"],
   centres: ["centres of the arcs [m]", "圆弧圆心 [m]"],
   certificate: ["proof", "证明"],

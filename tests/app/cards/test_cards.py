@@ -231,7 +231,7 @@ def test_chinese_cards_are_the_same_from_a_terminal(client: httpx.Client, body: 
         ({"dragon": {"benches": 100_000}, "path": {"kind": "spiral"}, "stop": 5}, "/last_bench",
          "cards must be at most 1000: choose the benches with first_bench and last_bench, got 100000"),
         ({"path": {"kind": "spiral"}}, "/stop", "speeds grow without bound"),
-        ({"step": 0}, "/step", "must be"),
+        ({"step_length": 0}, "/step_length", "must be"),
         ({"reach": -1}, "/reach", "must be"),
     ],
     ids=["one name twice", "no such bench", "backwards", "too many", "fold", "no step", "no reach"],
