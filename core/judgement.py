@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -41,6 +42,13 @@ class Judgement(StrEnum):
     UNDECIDED = "undecided"
 
 
+def summary(verdict: Judgement, start: float, stop: float, failures: Sequence[str]) -> str:
+    """A report in one line. start, stop: the judged interval [s]; failures: their messages"""
+    span = f"{verdict.value}, judged from {display(start)} to {display(stop, 's')}"
+    more = f" And {len(failures) - 1} more." if len(failures) > 1 else ""
+    return f"{span}: {failures[0]}{more}" if failures else span
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class Report(Readable):
     """The verdict on a dance, and the answers behind it.
@@ -67,9 +75,7 @@ class Report(Readable):
     sharpest_bend: SharpestBend | None
 
     def _line(self) -> str:
-        span = f"{self.verdict.value}, judged from {display(self.start)} to {display(self.stop, 's')}"
-        more = f" And {len(self.failures) - 1} more." if len(self.failures) > 1 else ""
-        return f"{span}: {self.failures[0].message}{more}" if self.failures else span
+        return summary(self.verdict, self.start, self.stop, [failure.message for failure in self.failures])
 
 
 @question_about("dance", Dance)

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import codecs
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from typing import Protocol
 from xml.parsers import expat
 
 from core import InvalidValue
@@ -65,6 +66,38 @@ def parse(parser: expat.XMLParserType, pieces: Iterable[bytes]) -> None:
         if error.code == NO_MEMORY:
             raise MemoryError from error
         raise
+
+
+class Reader(Protocol):
+    """What takes the elements and texts of a document while it is parsed."""
+
+    def start(self, name: str, attributes: Mapping[str, str], /) -> None: ...
+
+    def end(self, name: str, /) -> None: ...
+
+    def take(self, text: str, /) -> None: ...
+
+
+def read_document(data: bytes, reader: Reader, fault: str, forbidden: str) -> None:
+    """Give the elements and texts of a whole XML document to a reader.
+
+    fault: rule for what is no XML, with {fault} and {line}; forbidden: message for a document type
+    raises: InvalidValue at the field `file`, and what the reader raises
+    """
+
+    def refuse(*declared: object) -> None:
+        raise InvalidValue.in_words("file", forbidden)
+
+    parser = new_parser(refuse, " ", "utf-8")
+    parser.buffer_text = True
+    parser.StartElementHandler, parser.EndElementHandler = reader.start, reader.end
+    parser.CharacterDataHandler = reader.take
+    try:
+        parse(parser, in_pieces(as_utf8(data)))
+    except LongTag as error:
+        raise InvalidValue("file", "must not have a tag of more than {most} bytes", got="more", most=TAG_MAX) from error
+    except expat.ExpatError as error:
+        raise InvalidValue("file", fault, fault=expat.ErrorString(error.code), line=error.lineno) from error
 
 
 def in_pieces(data: bytes) -> Iterable[bytes]:

@@ -1,6 +1,6 @@
 """Tracks as GPX, the format of receivers and phones: tracks with their times, routes as lines, waypoints as points.
 
-The parser is the same as that of KML: plain expat without a document type.
+They are read as KML is: see app/files/markup.py.
 """
 
 from __future__ import annotations
@@ -8,9 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from datetime import datetime
-from xml.parsers import expat
 
-from app.files.markup import TAG_MAX, LongTag, as_utf8, in_pieces, new_parser, parse
+from app.files.markup import read_document
 from app.maps.features import Drawing, FeatureCollector, MapFeature, Unit, role_of
 from core import InvalidValue
 from core.errors import Given
@@ -20,6 +19,7 @@ from core.values import Point
 HEAD, ROOT = 4_096, re.compile(rb"<(\w+:)?gpx[\s>]")
 # Deepest nesting of elements.
 DEPTH_MAX = 60
+FAULT = "must be GPX, got {fault} in line {line}"
 FORBIDDEN = "file must not have a document type or entities: save it again as plain GPX"
 POINTS = {"trkpt": "trk", "rtept": "rte", "wpt": "wpt"}
 
@@ -40,22 +40,8 @@ def seconds_of(text: str) -> float:
 def read(data: bytes) -> Drawing:
     """The tracks, routes and waypoints of a document, in degrees. raises: InvalidValue with the line at fault"""
     reader = _Reader()
-    parser = new_parser(_refuse, " ", "utf-8")
-    parser.buffer_text = True
-    parser.StartElementHandler, parser.EndElementHandler = reader.start, reader.end
-    parser.CharacterDataHandler = reader.take
-    try:
-        parse(parser, in_pieces(as_utf8(data)))
-    except LongTag as error:
-        raise InvalidValue("file", "must not have a tag of more than {most} bytes", got="more", most=TAG_MAX) from error
-    except expat.ExpatError as error:
-        rule, fault = "must be GPX, got {fault} in line {line}", expat.ErrorString(error.code)
-        raise InvalidValue("file", rule, fault=fault, line=error.lineno) from error
+    read_document(data, reader, FAULT, FORBIDDEN)
     return Drawing(tuple(reader.collector.features), Unit.DEGREES, left_out=reader.collector.left_out)
-
-
-def _refuse(*declared: object) -> None:
-    raise InvalidValue.in_words("file", FORBIDDEN)
 
 
 # State:  `stack`, the names of the open elements; `points`, `times` and `name` of the open track, route or waypoint;

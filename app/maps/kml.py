@@ -11,12 +11,11 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from html import escape
-from xml.parsers import expat
 
 import orjson
 
 from app.files.archives import BadArchive, opened, pieces_of
-from app.files.markup import TAG_MAX, LongTag, as_utf8, in_pieces, new_parser, parse
+from app.files.markup import read_document
 from app.maps.features import (
     POINTS_MAX,
     Drawing,
@@ -48,6 +47,7 @@ SHAPES: dict[str, Shape] = {"Point": "point", "LineString": "line", "Polygon": "
 OTHERS = ("GroundOverlay", "PhotoOverlay", "ScreenOverlay", "NetworkLink", "Model")
 # Colours of the lines, aabbggrr, by role.
 COLOURS = {"square": "ff000000", "obstacle": "ff7f7f7f", "path": "ffb27200", "mark": "ff005ed5"}
+FAULT = "must be KML, got {fault} in line {line}"
 FORBIDDEN = "file must not have a document type or entities: save it again as plain KML"
 
 
@@ -67,17 +67,7 @@ def unpacked(data: bytes) -> bytes:
 def read(data: bytes) -> Drawing:
     """The map in a KML document, always in degrees. raises: InvalidValue with the line at fault"""
     reader = _Reader()
-    parser = new_parser(_refuse, " ", "utf-8")
-    parser.buffer_text = True
-    parser.StartElementHandler, parser.EndElementHandler = reader.start, reader.end
-    parser.CharacterDataHandler = reader.take
-    try:
-        parse(parser, in_pieces(as_utf8(data)))
-    except LongTag as error:
-        raise InvalidValue("file", "must not have a tag of more than {most} bytes", got="more", most=TAG_MAX) from error
-    except expat.ExpatError as error:
-        rule, fault = "must be KML, got {fault} in line {line}", expat.ErrorString(error.code)
-        raise InvalidValue("file", rule, fault=fault, line=error.lineno) from error
+    read_document(data, reader, FAULT, FORBIDDEN)
     if not reader.is_kml:
         raise InvalidValue("file", "must be KML", got="XML of another kind")
     stored, collector = reader.stored, reader.collector
@@ -90,10 +80,6 @@ def read(data: bytes) -> Drawing:
         collector.left_out,
         collector.hidden,
     )
-
-
-def _refuse(*declared: object) -> None:
-    raise InvalidValue.in_words("file", FORBIDDEN)
 
 
 # State:  `stack`, the names of the open elements; `folders`, the names of the open folders, and whether they are shown;

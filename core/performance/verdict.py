@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.contact.answer import Outcome
-from core.display import Readable, display
+from core.display import Readable
 from core.dragon import Stray
 from core.errors import question_about
 from core.failures import Failure, FailureKind, approach_words
-from core.judgement import Judgement, Report, check
+from core.judgement import Judgement, Report, check, summary
 from core.kernels import Budget
 from core.motion.trajectory import Trajectory, trajectory
 from core.performance.answer import FirstEncounter
@@ -63,9 +63,7 @@ class PerformanceReport(Readable):
     performance: Performance = field(repr=False, compare=False)
 
     def _line(self) -> str:
-        span = f"{self.verdict.value}, judged from {display(self.start)} to {display(self.stop, 's')}"
-        more = f" And {len(self.failures) - 1} more." if len(self.failures) > 1 else ""
-        return f"{span}: {self.failures[0].message}{more}" if self.failures else span
+        return summary(self.verdict, self.start, self.stop, [failure.message for failure in self.failures])
 
 
 @question_about("performance", Performance)

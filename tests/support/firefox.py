@@ -1,17 +1,15 @@
 """A real Firefox for the tests of the page, driven by WebDriver BiDi, which it speaks itself.
 
 Playwright drives only a Firefox of its own making, and Debian 12 has no geckodriver. So this is the part of BiDi that
-the tests need, over a WebSocket of the standard library. An error of a page ends its test.
+the tests need. An error of a page ends its test.
 """
 
 from __future__ import annotations
 
-import base64
 import json
 import os
 import re
 import shutil
-import socket
 import subprocess
 import time
 from collections.abc import Iterator
@@ -19,6 +17,8 @@ from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+from websockets.sync.client import connect
 
 from tests.support.pending import QUIET
 
@@ -55,56 +55,13 @@ def firefox_path() -> str | None:
     return None
 
 
-class Socket:
-    """The end of a WebSocket (RFC 6455) for messages of text."""
-
-    def __init__(self, port: int) -> None:
-        self._stream = socket.create_connection(("127.0.0.1", port), PATIENCE)
-        key = base64.b64encode(os.urandom(16)).decode()
-        lines = ["GET /session HTTP/1.1", f"Host: 127.0.0.1:{port}", "Upgrade: websocket", "Connection: Upgrade"]
-        lines += [f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", "", ""]
-        self._stream.sendall("\r\n".join(lines).encode())
-        self._read = self._stream.makefile("rb").read
-        head = b""
-        while not head.endswith(b"\r\n\r\n"):
-            head += self._read(1) or b""
-        assert b" 101 " in head.partition(b"\r\n")[0], head
-
-    def send(self, text: str) -> None:
-        data, mask = text.encode(), os.urandom(4)
-        if len(data) < 126:
-            size = bytes([0x80 | len(data)])
-        elif len(data) < 1 << 16:
-            size = bytes([0x80 | 126]) + len(data).to_bytes(2)
-        else:
-            size = bytes([0x80 | 127]) + len(data).to_bytes(8)
-        masked = bytes(byte ^ mask[k % 4] for k, byte in enumerate(data))
-        self._stream.sendall(b"\x81" + size + mask + masked)
-
-    def receive(self) -> str:
-        parts = []
-        while True:
-            head = self._read(2)
-            assert head, "Firefox has closed its connection"
-            first, size = head
-            if size >= 126:
-                size = int.from_bytes(self._read(2 if size == 126 else 8))
-            data = self._read(size)
-            if first & 0x0F in (0, 1):  # text, or its continuation; others are signs of life
-                parts.append(data)
-                if first & 0x80:
-                    return b"".join(parts).decode()
-
-    def close(self) -> None:
-        self._stream.close()
-
-
 class Firefox:
     """One tab. downloads: folder of saved files; errors: what the pages complained of"""
 
     def __init__(self, port: int, downloads: Path) -> None:
         self.downloads, self.errors = downloads, list[str]()
-        self._socket, self._number = Socket(port), 0
+        self._socket = connect(f"ws://127.0.0.1:{port}/session", proxy=None, open_timeout=PATIENCE, max_size=None)
+        self._number = 0
         self._ask("session.new", capabilities={})
         self._ask("session.subscribe", events=["log.entryAdded"])
         self._tab = self._ask("browsingContext.getTree")["contexts"][0]["context"]
@@ -113,7 +70,7 @@ class Firefox:
         self._number += 1
         self._socket.send(json.dumps({"id": self._number, "method": method, "params": params}))
         while True:
-            message = json.loads(self._socket.receive())
+            message = json.loads(self._socket.recv(PATIENCE))
             if message.get("method") == "log.entryAdded" and message["params"]["level"] == "error":
                 self.errors.append(message["params"]["text"])
             if message.get("id") == self._number:
