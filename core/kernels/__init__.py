@@ -4,6 +4,9 @@ Only loops live here; everything around them is NumPy. The .pxd beside each modu
 integer locals with which they calculate, and of names from other modules. The compiler infers the types of all other
 locals, and it refuses Python objects inside loops. `setup.py` compiles all modules or none.
 
+rates, speed and excess as one file, with types beside the code instead of in a .pxd, have the same digits and more
+lines (714 for 699), and the highest speed of the default dance takes 1.15 times as long (measured 2026-11-27).
+
 Bisections share halved() of fold.py. clear_radius(), Peak.refine(), crossing() and seek_rear() halve in loops of their
 own, because their tests take more than two numbers and keep a state between the halvings: clear_radius() through
 bisect() of core/sampling.py takes 3.8 us instead of 0.7 us (measured 2026-11-23).
