@@ -53,7 +53,7 @@ export class State {
       const before = this.#values;
       this.#writing.end();
       this.#read();
-      this.#tell(Object.keys(DEFAULTS).filter((name) => JSON.stringify(before[name]) !== JSON.stringify(this.#values[name])));
+      this.#tell(Object.keys(DEFAULTS).filter((name) => name === "view" || JSON.stringify(before[name]) !== JSON.stringify(this.#values[name])));
     });
   }
 
@@ -100,7 +100,8 @@ export class State {
 
   /** write: also into the address, after a pause in changes */
   set(changes, write = true) {
-    const names = Object.keys(changes).filter((name) => changes[name] !== this.#values[name]);
+    // Who asks for a view gets it: a hand may have moved the picture since the last one.
+    const names = Object.keys(changes).filter((name) => name === "view" || changes[name] !== this.#values[name]);
     if (!names.length) return;
     Object.assign(this.#values, changes);
     // Browsers refuse more than a few changes of the address per second.

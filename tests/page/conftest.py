@@ -48,6 +48,9 @@ GO = """(query) => {
   if (document.querySelector("#edit[aria-pressed=true]"))
     for (const button of ["[data-tool=path]", "#edit"]) document.querySelector(button).click();
   for (const one of document.querySelectorAll("details")) one.open = one.id === "things";
+  const choice = document.querySelector("#curl-of");
+  choice.selectedIndex = 0;
+  choice.dispatchEvent(new Event("change"));
   document.activeElement.blur();
   scrollTo(0, 0);
   document.querySelector("#rows").scrollTop = 0;

@@ -105,7 +105,8 @@ def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit:
     legend = page.locator("#legend").inner_text()
     settled(page)  # The end of the time is known.
     page.locator("#time").press("End")
-    page.locator("#inset[data-corner=top-right]").wait_for()
+    settled(page)
+    corner = page.locator("#inset:visible").get_attribute("data-corner")
     assert page.locator("#legend").inner_text() == legend
     inset, canvas = box(page, "#inset"), page.locator("#canvas")
     # The point of contact moves below the inset, which gives way.
@@ -114,7 +115,7 @@ def test_the_picture_has_its_scale_its_direction_and_one_scale_of_colours(visit:
     x = 1.474395 - (wanted[0] - middle["x"] - middle["width"] / 2) / 40
     y = 2.110665 + (wanted[1] - middle["y"] - middle["height"] / 2) / 40
     visit(f"?view={x},{y},40")
-    page.locator("#inset:not([data-corner=top-right])").wait_for()
+    page.locator(f"#inset:not([data-corner={corner}])").wait_for()
 
 
 def test_all_numbers_are_in_view_explained_and_their_sliders_reach_as_far_as_wanted(

@@ -9,7 +9,7 @@ export const SQUARE = {
   placeHeight: ["Length of the square", "广场的长"],
   placeDiameter: ["Diameter of the square", "广场的直径"],
   placeAdd: ["What is in it? Choose, then tap the picture.", "广场上有什么？选择后点击画面添加。"],
-  placeDragon: ["Our dragon has", "板凳龙有"],
+  placeDragon: ["We have", "板凳龙有"],
   placeBenchesOf: ["benches of", "节，板长"],
   placeMetres: ["m", "m"],
   objective: ["Best is", "优先考虑"],

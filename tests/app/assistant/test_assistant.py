@@ -9,6 +9,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Awaitable, Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -37,7 +38,8 @@ def with_client(server: Any, work: Calls) -> Any:
         async with Client(server, read_timeout_seconds=PATIENCE) as client:
             return await work(client)
 
-    return anyio.run(run)
+    with ThreadPoolExecutor(1) as thread:  # in this one the event loop of a browser may run
+        return thread.submit(anyio.run, run).result()
 
 
 def with_door(work: Calls, *options: str, **environment: str) -> Any:
