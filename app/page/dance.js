@@ -124,6 +124,10 @@ class Pen {
     context.setTransform(zoom, 0, 0, -zoom, width / 2 - x * zoom, height / 2 + y * zoom);
     this.context = context;
     this.scale = scale;
+    /** Boxes of the names that are drawn, [left, bottom, width]. @type {number[][]} [px] */
+    this.names = [];
+    this.left = x - wide / (2 * scale);
+    this.top = y + high / (2 * scale);
     this.right = x + wide / (2 * scale);
   }
 
@@ -178,6 +182,7 @@ class Pen {
     Object.assign(context, { font: `600 ${inType(14)}px system-ui, sans-serif`, lineWidth: 4, lineJoin: "round", strokeStyle: halo, fillStyle: colour });
     const { width } = context.measureText(text);
     const from = x + (10 + width) / scale > this.right ? -10 - width : 10;
+    this.names.push([(x - this.left) * scale + from, (this.top - y) * scale - 10, width]);
     context.strokeText(text, from, -10);
     context.fillText(text, from, -10);
     context.restore();

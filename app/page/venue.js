@@ -104,7 +104,7 @@ export function layers(dance, get) {
     const drawn = get();
     if (!drawn) return;
     const { drawing, selected, failure } = drawn;
-    const names = [];
+    const names = [...pen.names];
     if (yardOf(drawing).length) for (const thing of drawing.things) if (thing.kind === "gate") drawGate(pen, colours, drawing, thing);
     const measured = drawing.things[selected];
     if (measured?.points.length > 1) drawMeasures(pen, dance.view, colours, measured, drawn.held, names);
