@@ -135,7 +135,7 @@ export class Keep {
   translate() {
     for (const button of $("#kept").querySelectorAll("button")) nameButton(button);
     for (const film of $("#kept").querySelectorAll(".film")) Object.assign(film, { alt: say("keepFilm"), ariaLabel: say("keepFilm") });
-    if (this.questions.dance) this.show();
+    this.show();
     if ($("#paper").open) this.paper();
   }
 
@@ -146,8 +146,9 @@ export class Keep {
     for (const button of $("#kept").querySelectorAll("button")) button.hidden = !types.has(TYPES[button.dataset.form]);
   }
 
-  /** The commands for the chosen item. */
+  /** The commands for the chosen item; they stay as they are while there is no dance. */
   show() {
+    if (!this.questions.dance) return;
     const wanted = $("#curl-of").value;
     const item = ITEMS.find(({ key }) => key === wanted);
     const lines = { [SHOWN]: () => ["answer", "trajectory"].map((name) => this.#curl(REQUESTS[name](this.questions))), [PROOF]: () => [this.#proof()] };
