@@ -13,5 +13,5 @@ Point = tuple[float, float]
 Progress = Callable[[float], None]
 
 
-def unheard(share: float) -> None:
-    """Listener that ignores progress."""
+def unheard(news: object) -> None:
+    """Listener that ignores what it is told, such as progress."""

@@ -6,11 +6,14 @@ import time
 from typing import Any
 
 import orjson
+from pydantic import BaseModel
 
 from app.processes.parent import Report
 
 # Time between two messages about progress [s].
 PROGRESS_SECONDS = 0.5
+# Largest part of an answer in an event [bytes].
+PART_BYTES = 1 << 16
 
 
 class Reports:
@@ -28,6 +31,12 @@ class Reports:
         if due:
             self._latest = time.monotonic()
         return due
+
+    def part(self, part: BaseModel) -> None:
+        """Report a part of the answer, unless it is too long for an event."""
+        data = part.model_dump(mode="json")
+        if len(orjson.dumps(data)) <= PART_BYTES:
+            self.send(part=data)
 
     def share(self, done: float) -> None:
         """Report the share of the work that is done, 0 to 1."""

@@ -168,6 +168,9 @@ class Runner:
             case {"share": float(share)}:
                 self.store.proceed(job, share, run.rate(share))
                 return
+            case {"part": dict(part)}:
+                self.store.tell(job, part)
+                return
             case {"kept": int(kept)}:
                 self.store.resume(job, kept)
                 return

@@ -139,10 +139,10 @@ class Store:
             self._add_event(run, job)
         return bool(changed)
 
-    def _add_event(self, run: sqlite3.Connection, job: str) -> None:
+    def _add_event(self, run: sqlite3.Connection, job: str, **more: Any) -> None:
         changed = Job.of(run.execute(f"SELECT {COLUMNS} FROM jobs WHERE id = ?", (job,)).fetchone())
         last = run.execute("SELECT coalesce(max(number), 0) FROM events WHERE job = ?", (job,)).fetchone()[0]
-        run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(changed.status())))
+        run.execute("INSERT INTO events VALUES (?, ?, ?)", (job, last + 1, orjson.dumps(changed.status() | more)))
         run.execute("DELETE FROM events WHERE job = ? AND number <= ?", (job, last + 1 - EVENTS_KEPT))
 
     # Calls for every process.
@@ -321,6 +321,12 @@ class Store:
         with self._change() as run:
             self._move(run, job, "state = 'running'", progress=int(100.0 * share), rate=percent, time_left=left, **more)
 
+    def tell(self, job: str, part: dict[str, Any]) -> None:
+        """Inform listeners of a running job about a part of its answer."""
+        with self._change() as run:
+            if run.execute("SELECT 1 FROM jobs WHERE id = ? AND state = 'running'", (job,)).fetchone():
+                self._add_event(run, job, part=part)
+
     def resume(self, job: str, kept: int) -> None:
         """Record the number of designs from which a sweep continues; if it has grown, earlier deaths are forgotten."""
         with self._change() as run:
@@ -366,6 +372,9 @@ class Store:
         with self._change() as run:
             moved = self._move(run, job, where, **ended)
             if moved:
+                # The answer has its parts too.
+                is_part = "json_type(CAST(data AS TEXT), '$.part') = 'object'"
+                run.execute(f"DELETE FROM events WHERE job = ? AND {is_part}", (job,))
                 note_turn(run, run.execute("SELECT client FROM jobs WHERE id = ?", (job,)).fetchone()[0])
             return moved
 

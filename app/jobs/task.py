@@ -12,9 +12,10 @@ from app.questions.registry import CALLS
 from app.settings import Settings
 from app.wire.faults import in_body, in_query, refusal_problem
 from app.wire.problem import Problem
-from app.wire.question import UNKNOWN_COST, Call, Terms, Wire
+from app.wire.question import UNKNOWN_COST, Answer, Call, Terms, Wire
 from app.wire.refusals import reworded
 from core import BenchDragonError, Budget
+from core.values import Progress
 
 
 @dataclass(frozen=True)
@@ -32,12 +33,12 @@ class Task:
     def from_bytes(cls, data: bytes) -> Self:
         return cls(**json.loads(data))
 
-    def answer(self, settings: Settings, progress: Callable[[float], None]) -> bytes | Problem:
-        """The answer of the service to the call."""
+    def answer(self, settings: Settings, progress: Progress, part: Callable[[Answer], None]) -> bytes | Problem:
+        """The answer of the service to the call. progress, part: as in Terms"""
         call = CALLS[self.call]
         request = call.request_type.model_validate(self.request)
         try:
-            return call.question.to_bytes(request, Terms(settings, Budget(math.inf), progress), self.form)
+            return call.question.to_bytes(request, Terms(settings, Budget(math.inf), progress, part), self.form)
         except BenchDragonError as error:
             item = in_query if call.method == "GET" else in_body(self.request)
             return refusal_problem(reworded(error, request), item)

@@ -4,7 +4,8 @@ It asks the question of a job and writes the answer into a new file, to which th
 changes nothing in the store, so its death at any moment loses nothing and leaves nothing half done.
 
 task     the id of a job
-reports  JSON: {"share": 0.5}; of a sweep also {"kept": DESIGNS}, and beside the share rate, designs and bytes
+reports  JSON: {"share": 0.5}; {"part": {...}}; of a sweep also {"kept": DESIGNS}, and beside the share rate, designs
+         and bytes
 answer   JSON: {"written": FILE, "media_type": ...} or {"problem": TEXT}
 """
 
@@ -40,7 +41,7 @@ def answer(task: Task, settings: Settings, reports: Reports, shards: Path) -> by
             from app.jobs.sweeping import answer_sweep  # The import takes 0.3 s, and no other job needs it.
 
             return answer_sweep(task, settings, shards, reports)
-        return task.answer(settings, reports.share)
+        return task.answer(settings, reports.share, reports.part)
     except MemoryError:
         words = "The job needs more memory than {most} bytes, the limit here: ask for less."
         return problem_of(422, "too-much-work", words, most=settings.job_memory_max)

@@ -118,6 +118,19 @@ export class Service {
     }
   }
 
+  /** What a stream of server-sent events tells, one after another, until it ends or is lost. */
+  async *events(path, signal) {
+    const response = await this.#fetch(path, { headers: { Accept: "text/event-stream" }, cache: "no-store", signal });
+    const reader = response?.ok && response.body.pipeThrough(new TextDecoderStream()).getReader();
+    for (let text = ""; reader; ) {
+      const { done, value } = await reader.read().catch(() => ({ done: true, value: "" }));
+      if (done) return;
+      const blocks = (text + value).split("\n\n");
+      text = blocks.pop();
+      for (const block of blocks) for (const line of block.split("\n")) if (line.startsWith("data: ")) yield JSON.parse(line.slice(6));
+    }
+  }
+
   /** End the questions on these channels. */
   drop(channels) {
     for (const channel of channels) {

@@ -25,12 +25,14 @@ const WAITING = ["accepted", "running"];
 const field = (key, properties) => make("input", { inputMode: "decimal", autocomplete: "off", "data-label": key, "aria-label": say(key), ...properties });
 
 export class Propose {
-  /** Of the last question: {key, proposals, answer, courses}; null before there is one. */
+  /** Of the last question: {key, proposals, courses, and the rest of the answer unless it is on its way}; null before. */
   #answer = null;
-  /** The search that runs: {began, job}; null without one. */
+  /** The search that runs: {began, job, end}; null without one. */
   #search = null;
   #problem = null;
   #chosen = null;
+  /** What the cards show. */
+  #drawn = null;
   #looking = Symbol("search");
 
   /**
@@ -138,7 +140,7 @@ export class Propose {
   async #ask() {
     if (!yardOf(this.#drawing).length) return this.#tell(() => say("proposeFirst"));
     const request = this.#request();
-    const search = { began: performance.now(), job: null };
+    const search = { began: performance.now(), job: null, end: new AbortController() };
     this.note = null;
     [this.#search, this.#answer, this.#problem, this.#chosen] = [search, null, null, null];
     this.show();
@@ -147,7 +149,7 @@ export class Propose {
     try {
       const answer = await this.#answerTo(request, search);
       if (search !== this.#search) return;
-      const courses = await Promise.all(answer.proposals.map(({ dance: { path, dragon } }, k) => this.service.ask(`card ${k}`, "course", { body: { path, dragon } })));
+      const courses = await Promise.all(answer.proposals.map((one, k) => this.#courseOf(one, k)));
       this.#answer = { key: this.#keyOf(request), courses, ...answer };
     } catch (error) {
       if (search !== this.#search) return;
@@ -155,10 +157,29 @@ export class Propose {
       else if (!(error instanceof Superseded)) throw error;
     } finally {
       clearInterval(clock);
+      search.end.abort();
       if (!this.#search || search === this.#search) pending(this.#looking, false);
     }
     this.#search = null;
     this.show();
+  }
+
+  #courseOf({ dance: { path, dragon } }, k) {
+    return this.service.ask(`card ${k}`, "course", { body: { path, dragon } });
+  }
+
+  /** Show the proposals of a job as they are found. */
+  async #follow(request, search) {
+    const found = { key: this.#keyOf(request), proposals: [], courses: [] };
+    for await (const { part } of this.service.events(`jobs/${search.job}/events`, search.end.signal)) {
+      if (!part || search !== this.#search) continue;
+      const course = await this.#courseOf(part, found.proposals.length).catch(() => null);
+      if (!course || search !== this.#search) continue;
+      found.proposals.push(part);
+      found.courses.push(course);
+      this.#answer = found;
+      this.show();
+    }
   }
 
   /** The proposals, at once or, where that takes too long for one answer, by a job. */
@@ -170,6 +191,7 @@ export class Propose {
     }
     let status = await this.service.ask("proposals", "proposals", { body, headers: { Prefer: "respond-async", ...bearer() } });
     search.job = status.jobID;
+    this.#follow(body, search);
     while (WAITING.includes(status.status)) {
       await new Promise((resolve) => setTimeout(resolve, SECOND));
       if (search !== this.#search) throw new Superseded();
@@ -187,6 +209,7 @@ export class Propose {
   }
 
   #stop() {
+    this.#search?.end.abort();
     if (this.#search?.job) this.#remove(this.#search.job);
     this.service.drop(["proposals"]);
     this.#search = null;
@@ -199,6 +222,7 @@ export class Propose {
 
   /** Make the dance of a card the route. */
   #choose(k) {
+    if (this.#search) this.#stop();
     const { proposals, courses } = this.#answer;
     const { dance, duration } = proposals[k];
     const drawing = this.#drawing;
@@ -256,14 +280,18 @@ export class Propose {
 
   #showWords(answer) {
     const seconds = this.#search && Math.round((performance.now() - this.#search.began) / 1000);
-    const result = answer && (answer.proposals.length ? `${say("proposed", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}` : this.#lack(answer));
-    const text = this.#search ? say("proposing", { seconds }) : (this.note?.() ?? result ?? "");
+    const result = answer && (answer.proposals.length ? `${say(answer.tried ? "proposed" : "proposedSoFar", { count: answer.proposals.length, tried: answer.tried })} ${say("proposedChoose")}` : this.#lack(answer));
+    const text = this.#search ? say(answer ? "proposingMore" : "proposing", { seconds, count: answer?.proposals.length }) : (this.note?.() ?? result ?? "");
     const problem = !this.#search && !text && this.#problem;
     Object.assign(this.words, problem ? refusalWords(problem) : { textContent: text });
     this.words.className = problem || (answer && !answer.proposals.length) ? "error" : "hint";
   }
 
   #showCards(answer) {
+    // Cards that stay the same keep the focus while the search goes on.
+    const drawn = answer && JSON.stringify([answer.key, answer.proposals.length, answer.tried, this.#chosen, this.state.get("lang")]);
+    if (drawn === this.#drawn) return;
+    this.#drawn = drawn;
     if (!answer) return this.cards.replaceChildren();
     const cards = answer.proposals.map((proposal, k) => {
       const { title, size, good, tight } = cardWords(proposal, answer.proposals);

@@ -140,7 +140,14 @@ def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, P
     limits: dict[str, Any] = {"stray": request.stray, "margin": request.margin, "speed_limit": request.speed_limit}
     wish: dict[str, Any] = {"objective": request.objective, "count": request.count}
     result = core.propose(
-        place.venue, dragon, gates=gates, figures=request.figures, budget=terms.budget, **wish, **limits
+        place.venue,
+        dragon,
+        gates=gates,
+        figures=request.figures,
+        budget=terms.budget,
+        found=lambda one: terms.part(Proposal.of(one, body_of(request, one, place.origin))),
+        **wish,
+        **limits,
     )
     return result, place
 

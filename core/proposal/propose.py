@@ -28,6 +28,7 @@ from core.proposal.figures import Figure
 from core.proposal.gates import Gate, checked_gates
 from core.proposal.search import Rated, Search, Wish
 from core.tolerance.tolerance import tolerance
+from core.values import unheard
 from core.venue import Venue
 
 # Figures in the order in which they are tried: those that are soonest laid out first.
@@ -58,6 +59,7 @@ def propose(
     objective: str = "tolerance",
     count: int = 3,
     budget: Budget | None = None,
+    found: Callable[[Proposal], None] = unheard,
     **limits: Unpack[Limits],
 ) -> Proposals:
     """Dances of a dragon that fit into a square, the best one first, each certified by check().
@@ -67,6 +69,7 @@ def propose(
     figures: those to try, all that are possible by default, see Figure; a parade needs two gates
     stray: free for people, 0.05 m by default; margin: 0 [m]; speed_limit: of every handle, none by default [m/s]
     objective: see Objective; for `benches` the dragon's last bench is left out or repeated; count: of proposals
+    found: called with every proposal as soon as it is certified, in the order of the search
     returns: see Proposals; with a reason instead of a proposal where none of the dances that were tried passes
     raises: InvalidValue; TooMuchWork if no dance was found within the budget, by default PROPOSE_WORK
 
@@ -89,11 +92,11 @@ def propose(
     search = Search(venue, dragon, doors, wish, work)
     most = None if doors else _area_bound(search, dragon)
     if wish.objective is Objective.BENCHES:
-        return _most_benches(search, venue, kinds, int(count), most)
+        return _most_benches(search, venue, kinds, int(count), most, found)
     if most is not None and search.needs.least_area > search.ground.area:
         lack = Reason(ReasonKind.AREA, 0, search.ground.area, search.needs.least_area)
         return Proposals((), 0, 0, lack, most)
-    best = _collected(search, kinds, int(count))
+    best = _collected(search, kinds, int(count), found)
     reason = None if best else _reason(search, venue, kinds)
     return Proposals(best, search.tried, search.checked, reason, most)
 
@@ -132,12 +135,15 @@ def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
     return [figure for figure in ORDER if figure in named]
 
 
-def _collected(search: Search, figures: Sequence[Figure], count: int) -> tuple[Proposal, ...]:
+def _collected(
+    search: Search, figures: Sequence[Figure], count: int, found: Callable[[Proposal], None]
+) -> tuple[Proposal, ...]:
     """The best proposals, each figure once before any twice. raises: TooMuchWork if none was found in time"""
     proposals: list[Proposal] = []
     try:
         for proposal in search.proposals(figures, count):
             proposals.append(proposal)
+            found(proposal)
             if len(proposals) >= max(count, len(figures)):
                 break
     except (Halted, TooMuchWork):
@@ -252,15 +258,22 @@ def _area_bound(search: Search, dragon: Dragon) -> int:
     return 2 * (1 + int(max(left, 0.0) / float(dragon.lengths[-1] * dragon.widths[-1])))
 
 
-def _most_benches(search: Search, venue: Venue, figures: Sequence[Figure], count: int, most: int | None) -> Proposals:
+def _most_benches(
+    search: Search,
+    venue: Venue,
+    figures: Sequence[Figure],
+    count: int,
+    most: int | None,
+    found: Callable[[Proposal], None],
+) -> Proposals:
     """Proposals with as many benches as were found to fit, one of each figure."""
     limit = min(BENCHES_MOST, most or BENCHES_MOST)
     every = []
     for figure in figures:
         longest = _longest(venue, search, [figure], (min(search.dragon.benches, limit), limit))
-        if longest is not None:
-            fitting, passing = longest
-            every.append(fitting.certified(*passing[:2]))
-    best = sorted((one for one in every if one is not None), key=_VALUES[Objective.BENCHES], reverse=True)[:count]
+        if longest is not None and (one := longest[0].certified(*longest[1][:2])) is not None:
+            every.append(one)
+            found(one)
+    best = sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]
     reason = None if best else _reason(search, venue, figures)
     return Proposals(tuple(best), search.tried, search.checked, reason, most)

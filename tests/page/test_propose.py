@@ -247,6 +247,19 @@ def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_pa
         expect(page.locator("#proposed")).to_contain_text("The widest free circle is 3.02 m across")
 
 
+def test_cards_come_while_the_search_goes_on_and_a_chosen_one_ends_it(open_page: Any, tmp_path: Any) -> None:
+    square = f"{EMPTY}&benches=24&things=a.square..0,0_40,0_40,30_0,30~c.linden.0!5.12,9~c.elm.0!5.28,20"
+    with serving(tmp_path / "server.log", deadline_seconds=0.05, data=tmp_path / "data") as service:
+        page = open_page(square, base=service.url, failing=True)
+        page.locator("#propose").click()
+        expect(page.locator("#proposed")).to_contain_text("found so far, the search goes on")
+        with page.expect_request(lambda request: request.method == "DELETE"):
+            page.locator(CARDS).first.click()
+        expect(page.locator("#proposed")).to_contain_text("found so far.")
+        settled(page)
+        expect(page.locator(f"{CARDS}[aria-pressed=true]")).to_have_count(1)
+
+
 def test_while_a_point_is_dragged_the_stretches_that_fail_are_coloured(open_page: Any, picture: Any) -> None:
     page = open_page(f"{YARD}&route=*-11,-8_11,-8&benches=3&stray=0.05")
     settled(page)

@@ -18,6 +18,8 @@ export const SQUARE = {
   objective_turns: ["many turns", "转弯多"],
   objective_duration: ["a long dance", "时间长"],
   propose: ["Propose a dance", "设计一场舞龙"],
+  proposingMore: ["{count} found so far, the search goes on: {seconds} s", "已找到 {count} 个，继续寻找：{seconds} s"],
+  proposedSoFar: ["{count} found so far.", "目前找到 {count} 个。"],
   proposing: ["Looking for dances that fit: {seconds} s", "正在寻找合适的舞龙：{seconds} s"],
   proposeStop: ["Stop", "停止"],
   proposeFirst: ["First say how large your square is.", "请先填写广场的大小。"],

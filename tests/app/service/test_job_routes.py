@@ -171,6 +171,19 @@ def test_events_tell_every_change_and_a_stream_that_breaks_is_taken_up_where_it_
     assert (after.status_code, after.content) == (204, b"")
 
 
+def test_proposals_come_as_they_are_found_and_stay_in_the_answer_alone(service: JobService) -> None:
+    ring = [[0, 0], [24, 0], [24, 20], [0, 20], [0, 0]]
+    request = {"venue": {"type": "Polygon", "coordinates": [ring]}, "dragon": {"benches": 10}, "count": 4}
+    address = service.post({"question": "proposals", "request": request})
+    parts = [status["part"] for _, status in events_of(service, address) if "part" in status]
+    answer = service.client.get(f"{address}/result").json()
+    assert 1 <= len(parts) <= 5
+    figures = [part["figure"] for part in parts]
+    assert figures == sorted(figures, key=["ring", "spiral", "eight", "serpentine"].index)[: len(figures)]
+    assert any(part in answer["proposals"] for part in parts)
+    assert not any("part" in status for _, status in events_of(service, address))
+
+
 @pytest.mark.parametrize(
     "last", ["9" * 18, "9" * 30, "9" * 5000, "-1", "a"], ids=lambda last: last[:2] + str(len(last))
 )
