@@ -41,12 +41,13 @@ PROPOSE_WORK = 3e8
 Kind = TypeVar("Kind", Figure, Objective)
 
 
-class Limits(TypedDict, total=False):
-    """What a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]."""
+class Wishes(TypedDict, total=False):
+    """What a dance must keep, as for check(): stray, margin [m], speed_limit [m/s]; and what is best."""
 
     stray: float | Stray
     margin: float
     speed_limit: float | None
+    objective: str
 
 
 @question_about("venue", Venue, "no dance was found")
@@ -56,11 +57,10 @@ def propose(
     *,
     gates: Sequence[Gate] | None = None,
     figures: Sequence[str] | None = None,
-    objective: str = "tolerance",
     count: int = 3,
     budget: Budget | None = None,
     found: Callable[[Proposal], None] = unheard,
-    **limits: Unpack[Limits],
+    **wishes: Unpack[Wishes],
 ) -> Proposals:
     """Dances of a dragon that fit into a square, the best one first, each certified by check().
 
@@ -68,7 +68,8 @@ def propose(
         gates the whole dragon stands in the square
     figures: those to try, all that are possible by default, see Figure; a parade needs two gates
     stray: free for people, 0.05 m by default; margin: 0 [m]; speed_limit: of every handle, none by default [m/s]
-    objective: see Objective; for `benches` the dragon's last bench is left out or repeated; count: of proposals
+    objective: see Objective, "tolerance" by default; for `benches` the dragon's last bench is left out or repeated
+    count: of proposals
     found: called with every proposal as soon as it is certified, in the order of the search
     returns: see Proposals; with a reason instead of a proposal where none of the dances that were tried passes
     raises: InvalidValue; TooMuchWork if no dance was found within the budget, by default PROPOSE_WORK
@@ -80,7 +81,7 @@ def propose(
     (True, True)
     """
     checked_type("dragon", dragon, Dragon)
-    wish = _wish(dragon, objective, limits)
+    wish = _wish(dragon, wishes)
     doors = checked_gates(gates, venue)
     kinds = _figures(figures, len(doors))
     if checked_number("count", count, "", 1, COUNT_MOST) != int(count):
@@ -101,15 +102,16 @@ def propose(
     return Proposals(best, search.tried, search.checked, reason, most)
 
 
-def _wish(dragon: Dragon, objective: str, limits: Limits) -> Wish:
-    """The checked limits. raises: InvalidValue"""
-    unknown = [name for name in limits if name not in Limits.__annotations__]
+def _wish(dragon: Dragon, wishes: Wishes) -> Wish:
+    """The checked wishes. raises: InvalidValue"""
+    unknown = [name for name in wishes if name not in Wishes.__annotations__]
     if unknown:
         raise TypeError(f"propose() got an unexpected keyword argument {unknown[0]!r}")
-    stray = checked_stray(limits.get("stray", 0.05), dragon)
-    margin = checked_number("margin", limits.get("margin", 0.0), "m", 0.0, MARGIN_MAX)
-    speed = limits.get("speed_limit")
-    return Wish(stray, margin, None if speed is None else checked_limit(speed), _one("objective", objective, Objective))
+    stray = checked_stray(wishes.get("stray", 0.05), dragon)
+    margin = checked_number("margin", wishes.get("margin", 0.0), "m", 0.0, MARGIN_MAX)
+    speed = wishes.get("speed_limit")
+    objective = _one("objective", wishes.get("objective", Objective.TOLERANCE), Objective)
+    return Wish(stray, margin, None if speed is None else checked_limit(speed), objective)
 
 
 def _one(name: str, value: str, kind: type[Kind]) -> Kind:

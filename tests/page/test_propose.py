@@ -240,7 +240,7 @@ def test_a_search_can_be_stopped(open_page: Any) -> None:
 
 
 def test_what_takes_longer_than_one_answer_comes_as_a_job(open_page: Any, tmp_path: Any) -> None:
-    with serving(tmp_path / "server.log", deadline_seconds=0.05, data=tmp_path / "data") as service:
+    with serving(tmp_path / "server.log", deadline_seconds=1e-3, data=tmp_path / "data") as service:
         page = open_page(f"{EMPTY}&benches=8&things=a.square..0,0_30,0_30,3_0,3", base=service.url, failing=True)
         with page.expect_request("**/jobs/*/result"):
             page.locator("#propose").click()
