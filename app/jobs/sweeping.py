@@ -9,7 +9,7 @@ import shutil
 from pathlib import Path
 
 from app.extras import MissingPackage
-from app.files.tables import CSV_TYPE
+from app.files.tables import PARQUET_TYPE
 from app.jobs.reports import Reports
 from app.jobs.task import Task
 from app.settings import Settings
@@ -21,7 +21,6 @@ from app.sweeps.spec import Spec
 from app.sweeps.table import Sweep
 from app.wire.faults import in_body, refusal_problem
 from app.wire.problem import Problem, problem_of
-from app.wire.question import JSON
 from core import BenchDragonError
 
 # Errors that stop a sweep although its spec is valid.
@@ -97,9 +96,8 @@ def _renew(folder: Path, spec: Spec) -> None:
 
 def _table(sweep: Sweep, form: str) -> Path:
     whole = sweep.compact()
-    writers = {CSV_TYPE: sweep.to_csv, JSON: sweep.to_json}
-    if form not in writers:
+    if form == PARQUET_TYPE:
         return whole
-    file = sweep.folder / f"table.{form.rpartition('/')[2]}"
-    writers[form](file)
+    file = sweep.folder / "table"
+    sweep.save(file, form)
     return file

@@ -1,7 +1,7 @@
 /** The jobs that this browser has started, or with a token all jobs of the service: progress, result and removal. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, button, make } from "./elements.js";
+import { $, button, download, make } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { refusalWords, say } from "./text.js";
 
@@ -10,8 +10,11 @@ const STORED = "bench-dragon-jobs";
 const REMEMBERED = 50;
 /** Time between two checks of an unfinished job [ms]. */
 const LOOK = 1_000;
+/** The form in which tables of sweeps are kept, and those in which they can be saved. */
+export const TABLE = "application/vnd.apache.parquet";
+const TABLES = { CSV: "text/csv", Parquet: TABLE, Arrow: "application/vnd.apache.arrow.file" };
 /** Endings of file names, by media type. */
-const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf", "application/zip": ".zip" };
+const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf", "application/zip": ".zip", [TABLE]: ".parquet" };
 /** Names of the jobs that Keep starts. */
 const NAMES = { films: "keepFilm", "contest-kit": "keepKit", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
 export const UNFINISHED = ["accepted", "running"];
@@ -118,7 +121,20 @@ export class Jobs {
     job.opened = true;
     try {
       this.show(await this.service.ask("map", `jobs/${id}/result`), job.spec);
+      const forms = resultOf(job.status).type === TABLE ? Object.keys(TABLES) : [];
+      $("#map-save").parentElement.hidden = !forms.length;
+      $("#map-save").replaceChildren(...forms.map((form) => button({ textContent: form, "data-save": form }, () => this.#save(id, form))));
       announce(() => say("jobReady"));
+    } catch (error) {
+      announceRefusal(error);
+    }
+  }
+
+  async #save(id, form) {
+    try {
+      const name = `sweep-${id.slice(0, 8)}.${form.toLowerCase()}`;
+      download(await this.service.ask(`save ${id} ${form}`, `jobs/${id}/result`, { accept: TABLES[form] }), name);
+      announce(() => say("saved", { name }));
     } catch (error) {
       announceRefusal(error);
     }
@@ -166,7 +182,7 @@ export class Jobs {
 
 const resultOf = ({ links }) => links.find(({ rel }) => rel === "results") ?? {};
 /** True if the result is the table of a sweep, which the page can draw. */
-const isTable = (status) => status.processID === "sweep" && resultOf(status).type === "application/json";
+const isTable = (status) => status.processID === "sweep" && ["application/json", TABLE].includes(resultOf(status).type);
 
 function what(process, spec) {
   const name = process.replace(/_of$/, "").replaceAll("_", "-");

@@ -2,6 +2,7 @@
 
 import { make } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS } from "./fields.js";
+import { TABLE } from "./jobs.js";
 import { refusalWords, say } from "./text.js";
 
 const SPIRAL = [...DRAGON, "pitch", "start_turns", "head_speed"];
@@ -96,7 +97,7 @@ export class SweepForm {
     const over = Object.fromEntries(rows.map((row) => [row.wanted, axis(row)]));
     const others = QUESTIONS[question].parameters.filter((name) => !(name in over));
     const request = Object.fromEntries(others.map((name) => [name, Number(this.state.get(name))]));
-    return { question, over, request, accept: "application/json" };
+    return { question, over, request, accept: TABLE };
   }
 
   async #submit() {

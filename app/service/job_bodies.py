@@ -7,7 +7,7 @@ from typing import Any
 import orjson
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.files.tables import CSV_TYPE, PARQUET_TYPE
+from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
 from app.jobs.job import Job, JobState
 from app.sweeps.spec import Spec
 from app.wire.faults import pointer
@@ -15,8 +15,8 @@ from app.wire.problem import Problem
 from app.wire.question import JSON, measure
 
 EVENTS_TYPE = "text/event-stream"
-# Formats of the table of a sweep.
-SWEEP_FORMS = (PARQUET_TYPE, CSV_TYPE, JSON)
+# Formats of the table of a sweep, those of app.sweeps.table, which takes long to import.
+SWEEP_FORMS = (PARQUET_TYPE, CSV_TYPE, JSON, ARROW_TYPE)
 SWEEP_EXAMPLE = {
     "question": "collision_time",
     "over": {"pitch": {"start": 0.5, "stop": 0.6, "count": 40}, "width": [0.25, 0.3, 0.35]},

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import difflib
+import io
 import logging
 import math
 import os
@@ -11,6 +12,8 @@ import re
 import sqlite3
 from collections.abc import AsyncIterator
 from contextlib import suppress
+from functools import partial
+from pathlib import Path as FilePath
 from time import monotonic
 from typing import Annotated, Any
 
@@ -22,6 +25,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers
 from starlette.types import Receive, Scope, Send
 
+from app.files.tables import PARQUET_TYPE
 from app.jobs.job import (
     GAVE_WAY,
     ID_PATTERN,
@@ -51,7 +55,7 @@ from app.service.job_bodies import (
     status,
 )
 from app.service.lanes import limit
-from app.service.negotiation import RESPOND_ASYNC, form_of
+from app.service.negotiation import RESPOND_ASYNC, accepted, form_of
 from app.service.problems import Refused, problem, response_of
 from app.service.token import TOKEN, WITHOUT, guard
 from app.settings import Settings
@@ -77,6 +81,8 @@ NOT_KEPT = {"Cache-Control": "no-store"}
 # Results up to this size are read before the answer begins, so that an expiry does not interrupt the answer [bytes].
 READ_AT_ONCE = 1_000_000
 # Every form that a result may have.
+# Most cells of a table that is written in another form for each client who asks: 40 MB of JSON, a second.
+CELLS_MOST = 2_000_000
 RESULT_FORMS = sorted({*SWEEP_FORMS, *(form for one in QUESTIONS.values() for form in one.forms)})
 RESULT = routes.ANY_FILE | {form: routes.SCHEMAS.get(form, routes.FILE) for form in RESULT_FORMS}
 PROBLEMS = routes.PROBLEMS | {
@@ -85,6 +91,7 @@ PROBLEMS = routes.PROBLEMS | {
     406: "The question has no answer in this form",
     409: "The job is not finished",
     410: "The result is removed, or there will be none",
+    413: "The body is too long, or the table for this form",
     422: "A value is outside its limits, or a name is unknown",
     429: "This client has reached its limit of unfinished or kept jobs",
     503: "No more jobs are accepted now",
@@ -302,10 +309,13 @@ def dismiss(request: Request, keeper: KeptKeeper, job: NamedJob) -> Response:
 @router.get(
     "/{job_id}/result",
     dependencies=[no_query],
-    **description_of("job_result", 404, 409, 410, 422, 500, 503, content=RESULT),
+    **description_of("job_result", 404, 409, 410, 413, 422, 500, 503, content=RESULT),
 )
-def result(keeper: KeptKeeper, job: NamedJob) -> Response:
-    """The answer of the call, with the same bytes as a direct answer; for a failed job its problem."""
+def result(request: Request, keeper: KeptKeeper, job: NamedJob) -> Response:
+    """The answer of the call, with the same bytes as a direct answer; for a failed job its problem.
+
+    The table of a sweep that is kept as Parquet is also there in the other forms of a sweep, by the header Accept.
+    """
     if not job.is_finished:
         detail = "The job is {state}, so it has no result yet: ask again, or follow its events."
         raise Refused(409, detail, None, {"Retry-After": "1"}, state=str(job.state))
@@ -315,12 +325,29 @@ def result(keeper: KeptKeeper, job: NamedJob) -> Response:
     file = keeper.store.result(job.id)
     if job.state is not JobState.DISMISSED and not job.expired:
         with suppress(FileNotFoundError):  # The file may be removed at any time.
+            if job.question == SWEEP and job.media_type == PARQUET_TYPE:
+                form = accepted(request.headers.get("accept"), SWEEP_FORMS) or PARQUET_TYPE
+                if form != PARQUET_TYPE:
+                    return Response(_rows_as(form, file), headers=NOT_KEPT | {"Vary": "Accept"}, media_type=form)
             if file.stat().st_size > READ_AT_ONCE:
                 return LargeResult(file, headers=NOT_KEPT, media_type=job.media_type)
             return Response(file.read_bytes(), headers=NOT_KEPT, media_type=job.media_type)
     why = "The job was dismissed" if job.state is JobState.DISMISSED else "The result has expired"
     why = "The result gave way to newer jobs" if job.expired == GAVE_WAY else why
     raise Refused(410, f"{why}: there is no result, ask the question again.")
+
+
+def _rows_as(form: str, file: FilePath) -> bytes:
+    """The table of a sweep in another form. raises: Refused (413) for a large one; FileNotFoundError"""
+    from app.sweeps.table import cells_of, rows_of, write_rows  # The import takes 0.3 s, and no other call needs it.
+
+    cells = cells_of(file)
+    if cells > CELLS_MOST:
+        words = "The table has {cells} cells, and other forms at most {most}: take it as Parquet."
+        raise Refused(413, words, None, cells=cells, most=CELLS_MOST)
+    sink = io.BytesIO()
+    write_rows(sink, form, partial(rows_of, file), "")
+    return sink.getvalue()
 
 
 @router.get(

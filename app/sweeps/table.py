@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 import orjson
@@ -17,9 +18,11 @@ import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 import core
+from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
 from app.sweeps import shards
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
+from app.wire.question import JSON
 from app.wire.texts import FORMULA
 from core import InvalidValue
 from core.display import format_count
@@ -31,6 +34,8 @@ if TYPE_CHECKING:
     import pandas
     import polars
 
+# Formats of the table, the first one by default.
+FORMS = (PARQUET_TYPE, CSV_TYPE, JSON, ARROW_TYPE)
 # Rows in a group of the joined file: the smallest part that can be read.
 GROUP = 100_000
 
@@ -71,9 +76,7 @@ class Sweep:
         """The available rows, shard by shard. columns: to read. raises: InvalidValue"""
         whole = self.folder / TABLE_FILE
         if whole.exists():
-            with pq.ParquetFile(whole) as opened:
-                for group in range(opened.num_row_groups):
-                    yield opened.read_row_group(group, columns=columns)
+            yield from rows_of(whole, columns)
             return
         for shard in sorted(shards.parts(self.folder)):
             with shards.checked_part(self.folder, self.spec, shard) as opened:
@@ -114,28 +117,23 @@ class Sweep:
         """
         whole = self.folder / TABLE_FILE
         if not whole.exists():
-            marks = {"bench-dragon sweep": self.spec.name}
-            tables = (table.replace_schema_metadata(marks) for table in _in_groups(self.tables()))
-            self._write(whole, tables, partial(pq.ParquetWriter, compression="zstd"))
+            self.save(whole, PARQUET_TYPE)
         for shard in shards.parts(self.folder):
             (self.folder / shards.part_name(shard)).unlink()
         return whole
 
     def to_csv(self, file: Path) -> None:
-        """Write the table as CSV, completely or not at all. raises: InvalidValue if parts are missing; OSError"""
-        self._write(file, map(without_formulas, self.tables()), pa_csv.CSVWriter)
+        """Write the table as CSV. raises: as save()"""
+        self.save(file, CSV_TYPE)
 
-    def to_json(self, file: Path) -> None:
-        """Write the table as JSON, a list for each column, completely or not at all.
+    def save(self, file: Path, form: str) -> None:
+        """Write the table in one of FORMS, completely or not at all.
 
         raises: InvalidValue if parts are missing; OSError
         """
         self._check_complete()
         with shards.written(file) as sink:
-            for k, column in enumerate(next(self.tables()).column_names):
-                sink.write((b"," if k else b"{") + orjson.dumps(column) + b":")
-                sink.write(orjson.dumps(self.table([column])[column].to_pylist()))
-            sink.write(b"}")
+            write_rows(sink, form, self.tables, self.spec.name)
 
     def _check_complete(self) -> None:
         if self.missing:
@@ -143,19 +141,46 @@ class Sweep:
             whole = format_count(self.spec.shards, "shard")
             raise InvalidValue.in_words("folder", words, folder=str(self.folder), missing=self.missing, shards=whole)
 
-    def _write(self, file: Path, tables: Iterable[pa.Table], open_writer: Callable[..., Any]) -> None:
-        """Write the rows. raises: InvalidValue, OSError
 
-        open_writer: makes a writer of pyarrow from a file and a schema
-        """
-        self._check_complete()
-        with shards.written(file) as sink:
-            writer = None
-            for table in tables:
-                writer = writer or open_writer(sink, table.schema)
-                writer.write_table(table)
-            assert writer is not None
-            writer.close()
+def rows_of(file: Path, columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
+    """The rows of a joined file, group by group. columns: to read"""
+    with pq.ParquetFile(file) as opened:
+        for group in range(opened.num_row_groups):
+            yield opened.read_row_group(group, columns=columns)
+
+
+def cells_of(file: Path) -> int:
+    """Number of cells of a joined file."""
+    with pq.ParquetFile(file) as opened:
+        return int(opened.metadata.num_rows * opened.metadata.num_columns)
+
+
+Rows = Callable[[Sequence[str] | None], Iterator[pa.Table]]
+
+
+def write_rows(sink: BinaryIO, form: str, rows: Rows, name: str) -> None:
+    """Write rows in one of FORMS; as JSON a list for each column.
+
+    rows: function of the names of columns, or None for all, that gives them; name: of the sweep, in its Parquet file
+    """
+    if form == JSON:
+        for k, column in enumerate(next(rows(None)).column_names):
+            sink.write((b"," if k else b"{") + orjson.dumps(column) + b":")
+            sink.write(orjson.dumps(pa.concat_tables(rows([column]))[column].to_pylist()))
+        sink.write(b"}")
+        return
+    open_writer: Callable[..., Any] = pa.ipc.new_file
+    tables = rows(None)
+    if form == PARQUET_TYPE:
+        open_writer = partial(pq.ParquetWriter, compression="zstd")
+        tables = (table.replace_schema_metadata({"bench-dragon sweep": name}) for table in _in_groups(tables))
+    elif form == CSV_TYPE:
+        open_writer = pa_csv.CSVWriter
+        tables = map(without_formulas, tables)
+    first = next(tables)
+    with open_writer(sink, first.schema) as writer:
+        for table in chain([first], tables):
+            writer.write_table(table)
 
 
 def _in_groups(tables: Iterator[pa.Table]) -> Iterator[pa.Table]:

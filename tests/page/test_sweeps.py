@@ -67,6 +67,11 @@ def test_a_sweep_of_two_parameters_becomes_a_map_whose_designs_open(open_page: A
     page = open_page("?benches=40&margin=0.05", base=base(service))
     ask(page, "collision_time", ("pitch", 0.5, 0.6, 5), ("width", 0.2, 0.3, 3))
     page.locator("#jobs li[data-state=successful]", has_text="First contact over Pitch and Width").wait_for()
+    for form, begin in (("CSV", b"design,"), ("Parquet", b"PAR1"), ("Arrow", b"ARROW1")):
+        with page.expect_download() as download:
+            page.locator(f"#map-save [data-save={form}]").click()
+        assert download.value.suggested_filename.endswith(f".{form.lower()}")
+        assert Path(download.value.path()).read_bytes().startswith((begin, b'"' + begin[:-1]))
     page.locator("#map canvas").hover(position=middle(page))
     query = {"pitch": 0.55, "width": 0.25, "benches": 40, "margin": 0.05, "cross_check": "none"}
     answer = polite.get(f"{base(service)}/collision-time", params=query).json()
@@ -131,6 +136,7 @@ def test_the_map_of_one_parameter_is_read_by_keyboard_in_chinese_and_its_minimum
     ask(page, "minimum_pitch", ("turning_diameter", 8, 10, 3))
     page.locator("#jobs li[data-state=successful]", has_text="最小螺距，变化：调头空间直径").wait_for()
     canvas = page.locator("#map canvas")
+    canvas.wait_for()
     canvas.focus()
     for key in ("ArrowRight", "ArrowRight", "ArrowRight"):
         page.keyboard.press(key)

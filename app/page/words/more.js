@@ -151,6 +151,7 @@ export const MORE = {
   jobRemove: ["Remove", "删除"],
   tokenTitle: ["Token, if this service needs one", "服务要求令牌？"],
   token: ["Token for starting jobs, listing all of them and sending files", "令牌：用于启动任务、列出全部任务并上传文件"],
+  mapSave: ["Save the table as", "表格另存为"],
   mapValue: ["Value", "数值"],
   mapHelp: ["Map of the value. Arrow keys choose a design, Enter opens its dance.", "数值分布图。方向键选择方案，回车打开该舞龙。"],
   mapHint: ["Lines: equal values. Blank: no value. Click a design to open its dance.", "线：等值线。空白：没有该数值。点击可打开该方案的舞龙。"],

@@ -145,6 +145,7 @@ const GONE = [undefined, "任务已取消或结果已过期：请重新计算"];
 
 /** Templates whose sentence is told as a whole, by their template: [English, Chinese]; without English, that of the service stands. */
 export const WHOLE = {
+  "The table has {cells} cells, and other forms at most {most}: take it as Parquet.": ["The table has {cells} cells, and other forms at most {most}: take it as Parquet", "表格有 {cells} 个单元格，其他格式最多 {most} 个：请保存为 Parquet"],
   "within s": ["No answer was found within {then}, the time limit for one answer here. Take fewer benches, or try again later", "在一次回答允许的 {then} 内没有算完：请减少板凳节数，或稍后再试"],
   "within s file": ["The file was not read within {then}. Try again, or leave out everything that does not belong to the square", "文件在 {then} 内没有读完：请重试，或删去与场地无关的内容"],
   "within work": ["No answer was found within the work limit of one question. Take fewer benches", "在一个问题允许的计算量内没有算完：请减少板凳节数"],

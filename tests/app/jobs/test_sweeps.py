@@ -8,9 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
-from app.files.tables import CSV_TYPE, PARQUET_TYPE
+from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
 from app.sweeps.run import begin
 from app.sweeps.shards import ShardPiece, write_part
 from app.sweeps.spec import Spec
@@ -104,7 +107,27 @@ def test_the_result_is_the_table_of_the_same_sweep_in_each_form(service: JobServ
     assert [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)] == rows
     assert sum(code == "invalid-value" for code in columns["error.code"]) == 10
     wait_for(lambda: not list((service.folder / "sweeps").iterdir()), LINGER)
-    for address in addresses.values():
+    as_parquet = service.post(SPEC, "/sweeps")
+    assert service.finished(as_parquet)["status"] == "successful"
+
+    def taken(address: str, form: str) -> httpx.Response:
+        return service.client.get(f"{address}/result", headers={"Accept": form})
+
+    for form, content in entries.items():
+        answer = taken(as_parquet, form)
+        assert (answer.headers["content-type"].partition(";")[0], answer.content) == (form, content)
+    with pa.ipc.open_file(taken(as_parquet, ARROW_TYPE).content) as arrow:
+        assert arrow.read_all().equals(expected.table())
+    for form in ("*/*", "text/html, */*;q=0.8", "image/png"):
+        assert taken(as_parquet, form).headers["content-type"] == PARQUET_TYPE
+    assert taken(addresses[CSV_TYPE], JSON).content == entries[CSV_TYPE]
+    # A table that would take much memory is there as Parquet alone.
+    large = pa.table({f"c{k}": np.zeros(200_001) for k in range(10)})
+    pq.write_table(large, service.folder / "results" / as_parquet.rpartition("/")[2])
+    refused = taken(as_parquet, JSON)
+    assert (refused.status_code, "take it as Parquet" in refused.json()["detail"]) == (413, True)
+    assert taken(as_parquet, "*/*").status_code == 200
+    for address in (*addresses.values(), as_parquet):
         assert service.client.delete(address).status_code == 204
 
 
