@@ -16,7 +16,7 @@ const TABLES = { CSV: "text/csv", Parquet: TABLE, Arrow: "application/vnd.apache
 /** Endings of file names, by media type. */
 const ENDINGS = { "video/mp4": ".mp4", "image/gif": ".gif", "application/json": ".json", "text/csv": ".csv", "application/geo+json": ".geojson", "image/vnd.dxf": ".dxf", "application/pdf": ".pdf", "application/zip": ".zip", [TABLE]: ".parquet" };
 /** Names of the jobs that Keep starts. */
-const NAMES = { films: "keepFilm", "contest-kit": "keepKit", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
+const NAMES = { films: "keepFilm", "contest-kit": "keepKit", "collision-time": "keepAnswer", "minimum-pitch": "keepPitch", envelope: "keepGround", plan: "keepPlan", cues: "keepCues", check: "keepVerdict", tolerance: "keepStray", clearance: "keepClearance", trajectory: "keepTrajectory" };
 export const UNFINISHED = ["accepted", "running"];
 const STATES = { accepted: "jobWaits", running: "jobRuns", successful: "jobDone", failed: "jobFailed", dismissed: "jobDismissed" };
 

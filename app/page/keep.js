@@ -23,6 +23,7 @@ const TYPES = {
   KML: "application/vnd.google-earth.kml+xml",
   A4: "application/pdf",
   A3: "application/pdf",
+  PDF: "application/pdf",
   ZIP: "application/zip",
 };
 /** Items to save, in the order of the page: formats, and the name of the request; slow ones become a job; hint: a button of its own. */
@@ -36,6 +37,7 @@ const ITEMS = [
   { key: "keepFilm", forms: ["MP4", "GIF"], ask: "film", file: "dance", job: true },
   { key: "keepGround", forms: ["GeoJSON", "DXF", "JSON"], ask: "ground", file: "envelope" },
   { key: "keepPlan", forms: ["A4", "A3"], ask: "plan", file: "plan" },
+  { key: "keepCues", forms: ["PDF", "CSV"], ask: "cues", file: "cues" },
   { key: "keepMap", forms: ["GeoJSON", "KML", "DXF"], ask: "map", file: "map" },
   { key: "keepAnswer", forms: ["JSON"], ask: "answer", file: "first-contact" },
   { key: "keepVerdict", forms: ["JSON"], ask: "verdict", file: "check" },
@@ -45,7 +47,7 @@ const ITEMS = [
   { key: "keepPaper", forms: ["JSON"], ask: "paper", file: "paper" },
 ];
 /** Name of a file in this format. */
-const named = (file, form) => (TYPES[form] === TYPES.A4 ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
+const named = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
 const SHOWN = "keepShown";
 const PROOF = "keepProof";
@@ -85,6 +87,7 @@ const REQUESTS = {
   },
   ground: (questions) => ({ path: "envelope", body: questions.body({ start: questions.dance.begin, stop: questions.dance.end }) }),
   plan: (questions, paper) => ({ path: "plan", body: { ...questions.checkBody(questions.dance), paper, language: language() } }),
+  cues: (questions) => ({ path: "cues", body: { ...questions.checkBody(questions.dance), language: language() } }),
   map(questions, form) {
     const { origin } = questions.dance.kind === "route" ? questions.state.get("drawing") : {};
     return { path: `maps.${form.toLowerCase()}`, body: { ...questions.checkBody(questions.dance), ...(origin && { origin }) } };

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
@@ -149,13 +150,17 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any
     assert order == ["judgement", "benches"]
 
 
-def test_a_village_keeps_film_plan_and_map_and_sees_there_how_far_they_are(open_page: Any) -> None:
+def test_a_village_keeps_film_plan_cues_and_map_and_sees_there_how_far_they_are(open_page: Any) -> None:
     page = open_page(f"?door=village{ROUTE}")
     settled(page)
     rows = page.locator("#kept li:visible > span:first-child")
-    expect(rows).to_have_text(
-        ["The picture as it is", "Film of the dance", "Plan on paper, true to scale", "Map with chalk marks"]
-    )
+    names = ("The picture as it is", "Film of the dance", "Plan on paper, true to scale", "A cue card for each bench")
+    expect(rows).to_have_text([*names, "Map with chalk marks"])
+    for form, begin in (("PDF", b"%PDF"), ("CSV", b"bench,")):
+        with page.expect_download() as download:
+            page.locator(f"#keepCues-{form}").click()
+        assert download.value.suggested_filename == f"cues.{form.lower()}"
+        assert Path(download.value.path()).read_bytes().startswith(begin)
     expect(page.locator("#sweeps")).to_be_hidden()
     page.locator("#keepFilm-GIF").click()
     expect(page.locator("#jobs li")).to_be_visible()

@@ -49,6 +49,7 @@ export const MORE = {
   keepFilm: ["Film of the dance", "舞龙影片"],
   keepGround: ["Ground that benches sweep", "板凳扫过的地面"],
   keepPlan: ["Plan on paper, true to scale", "按比例的平面图"],
+  keepCues: ["A cue card for each bench", "每节板凳的提示卡"],
   keepMap: ["Map with chalk marks", "带粉笔标记的地图"],
   keepAnswer: ["First contact with its certificate", "首次碰撞及其证明"],
   keepVerdict: ["The verdict on the whole dance", "全程判定"],
