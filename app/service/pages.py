@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import gzip
 import hashlib
+import html
+import json
 import os
 import re
 from base64 import b64encode
@@ -58,6 +60,9 @@ DOCS_POLICY = f"{POLICY}; form-action 'none'"
 PYTHON = (".py", ".pyc")
 # Files that gzip makes smaller.
 TEXT = ("text/", "application/javascript", "application/json", "image/svg")
+# A word of the page in both languages, and a place for one in its HTML.
+WORD = re.compile(r'^  (\w+): \[("(?:[^"\\]|\\.)*"), ("(?:[^"\\]|\\.)*")\],$', re.MULTILINE)
+GAP = re.compile(r'(data-text="(\w+)"[^>]*>)(?=</)')
 # For files whose address changes with their content: a year, the longest time that caches heed.
 KEPT = "public, max-age=31536000, immutable"
 # Files kept in memory: those of the page, of uPlot and of Swagger UI are about 70.
@@ -68,7 +73,7 @@ KEPT_FILES = 256
 def _forms(content: bytes, kind: str) -> tuple[str, bytes | None]:
     """Tag of a content, and its gzip if that is smaller."""
     packed = gzip.compress(content, mtime=0) if kind.startswith(TEXT) else content
-    tag = hashlib.blake2b(content, digest_size=16).hexdigest()
+    tag = hashlib.blake2b(content, digest_size=8).hexdigest()
     return tag, packed if len(packed) < len(content) else None
 
 
@@ -135,6 +140,35 @@ class Files(StaticFiles):
         return response
 
 
+class Page(Files):
+    """The files of the page. Its HTML has the words that its modules would write, seconds later on a slow line."""
+
+    def written(self, name: str, language: str) -> tuple[bytes, str]:
+        """A page in a language, zh or en, and its media type."""
+        return _written(self, name, language, self.edition()), "text/html"
+
+    def words(self, column: int) -> dict[str, str]:
+        """The words of the page by their keys. column: 0 for English, 1 for Chinese"""
+        files = sorted(Path(PAGE, "words").glob("*.js"))
+        texts = (self.content(f"words/{file.name}")[0].decode() for file in files)
+        return {key: json.loads(both[column]) for text in texts for key, *both in WORD.findall(text)}
+
+
+@lru_cache(8)
+def _written(files: Page, name: str, language: str, edition: str) -> bytes:
+    text, words = files.content(name)[0].decode(), files.words(language == "zh")
+    text = GAP.sub(lambda gap: gap[1] + html.escape(words.get(gap[2], ""), quote=False), text)
+    if language == "zh":
+        text = text.replace('<html lang="en">', '<html lang="zh-Hans">')
+    return text.replace('"page/', f'"page-{edition}/').encode()
+
+
+def language_of(request: Request) -> str:
+    """The language of a page as the page chooses it: that of its address, or that of the browser; zh or en."""
+    wanted = request.query_params.get("lang") or request.headers.get("accept-language", "")
+    return "zh" if wanted.lower().startswith("zh") else "en"
+
+
 class Guide(Files):
     """The pages of the documentation as `make docs` makes them."""
 
@@ -172,11 +206,12 @@ def add_pages(app: FastAPI) -> None:
     async def described(request: Request) -> Response:
         return reply_with(request.headers, description(), JSON)
 
-    files = Files(directory=PAGE, packages=[("uplot", "static")])
+    files = Page(directory=PAGE, packages=[("uplot", "static")])
 
     def page(request: Request, name: str) -> Response:
-        text, kind = files.content(name)
-        return reply_with(request.headers, text.replace(b'"page/', f'"page-{files.edition()}/'.encode()), kind)
+        response = reply_with(request.headers, *files.written(name, language_of(request)))
+        response.headers["Vary"] += ", Accept-Language"
+        return response
 
     @app.get("/", include_in_schema=False)
     def index(request: Request) -> Response:

@@ -221,6 +221,7 @@ def serve(host: str, port: int, workers: int) -> None:
         "port": port,
         "http": PARSER,
         "log_config": log_config(settings.log_json),
+        "server_header": False,
         "timeout_graceful_shutdown": settings.grace_seconds,
         "timeout_worker_healthcheck": START_SECONDS,
     }

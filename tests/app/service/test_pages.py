@@ -23,9 +23,28 @@ def test_a_file_is_the_same_as_gzip_and_plain_with_a_tag_of_each_form(server: st
     assert packed.headers["Content-Encoding"] == "gzip"
     assert int(packed.headers["Content-Length"]) < len(answer.content)
     assert "Content-Encoding" not in answer.headers
-    assert answer.headers["Vary"] == packed.headers["Vary"] == "Accept-Encoding"
+    vary = "Accept-Encoding, Accept-Language" if path in ("/", "/how") else "Accept-Encoding"
+    assert answer.headers["Vary"] == packed.headers["Vary"] == vary
     assert answer.headers["Content-Type"] == packed.headers["Content-Type"]
     assert answer.headers["ETag"] != packed.headers["ETag"]
+
+
+@pytest.mark.parametrize(
+    ("query", "language", "lang", "word"),
+    [
+        ("", "de, en;q=0.5", "en", "Contest"),
+        ("", "zh-CN, en;q=0.5", "zh-Hans", "竞赛题"),
+        ("?lang=en", "zh-CN", "en", "Contest"),
+        ("?door=village&lang=zh", "en", "zh-Hans", "竞赛题"),
+    ],
+)
+def test_a_page_has_its_words_before_its_modules_come(
+    server: str, query: str, language: str, lang: str, word: str
+) -> None:
+    text = httpx.get(f"{server}/{query}", headers={"Accept-Language": language}).text
+    assert f'<html lang="{lang}">' in text
+    assert f'data-text="door_contest">{word}</button>' in text
+    assert re.findall(r'data-text="(\w+)"[^>]*></', text) == []
 
 
 @pytest.mark.parametrize("path", FILES)
