@@ -114,6 +114,7 @@ class Watched:
         """Empty the tab, so that it is like a new one."""
         options = json.loads(self.way)
         self.page.unroute_all()
+        self.page.evaluate("() => { try { localStorage.clear(); } catch {} }")  # A page of a browser's error has none.
         self.page.goto("about:blank")
         self.page.mouse.move(0, 0)
         if options["viewport"] and self.page.viewport_size != options["viewport"]:
