@@ -20,7 +20,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 
 help:
 	@echo 'make serve    the service on http://$(HOST):$(PORT) (HOST=, PORT=)'
-	@echo 'make test     the tests (ARGS= for pytest)'
+	@echo 'make test     the tests (ARGS= for pytest, SHUFFLE= for a random order)'
 	@echo 'make machines  make serve and make test on other Debians, ten minutes each (as root; SUITES=, PACKAGES=, OWNER=)'
 	@echo 'make hunt     random campaigns against slow oracles, 20 minutes (SECONDS=, SEED=; the seed is printed)'
 	@echo 'make deep     the tests with all cases and samples, of which make test runs some of each kind'
