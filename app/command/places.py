@@ -18,6 +18,7 @@ from app.files.tables import Language
 from app.maps.dances import read_dance
 from app.maps.layout import DanceParts
 from app.maps.places import Places, read_map
+from app.maps.tracks import CHORD
 from app.questions.maps import MapFormat, MapsRequest, OriginFields
 from app.questions.maps import maps as maps_of
 from app.questions.plan import PlanRequest
@@ -43,6 +44,10 @@ def places(
         Path | None, typer.Option(help="Write a .json file for check: the square, its obstacles and the path.")
     ] = None,
     times: Annotated[bool, typer.Option("--times", help="Keep the times of a track as passages in that file.")] = False,
+    longest_chord: Annotated[
+        float,
+        typer.Option(min=1e-3, max=50.0, help="Longest distance of two handles, for which a track is smoothed [m]."),
+    ] = CHORD,
     language: Annotated[Language, typer.Option(help="Language of the notes.")] = Language.ENGLISH,
     json: Json = False,
 ) -> None:
@@ -52,7 +57,7 @@ def places(
     if output:
         checked_output("output", output, (".json",))
     coordinates: dict[str | None, Coordinates | None] = {None: None, "metres": "metres", "degrees": "degrees"}
-    parts = read_map(file, coordinates[units], language)
+    parts = read_map(file, coordinates[units], language, longest_chord)
     answer = Places.of(parts)
     if output:
         names = ("path", "venue", "passages") if times else ("path", "venue")

@@ -14,7 +14,7 @@ from app.files.words import Say
 from app.maps import geojson
 from app.maps.features import MARK, PATH, SQUARE, Drawing, MapFeature, Unit, area_of, holds_any, round_area
 from app.maps.lines import POINTS_APART, checked_path, is_along, length_of, thinned
-from app.maps.tracks import APART, walk_of
+from app.maps.tracks import APART, CHORD, walk_of
 from app.wire.degrees import ACROSS_MAX, GRID_MAX, Origin, Plane, middle_of, refuse_wide, unwrapped
 from app.wire.geojson import outlined, read_things, venue_of
 from app.wire.question import Coordinates
@@ -95,8 +95,8 @@ def _checked(things: list[MapFeature]) -> Venue:
 class Reading:
     """Reads a venue and a path from a map, and notes its assumptions."""
 
-    def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say) -> None:
-        self.drawing, self.say, self.notes = drawing, say, list[str]()
+    def __init__(self, drawing: Drawing, units: Coordinates | None, say: Say, chord: float = CHORD) -> None:
+        self.drawing, self.say, self.chord, self.notes = drawing, say, chord, list[str]()
         self.assumed = dict[float, list[str]]()
         self.features = [_closed(one) for one in drawing.features if one.role != MARK and any(one.rings)]
         if not self.features:
@@ -324,7 +324,7 @@ class Reading:
     def _walked(self, line: MapFeature) -> Mapping[str, Any]:
         """The path along a track, with a note on how far it is from what was walked."""
         points, times = np.array(line.rings[0]), np.array(line.times)
-        walk = walk_of(points, times if np.isfinite(times).all() else None)
+        walk = walk_of(points, times if np.isfinite(times).all() else None, self.chord)
         name = line.name or self.say("a track without a name", "未命名的轨迹")
         if walk is None:
             length = Quantity(APART, "m")
@@ -337,8 +337,9 @@ class Reading:
         self._note(english, chinese)
         if not walk.is_easy:
             self._note(
-                f"Some bends stay tighter than {walk.radius:.1f} m, which benches of the contest need.",
-                f"仍有弯道的半径小于 {walk.radius:.1f} m，竞赛题中的板凳无法通过。",
+                f"Some bends stay tighter than {walk.radius:.1f} m, which a bench needs whose handles are "
+                f"{self.chord:.2f} m apart.",
+                f"仍有弯道的半径小于 {walk.radius:.1f} m，把手相距 {self.chord:.2f} m 的板凳无法通过。",
             )
         if walk.passages is None:
             self._note("The track has no times that grow.", "轨迹没有递增的时间。")

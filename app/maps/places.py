@@ -21,6 +21,7 @@ from app.maps.benches import benches_of
 from app.maps.features import FEATURES_MAX, LEAVE_OUT, POINTS_MAX, features_of
 from app.maps.layout import DanceParts, Reading
 from app.maps.lines import checked_path
+from app.maps.tracks import CHORD
 from app.processes.limits import reading
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
@@ -66,20 +67,23 @@ class Places(Answer):
 
 
 def read_places(
-    data: bytes, units: Coordinates | None, language: Language, budget: Budget
+    data: bytes, units: Coordinates | None, language: Language, chord: float, budget: Budget
 ) -> Places | BenchDragonError:
     """Content of a map, or its refusal, for another process."""
     try:
-        return Places.of(places_of(data, units, Say(language), budget))
+        return Places.of(places_of(data, units, Say(language), budget, chord))
     except BenchDragonError as error:
         return error
 
 
-def places_of(data: bytes, units: Coordinates | None, say: Say, budget: Budget | None = None) -> DanceParts:
+def places_of(
+    data: bytes, units: Coordinates | None, say: Say, budget: Budget | None = None, chord: float = CHORD
+) -> DanceParts:
     """Square and path in a file: GeoJSON, KML, KMZ, GPX, DXF, or a dance as TOML or JSON, recognised by its first
     bytes; or the benches in a workbook.
 
     units: of its coordinates; None: as the file says, else degrees if the numbers allow it
+    chord: longest distance of the handles of a bench, for which a track is smoothed [m]
     raises: InvalidValue at the field `file`; MissingPackage
     """
     if not data.strip():
@@ -99,10 +103,10 @@ def places_of(data: bytes, units: Coordinates | None, say: Say, budget: Budget |
     if is_archive or start.startswith((b"<", b"\0<")):
         start, notes = (start, []) if states_encoding(start) else _in_utf8(start, say)
         drawing = gpx.read(start) if gpx.is_gpx(start) else kml.read(start)
-        parts = Reading(drawing, units, say).parts()
+        parts = Reading(drawing, units, say, chord).parts()
         return replace(parts, notes=[*notes, *parts.notes])
     if start.startswith((b"0", b"999", b"AutoCAD", b"AC10")):
-        return Reading(dxf.read(data), units, say).parts()
+        return Reading(dxf.read(data), units, say, chord).parts()
     start, notes = _in_utf8(start, say)
     parts = _of_text(start, units, say)
     return replace(parts, notes=[*notes, *parts.notes])
@@ -177,12 +181,14 @@ def _of_dance(content: Mapping[str, Any], say: Say) -> DanceParts:
     return DanceParts(path, place.venue, place.origin, others, notes, features_of(place.things), place.grid)
 
 
-def read_map(file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH) -> DanceParts:
-    """The square and the path in a map. raises: InvalidValue, TooMuchWork, OSError"""
+def read_map(
+    file: Path, units: Coordinates | None = None, language: Language = Language.ENGLISH, chord: float = CHORD
+) -> DanceParts:
+    """The square and the path in a map; arguments as for places_of(). raises: InvalidValue, TooMuchWork, OSError"""
     with file.open("rb") as source:
         data = source.read(FILE_MAX + 1)
     if len(data) > FILE_MAX:
         words = "{file} must have at most {most} bytes"
         raise InvalidValue.in_words("file", words, got="more", file=str(file), most=FILE_MAX)
     with reading():
-        return places_of(data, units, Say(language))
+        return places_of(data, units, Say(language), chord=chord)

@@ -1,7 +1,7 @@
 """A path from a track that was walked: thinned, smoothed to what benches can follow, with its times as passages.
 
 A receiver is metres off, and more so while it stands: its points are thinned to APART, and smoothed along the way with
-a Gaussian whose width grows until no bend is tighter than the benches of the contest can follow. Both ends stay in
+a Gaussian whose width grows until no bend is tighter than the longest bench can follow. Both ends stay in
 place. Of a track of more than POINTS_MOST points every second, third and so on counts.
 """
 
@@ -18,6 +18,8 @@ from core import Dragon, Legs
 from core.paths.following import tightest_bend
 from core.values import Floats
 
+# Distance of the handles of the longest bench [m]: the contest's head.
+CHORD = 2.86
 # Least distance of two points that count [m]: a receiver at rest moves by less.
 APART = 2.0
 # Distance of the points that are smoothed [m], and the most of them; distance of the points of the path [m].
@@ -57,11 +59,14 @@ class Walk:
         return {"kind": "waypoints", "points": np.round(self.points, DECIMALS).tolist()}
 
 
-def walk_of(points: Floats, times: Floats | None, dragon: Dragon | None = None) -> Walk | None:
-    """The path along a track; None if it is too short. points: (P, 2) [m]; times: (P,) [s], or None"""
+def walk_of(points: Floats, times: Floats | None, chord: float = CHORD) -> Walk | None:
+    """The path along a track; None if it is too short.
+
+    points: (P, 2) [m]; times: (P,) [s], or None; chord: longest distance of the handles of a bench [m]
+    """
     every = len(points) // POINTS_MOST + 1
     points, times = points[::every], None if times is None else times[::every]
-    radius = EASY * tightest_bend(dragon or Dragon())[0]
+    radius = EASY * tightest_bend(Dragon(1, chord, overhang=0.0))[0]
     way = evenly(apart(points))
     if len(way) < 3:
         return None

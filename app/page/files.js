@@ -71,7 +71,11 @@ export class Files {
   }
 
   async #places(file) {
-    const { dance, notes = [], ...content } = await this.service.ask("places", "places", { query: { language: language() }, file, headers: bearer() });
+    const [head, body, overhang] = ["head_length", "body_length", "overhang"].map((name) => Number(this.state.get(name)));
+    // A walked track is smoothed for the longest bench.
+    const chord = Math.max(head, body) - 2 * overhang;
+    const query = { language: language(), ...(chord > 0 && { longest_chord: chord }) };
+    const { dance, notes = [], ...content } = await this.service.ask("places", "places", { query, file, headers: bearer() });
     return { ...dance, ...content, notes };
   }
 

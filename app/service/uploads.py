@@ -18,6 +18,7 @@ from app.files.tables import CSV_TYPE, XLSX_TYPE, Language
 from app.grade.report import GradeAnswer, graded, too_long, typed
 from app.grade.shortcuts import UNITS
 from app.maps.places import Places, read_places
+from app.maps.tracks import CHORD
 from app.questions.maps import FORMS
 from app.service.bodies import content_type, has_body, refuse_coded
 from app.service.clients import client_of
@@ -68,6 +69,10 @@ class PlacesQuery(Wire):
         description="Unit of its coordinates: metres or degrees; default: as the file says, or recognised from them",
     )
     language: Language = Field(Language.ENGLISH, description="Language of the notes: en or zh")
+    longest_chord: float = measure(
+        "m", "Longest distance of the two handles of a bench, for which a walked track is smoothed", CHORD,
+        ge=1e-3, le=50,
+    )  # fmt: skip
 
 
 class UploadRoute(WatchedRoute):
@@ -180,7 +185,7 @@ def places(
     budget = request.state.budget
     with in_lane(request):
         try:
-            result = graders.read(budget, read_places, data, inputs.units, inputs.language)
+            result = graders.read(budget, read_places, data, inputs.units, inputs.language, inputs.longest_chord)
         except Halted:
             raise too_much(
                 budget, "file", "must be smaller: it was not read {then}", Quantity(len(data), "bytes")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import httpx
 import numpy as np
 import pytest
 
@@ -12,7 +13,8 @@ from app.files.tables import Language
 from app.files.words import Say
 from app.maps.gpx import seconds_of
 from app.maps.places import places_of
-from app.maps.tracks import APART, PASSAGES, POINTS_MOST, apart, evenly, passages_of, smoothed, walk_of
+from app.maps.tracks import APART, CHORD, PASSAGES, POINTS_MOST, apart, evenly, passages_of, smoothed, walk_of
+from app.wire.question import BYTES
 from core import Dragon, InvalidValue, Legs
 from core.paths.following import tightest_bend
 
@@ -50,6 +52,18 @@ def test_a_noisy_walk_becomes_a_path_that_benches_follow(seed: int) -> None:
     assert walk.largest < 6.0 * NOISE
     assert walk.points[0] == pytest.approx(points[0], abs=1e-9)
     assert walk.points[-1] == pytest.approx(points[-1], abs=1e-9)
+
+
+@pytest.mark.parametrize("chord", [1.5, 4.0])
+def test_a_walk_is_smoothed_as_the_longest_bench_needs(chord: float) -> None:
+    points, _ = noisy()
+    walk, usual = walk_of(points, None, chord), walk_of(points, None)
+    assert walk is not None
+    assert usual is not None
+    assert (walk.width < usual.width) is (chord < CHORD)
+    path = Legs([tuple(one) for one in walk.points.tolist()])
+    assert walk.is_easy
+    assert not path.tighter(tightest_bend(Dragon(9, chord, 1.0, overhang=0.0))[0])
 
 
 def test_its_times_are_passages_with_a_pause_where_people_stood() -> None:
@@ -123,6 +137,19 @@ def test_gpx_is_a_path_with_its_waypoints_as_obstacles() -> None:
     without = places_of(gpx([point(k) for k in range(70)]), None, Say(Language.CHINESE))
     assert without.passages is None
     assert "轨迹没有递增的时间。" in without.notes
+
+
+def test_the_service_smooths_a_walk_for_the_longest_bench(client: httpx.Client) -> None:
+    bent = [f"<trkpt lat='{48 + 1e-4 * min(k, 20):.6f}' lon='{9 + 1e-4 * max(k - 20, 0):.6f}'/>" for k in range(40)]
+    file: dict[str, Any] = {"content": gpx(bent), "headers": {"Content-Type": BYTES}}
+    notes = client.post("/places?longest_chord=40", **file).raise_for_status().json()["notes"]
+    assert any(note.endswith("m, which a bench needs whose handles are 40.00 m apart.") for note in notes)
+    assert not any("apart" in note for note in client.post("/places", **file).json()["notes"])
+    refused = client.post("/places?longest_chord=51", **file)
+    assert (refused.status_code, "longest_chord must be at most 50 m, got 51 m" in refused.json()["detail"]) == (
+        422,
+        True,
+    )
 
 
 def test_a_track_of_kml_is_a_path_and_a_place_that_is_missing_has_no_time() -> None:
