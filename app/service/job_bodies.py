@@ -15,7 +15,7 @@ from app.wire.problem import Problem
 from app.wire.question import JSON, measure
 
 EVENTS_TYPE = "text/event-stream"
-# Formats of the table of a sweep, those of app.sweeps.table, which takes long to import.
+# Formats of the table of a sweep, the first one by default.
 SWEEP_FORMS = (PARQUET_TYPE, CSV_TYPE, JSON, ARROW_TYPE)
 SWEEP_EXAMPLE = {
     "question": "collision_time",

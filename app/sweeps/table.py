@@ -18,7 +18,7 @@ import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 import core
-from app.files.tables import ARROW_TYPE, CSV_TYPE, PARQUET_TYPE
+from app.files.tables import CSV_TYPE, PARQUET_TYPE
 from app.sweeps import shards
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     import pandas
     import polars
 
-# Formats of the table, the first one by default.
-FORMS = (PARQUET_TYPE, CSV_TYPE, JSON, ARROW_TYPE)
 # Rows in a group of the joined file: the smallest part that can be read.
 GROUP = 100_000
 
@@ -127,7 +125,7 @@ class Sweep:
         self.save(file, CSV_TYPE)
 
     def save(self, file: Path, form: str) -> None:
-        """Write the table in one of FORMS, completely or not at all.
+        """Write the table as Parquet, CSV, JSON or Arrow, completely or not at all. form: media type
 
         raises: InvalidValue if parts are missing; OSError
         """
@@ -159,7 +157,7 @@ Rows = Callable[[Sequence[str] | None], Iterator[pa.Table]]
 
 
 def write_rows(sink: BinaryIO, form: str, rows: Rows, name: str) -> None:
-    """Write rows in one of FORMS; as JSON a list for each column.
+    """Write rows as Parquet, CSV, JSON with a list for each column, or Arrow. form: media type
 
     rows: function of the names of columns, or None for all, that gives them; name: of the sweep, in its Parquet file
     """
