@@ -70,8 +70,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.workeroutput[LEFT_OUT_OUTPUT] = left_out
     for group in groups.values():
         config.hook.pytest_deselected(items=group)
-    if "SHUFFLE" in os.environ:  # the same order in every process
-        random.Random(os.environ["SHUFFLE"]).shuffle(kept)
+    if seed := os.environ.get("SHUFFLE"):  # the same order in every process
+        random.Random(seed).shuffle(kept)
     items[:] = [] if left_out and STRICT else kept
 
 
