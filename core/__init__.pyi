@@ -62,6 +62,12 @@ from .paths.route import Route
 from .paths.spiral import Spiral
 from .paths.turn import Turn
 from .performance.answer import EncounterEvidence, FirstEncounter, NearPass
+from .performance.clearance import (
+    PerformanceClearance,
+    PerformanceLeastClearance,
+    performance_clearance,
+    performance_least_clearance,
+)
 from .performance.cross_check import EncounterCheck, encounter_check
 from .performance.encounter import first_encounter
 from .performance.performance import Part, Performance, PerformanceEnd
@@ -150,8 +156,10 @@ __all__ = [
     "Passage",
     "PathSummary",
     "Performance",
+    "PerformanceClearance",
     "PerformanceEnd",
     "PerformanceFailure",
+    "PerformanceLeastClearance",
     "PerformanceReport",
     "Piece",
     "PitchScan",
@@ -209,6 +217,8 @@ __all__ = [
     "minimum_pitch",
     "overlaps",
     "performance_check",
+    "performance_clearance",
+    "performance_least_clearance",
     "performance_trajectory",
     "pitch_check",
     "pitch_scan",

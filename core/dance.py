@@ -251,20 +251,7 @@ class Dance(Readable):
         raises: InvalidValue (times); OutsideRun (times) after the end of the run, or before the whole dragon is on
             the path
         """
-        try:
-            array = np.asarray(instants)
-        except ValueError as error:
-            raise InvalidValue("times", "must be a list of numbers in seconds, or one number") from error
-        # NumPy would also accept "1", True and None as numbers.
-        if array.dtype.kind not in "iuf":
-            raise InvalidValue("times", "must be a list of numbers in seconds, or one number", got=Given(instants))
-        if array.ndim > 1:
-            raise InvalidValue("times", "must be a flat list of numbers in seconds, or one number")
-        time = np.array(array, dtype=np.float64, order="C")
-        wrong = np.flatnonzero(~np.isfinite(time))
-        if wrong.size:
-            got = Quantity(float(time.flat[wrong[0]]), "s")
-            raise InvalidValue(_instant(time, int(wrong[0])), "must be finite", got=got)
+        time = checked_instants(instants)
         earliest = self.earliest
         late, early = np.flatnonzero(time > self.end.time), np.flatnonzero(time < earliest)
         if late.size:
@@ -334,6 +321,25 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
         raise InvalidValue("path.start_turns", rule, got=Quantity(got, "turns"), **values)
     time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
+
+
+def checked_instants(instants: ArrayLike) -> Floats:
+    """The instants as a (T,) or () array of finite numbers [s]. raises: InvalidValue (times)"""
+    try:
+        array = np.asarray(instants)
+    except ValueError as error:
+        raise InvalidValue("times", "must be a list of numbers in seconds, or one number") from error
+    # NumPy would also accept "1", True and None as numbers.
+    if array.dtype.kind not in "iuf":
+        raise InvalidValue("times", "must be a list of numbers in seconds, or one number", got=Given(instants))
+    if array.ndim > 1:
+        raise InvalidValue("times", "must be a flat list of numbers in seconds, or one number")
+    time = np.array(array, dtype=np.float64, order="C")
+    wrong = np.flatnonzero(~np.isfinite(time))
+    if wrong.size:
+        got = Quantity(float(time.flat[wrong[0]]), "s")
+        raise InvalidValue(_instant(time, int(wrong[0])), "must be finite", got=got)
+    return time
 
 
 def _instant(time: Floats, k: int) -> str:

@@ -281,7 +281,7 @@ def to_fold(stage: Stage, march: March, begin: float, until: float, folding: lis
 
     folding: the parts that fold then or just after, whose motion is bounded at the end instead of followed
     """
-    last = until - max(_sliver(stage, k) for k in folding)
+    last = until - max(sliver(stage, k) for k in folding)
     met = Met(Ended.REACHED, begin)
     begins = begin
     for part in (*FOLD_WAYS, 0.0):
@@ -297,14 +297,14 @@ def to_fold(stage: Stage, march: March, begin: float, until: float, folding: lis
         begins = met.proven
         if met.ended is not Ended.REACHED:
             return met
-        if clear_after(stage, early, until, folding):
+        if least_after(stage, early, until, folding) > stage.margin:
             return met._replace(proven=until)
-    if begins < last or not clear_after(stage, max(begin, last), until, folding):
+    if begins < last or least_after(stage, max(begin, last), until, folding) <= stage.margin:
         return met._replace(ended=Ended.STUCK, touching=None)
     return met._replace(proven=until)
 
 
-def _sliver(stage: Stage, k: int) -> float:
+def sliver(stage: Stage, k: int) -> float:
     """Time before a fold that only the bound on the remaining motion covers [s]."""
     player = stage.players[k]
     way = FOLD_SLIVER + 5e2 * TRAVEL_ROUNDING * abs(player.travel(player.end)) + 4.0 * player.slip
@@ -313,15 +313,15 @@ def _sliver(stage: Stage, k: int) -> float:
 
 # From `time` to the fold a bench of a part that folds moves by no more than moved_until() bounds, from a head a little
 # further back, so that its true place is included. A bench of another part moves by its corner's speed at most.
-def clear_after(stage: Stage, time: float, until: float, folding: list[int]) -> bool:
-    """True if all pairs keep further apart than the margin from a time to a fold [s]."""
+def least_after(stage: Stage, time: float, until: float, folding: list[int]) -> float:
+    """Lower bound of the gaps of all pairs from a time to a fold [m]; NO_BOUND if none is known."""
     moved = np.zeros(len(stage.sizes))
     for k, player in enumerate(stage.players):
         own = slice(player.first, player.first + player.benches)
         if k not in folding:
             way = _way_of(stage, k, time, until)
             if way is None:
-                return False
+                return NO_BOUND
             moved[own] = way * player.search.motion[: player.benches, CORNER_SPEED]
             continue
         travel = player.travel(time) - 4.0 * player.slip
@@ -332,8 +332,8 @@ def clear_after(stage: Stage, time: float, until: float, folding: list[int]) -> 
         moved[own] = ways
     for k in range(len(stage.players)):
         if not stage.stand(k, BEFORE, time, 0.0):
-            return False
-    return bool(stage.ensemble.left(moved) > stage.margin)
+            return NO_BOUND
+    return float(stage.ensemble.left(moved))
 
 
 def _way_of(stage: Stage, k: int, time: float, until: float) -> float | None:

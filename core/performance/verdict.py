@@ -8,14 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.contact.answer import Outcome
+from core.dance import checked_instants
 from core.display import Readable
 from core.dragon import Stray
 from core.errors import question_about
 from core.failures import Failure, FailureKind, approach_words
-from core.judgement import Judgement, Report, check, summary
+from core.judgement import Judgement, Report, check, quick_check, summary
 from core.kernels import Budget
 from core.motion.trajectory import Trajectory, trajectory
 from core.performance.answer import FirstEncounter
+from core.performance.clearance import PerformanceLeastClearance, least_over
 from core.performance.encounter import first_encounter
 from core.performance.performance import Part, Performance
 
@@ -49,8 +51,8 @@ class PerformanceReport(Readable):
     start, stop: the judged interval [s]; verdict: see Judgement; passed: True for PASSES
     failures: in order of time; a dragon by itself is judged to the stop, or to a touch of two of its own benches, also
         after an encounter
-    encounter: the first one of two dragons; reports: of each dragon by itself, on the clock of its own dance; None for
-        one that stands during the whole interval
+    encounter: the first one of two dragons; least_clearance: between any two, None for one dragon and without details
+    reports: of each dragon by itself, on the clock of its own dance; None for one that stands during the whole interval
     """
 
     start: float
@@ -59,6 +61,7 @@ class PerformanceReport(Readable):
     passed: bool
     failures: tuple[PerformanceFailure, ...]
     encounter: FirstEncounter
+    least_clearance: PerformanceLeastClearance | None
     reports: tuple[Report | None, ...]
     performance: Performance = field(repr=False, compare=False)
 
@@ -75,12 +78,15 @@ def performance_check(
     speed_limit: float | None = None,
     start: float | None = None,
     stop: float | None = None,
+    details: bool = True,
     budget: Budget | None = None,
 ) -> PerformanceReport:
-    """Verdict on a performance: check() of every dragon in the venue, and the first encounter of two.
+    """Verdict on a performance: check() of every dragon in the venue, the first encounter of two, their least
+    clearance.
 
     margin: required between benches, dragons and to the venue [m]; stray: largest distance of every hole from its place
         [m]; speed_limit: of every handle [m/s]; start, stop: [s], None for the beginning and the end
+    details: False leaves out what no failure needs, as quick_check() does, and the least clearance
     The report of a single dragon is that of check() to the last bit. A dragon that stands, before its dance or after
     it, is judged only together with the others.
     raises: InvalidValue; OutsideRun; TooMuchWork
@@ -91,16 +97,20 @@ def performance_check(
     >>> performance_check(crossing).failures[0].message
     'Bench 0 of dragon 0 and bench 0 of dragon 1 touch at 39.575000 s.'
     """
+    budget = budget or Budget()
     begin, until = performance.span(start, stop)
     met = first_encounter(performance, margin=margin, stray=stray, start=begin, stop=stop, budget=budget)
     failures, reports = _encounter_failures(met), list[Report | None]()
+    judge, least = check if details else quick_check, None
+    if details and len(performance.parts) > 1:
+        least = least_over(performance, met.stray, (begin, stop), budget, None if margin else met)
     for k, part in enumerate(performance.parts):
         first = None if start is None and begin <= part.begin else part.own_time(begin)
         last = None if part.end <= until else part.own_time(until)
         if max(begin, part.begin) >= min(until, part.end):
             reports.append(None)
             continue
-        report = check(
+        report = judge(
             part.dance, venue=performance.venue, margin=margin, stray=stray, speed_limit=speed_limit, start=first,
             stop=last, budget=budget,
         )  # fmt: skip
@@ -109,7 +119,9 @@ def performance_check(
     failures.sort(key=lambda failure: failure.time)
     undecided = all(failure.kind is FailureKind.UNDECIDED for failure in failures)
     verdict = Judgement.PASSES if not failures else Judgement.UNDECIDED if undecided else Judgement.FAILS
-    return PerformanceReport(begin, until, verdict, not failures, tuple(failures), met, tuple(reports), performance)
+    return PerformanceReport(
+        begin, until, verdict, not failures, tuple(failures), met, least, tuple(reports), performance
+    )
 
 
 def _of_dragon(performance: Performance, k: int, failure: Failure) -> PerformanceFailure:
@@ -163,13 +175,7 @@ def performance_trajectory(
 
 
 def _trajectory_of(part: Part, times: ArrayLike, budget: Budget | None) -> Trajectory:
-    try:
-        time = np.asarray(times)
-    except ValueError:
-        return trajectory(part.dance, times, budget=budget)
-    if time.dtype.kind not in "iuf" or not np.isfinite(time).all():
-        return trajectory(part.dance, times, budget=budget)  # which refuses them
-    time = time.astype(np.float64)
+    time = checked_instants(times)
     own = np.clip(time - part.delay, part.dance.begin, part.dance.end.time)
     placed = trajectory(part.dance, own, budget=budget)
     stands = (time < part.begin) | (time > part.end)

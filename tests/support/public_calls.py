@@ -52,6 +52,8 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
         "margin": 0.0,
     },
     core.performance_check: {"performance": PERFORMANCE, "margin": 0.0, "stray": 0.0, "speed_limit": 0.9, "stop": 9.0},
+    core.performance_clearance: {"performance": PERFORMANCE, "times": [0.0, 9.0]},
+    core.performance_least_clearance: {"performance": PERFORMANCE, "stray": 0.0, "start": 1.0, "stop": 9.0},
     core.performance_trajectory: {"performance": PERFORMANCE, "times": [0.0]},
     core.pitch_check: {"minimum": PITCH, "dragon": DRAGON, "margin": 0.0},
     core.pitch_scan: {"dragon": DRAGON, "pitches": [0.5, 0.6], "start_turns": 8.0, "margin": 0.0},

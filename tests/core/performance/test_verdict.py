@@ -23,7 +23,9 @@ from core import (
     check,
     first_encounter,
     performance_check,
+    performance_least_clearance,
     performance_trajectory,
+    quick_check,
     trajectory,
 )
 
@@ -53,6 +55,7 @@ def test_failures_of_all_dragons_stand_in_order_of_time_and_name_their_dragon() 
     report = performance_check(performance)
     met = first_encounter(performance)
     assert report.encounter == met
+    assert report.least_clearance == performance_least_clearance(performance)
     assert report.verdict is Judgement.FAILS
     times = [failure.time for failure in report.failures]
     assert times == sorted(times)
@@ -75,6 +78,15 @@ def test_a_delay_shifts_the_failures_of_a_dragon_and_its_brackets() -> None:
         assert after.time == pytest.approx(before.time + 30.0, abs=1e-9)
         assert after.kind is before.kind is not FailureKind.CONTACT
         assert f"{after.time:.6f} s of the performance" in after.message
+
+
+def test_without_details_the_failures_are_the_same_and_the_rest_is_left_out() -> None:
+    performance = replace(CROSSING, venue=SQUARE)
+    full, quick = (performance_check(performance, margin=0.1, details=details) for details in (True, False))
+    assert quick.failures == full.failures
+    assert quick.reports == tuple(quick_check(part.dance, venue=SQUARE, margin=0.1) for part in performance.parts)
+    assert quick.least_clearance is None
+    assert full.least_clearance == performance_least_clearance(performance)
 
 
 def test_a_dragon_that_stands_all_the_time_has_no_report_of_its_own() -> None:
