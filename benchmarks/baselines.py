@@ -80,6 +80,12 @@ def looks_at_two(dragon: Dragon, path: Spiral, times: Floats) -> list[bool]:
     return overlap
 
 
+def ground(dragon: Dragon, path: Spiral, times: Floats) -> shapely.Geometry:
+    """The union of all benches at all times."""
+    handles = (handles_and_velocities(dragon, path, time)[0] for time in times)
+    return shapely.union_all([bench for position in handles for bench in polygons(dragon, position)])
+
+
 def looks_for_first_contact(time: float) -> int:
     """Number of looks in a march to the first contact and a bisection there."""
     return math.ceil(time / STEP) + math.ceil(math.log2(STEP / BRACKET))

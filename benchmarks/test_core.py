@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 from pytest_benchmark.fixture import BenchmarkFixture
 
 import core
@@ -19,6 +20,7 @@ DRAGON, SPIRAL = core.Dragon(), core.Spiral()
 TIMES = np.arange(301.0)
 SAMPLED_TIMES = TIMES[::60]
 SAMPLED_LOOKS = np.arange(400.0, 401.0, baselines.STEP)
+GROUND_STEP = 0.04  # time between two poses, in which the head goes as far as in a cell of core.envelope() [s]
 AGREEMENT = 1e-9  # [m] and [m/s], between the baseline and core
 
 
@@ -120,6 +122,23 @@ def test_ten_dragons(benchmark: BenchmarkFixture) -> None:
     spirals = [core.Spiral(1.1, 14.0, place, 0.7 * k, k % 2 == 1) for k, place in enumerate(places)]
     square = core.Performance([core.Part(core.Dance(core.Dragon(200), spiral)) for spiral in spirals])
     assert benchmark(lambda: core.first_encounter(square, stop=300.0)).outcome is core.Outcome.CLEAR
+
+
+def test_envelope(benchmark: BenchmarkFixture) -> None:
+    benchmark.group = "envelope"
+    assert benchmark(core.envelope, core.Dance(DRAGON, SPIRAL)).excess < 1e-3
+
+
+def test_envelope_baseline(benchmark: BenchmarkFixture) -> None:
+    dance = core.Dance(DRAGON, SPIRAL)
+    whole = core.envelope(dance)
+    benchmark.group = "envelope"
+    benchmark.extra_info["scale"] = (whole.stop - whole.start) / GROUND_STEP / SAMPLED_LOOKS.size
+    times = 400.0 + GROUND_STEP * np.arange(SAMPLED_LOOKS.size)
+    swept = benchmark.pedantic(baselines.ground, (DRAGON, SPIRAL, times), rounds=3)
+    polygons = core.envelope(dance, start=times[0], stop=times[-1]).polygons
+    held = shapely.union_all([shapely.Polygon(rings[0], rings[1:]) for rings in polygons])
+    assert held.covers(swept)
 
 
 @pytest.fixture(scope="module")

@@ -74,8 +74,9 @@ BESIDES, MIXED = 6.0, 0.5
 ROUNDING = 1e-8
 # Largest number of cells that share one bound on the motion [1].
 CELLS = 16
-# Work of one cell, 0.1 to 0.2 ms with its share of the union, and the budget of one question, 30 to 60 s [1].
-CELL_WORK, ENVELOPE_WORK = 300.0, 1e8
+# Work of one cell, 0.03 to 0.06 ms and 1.5 kB with its share of the union, and the budget of one question, half a
+# million cells [1].
+CELL_WORK, ENVELOPE_WORK = 200.0, 1e8
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -270,7 +271,8 @@ def _swept(corners: Floats, moves: NDArray[np.bool_], flat: float) -> tuple[list
     which the convex hull of its ends serves [m]
     The front edge, and the triangles of the sides that the ends of this edge leave behind, hold nearly all of it.
     """
-    core, rest, slips = [corners[:1], corners[:-1][~moves]], [corners[-1:]], np.zeros(len(corners) - 1)
+    still = corners[:-1][~moves]
+    core, rest, slips = [corners[:1], *still[:, None]], [corners[-1:]], np.zeros(len(corners) - 1)
     for i in range(4):
         p, q = corners[:, i], corners[:, (i + 1) % 4]
         (e_a, e_b), (p_a, p_b), (q_a, q_b) = ((row[:-1], row[1:]) for row in (q - p, p, q))
@@ -285,13 +287,19 @@ def _swept(corners: Floats, moves: NDArray[np.bool_], flat: float) -> tuple[list
         slip = np.where(straight, twist, np.where(convex, 0.0, slip))
         slips = np.maximum(slips, np.where(moves, slip, 0.0))
         whole, crossed = moves & (straight | convex), moves & ~(straight | convex)
-        (rest if i else core).append(np.stack([p_a, q_a, q_b, p_b], axis=1)[whole])
+        (rest if i else core).extend(_strips(np.stack([p_a, q_a, q_b, p_b], axis=1), whole))
         x = p_a + m_a[:, None] * e_a
         for front, a, b in ((i <= 1, p_a, p_b), (i == 3, q_a, q_b)):
             triangles, left = np.stack([x, a, b], axis=1), front & (_cross(e_a, b - a) > 0.0)
-            core.append(triangles[crossed & left])
-            rest.append(triangles[crossed & ~left])
+            core.extend(_strips(triangles, crossed & left))
+            rest.extend(_strips(triangles, crossed & ~left))
     return core, rest, slips
+
+
+def _strips(polygons: Floats, chosen: NDArray[np.bool_]) -> list[Floats]:
+    """The chosen ones of polygons in order, split where one between them is not chosen."""
+    kept = np.flatnonzero(chosen)
+    return [polygons[run] for run in np.split(kept, np.flatnonzero(np.diff(kept) > 1) + 1) if run.size]
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

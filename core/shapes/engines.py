@@ -30,9 +30,9 @@ KEPT_BENCHES = 2_000
 ARC_CHORDS = 8
 ARC_GROWTH = 1.0 / math.cos(1.5 * 0.25 * math.pi / ARC_CHORDS)
 GROWTH_MOST = 1.01 * ARC_GROWTH
-# Step of the grid for the points of a union, by which a side can move at most [m]; and number of polygons that are
-# united between two checks of the budget [1].
-GRID, UNITED = 1e-5, 32
+# Step of the grid for the points of a union, by which a side can move at most [m]; number of polygons that are united
+# between two checks of the budget, and of polygons of a strip that are one ring [1].
+GRID, UNITED, PIECE = 1e-5, 256, 64
 
 # Rings of each polygon, (points, 2) [m], closed: the outer one counter-clockwise, then the holes, clockwise.
 Polygons = tuple[tuple[Floats, ...], ...]
@@ -249,28 +249,41 @@ def inside(rings: Sequence[ArrayLike], points: Floats) -> NDArray[np.bool_]:
 
 
 def united(core: Sequence[Floats], rest: Sequence[Floats], grown: float, left_out: float, budget: Budget) -> Polygons:
-    """The grown union of convex polygons: it holds every point within `grown` of the union, and no point further away
-    than GROWTH_MOST times that, both to within GRID [m].
+    """The grown union of strips of convex polygons: it holds every point within `grown` of the union, and no point
+    further away than GROWTH_MOST times that, both to within GRID [m].
 
-    core, rest: arrays (N, corners, 2) [m]; a polygon of the rest counts only if it leaves the core by over `left_out`
+    core, rest: strips, arrays (N, corners, 2) [m]: triangles (x, a, b) or quadrilaterals (a, c, d, b), where b and d
+        are a and c of the next one, and the line (x, b) holds the next x; a piece of the rest counts only if it leaves
+        the core by over `left_out`
     """
     import shapely
 
-    ground, others = _union(_hulls(core, budget), budget), _hulls(rest, budget)
+    ground, others = _union(_pieces(core, budget), budget), _pieces(rest, budget)
     roomy = shapely.buffer(ground, left_out / GROWTH_MOST)
     shapely.prepare(roomy)
     ground = _union(np.array([ground, *others[~shapely.covers(roomy, others)]]), budget)
     return _rings(shapely.set_precision(shapely.buffer(ground, ARC_GROWTH * grown, quad_segs=ARC_CHORDS), GRID))
 
 
-def _hulls(polygons: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
+# Neighbours in a strip pass their common edge in opposite directions, so the winding numbers of all of them add up to
+# that of the ring around the strip: besides the common edge, two triangles leave only a way on one line and back. A
+# convex polygon has the winding number 1 inside and 0 outside, or -1 if it runs the other way. So if all run the same
+# way, and the ring does not meet itself, its inside is their union.
+def _pieces(strips: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
+    """Polygons with the same union as the strips: rings around PIECE polygons where these prove to be one."""
     import shapely
 
-    hulls = []
-    for some in polygons:
+    pieces = []
+    for cells in (strip[k : k + PIECE] for strip in strips for k in range(0, len(strip), PIECE)):
         budget.look()
-        hulls.append(shapely.convex_hull(shapely.polygons(some)))
-    return np.concatenate(hulls)
+        first, last, back = (1, [2], 0) if cells.shape[1] == 3 else (0, [3, 2], 1)
+        ring = shapely.polygons(np.concatenate([cells[:, first], cells[-1, last], cells[::-1, back]]))
+        edges = np.roll(cells, -1, axis=1) - cells
+        onwards = np.roll(edges, -1, axis=1)
+        turns = edges[..., 0] * onwards[..., 1] - edges[..., 1] * onwards[..., 0]
+        whole = (turns.min() >= 0.0 or turns.max() <= 0.0) and shapely.is_valid(ring)
+        pieces.append(np.array([ring]) if whole else shapely.convex_hull(shapely.polygons(cells)))
+    return np.concatenate(pieces)
 
 
 def _union(parts: NDArray[np.object_], budget: Budget) -> object:

@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from core.kernels import Budget
-from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, Engine, engine_pairs, united
+from core.shapes.engines import GRID, GROWTH_MOST, KEPT_DRAGONS, PIECE, Engine, engine_pairs, united
 from tests.support.depth import examples
 from tests.support.scenes import unlinked_pairs
 
@@ -68,7 +68,7 @@ def test_a_union_is_grown_by_what_was_asked_and_hardly_more() -> None:
         [[[-2.0, 0.0], [2.0, 0.0], [2.0, 0.1], [-2.0, 0.1]], [[5.0, 5.0], [6.0, 5.0], [6.0, 6.0], [5.0, 6.0]]]
     )
     grown = 0.02
-    polygons = united([fan, bars], [bars[1:] + 0.2], grown, 0.3, Budget())
+    polygons = united([*fan[:, None], *bars[:, None]], [bars[1:] + 0.2], grown, 0.3, Budget())
     own = shapely.union_all([*shapely.polygons(fan), *shapely.polygons(bars)])
     result = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
     assert result.is_valid
@@ -77,5 +77,36 @@ def test_a_union_is_grown_by_what_was_asked_and_hardly_more() -> None:
     away = shapely.distance(own, shapely.points(shapely.get_coordinates(border)))
     assert grown - GRID <= away.min()
     assert away.max() <= GROWTH_MOST * grown + GRID
-    rest = united([bars], [bars[1:] + 0.4], grown, 0.3, Budget())
+    rest = united([*bars[:, None]], [bars[1:] + 0.4], grown, 0.3, Budget())
     assert shapely.MultiPolygon([(rings[0], rings[1:]) for rings in rest]).covers(shapely.box(5.4, 5.4, 6.4, 6.4))
+
+
+# Lines through points: a bow, one that crosses itself, one that turns back; and the fans and bands along them.
+WAVES = {
+    "bow": lambda t: (np.cos(t), np.sin(t)),
+    "loop": lambda t: (np.cos(t) * (1.0 + 0.3 * t), np.sin(2.0 * t)),
+    "back": lambda t: (np.sin(3.0 * t), 0.1 * t**2),
+}
+
+
+@pytest.mark.parametrize("wave", WAVES)
+@pytest.mark.parametrize("corners", [3, 4])
+@pytest.mark.parametrize("cells", [1, PIECE - 1, PIECE, 3 * PIECE + 5])
+def test_a_strip_covers_what_its_polygons_cover(wave: str, corners: int, cells: int) -> None:
+    line = np.stack(WAVES[wave](np.linspace(0.0, 2.5, cells + 1)), axis=-1)
+    ahead = np.diff(line, axis=0)
+    if corners == 4:
+        side = line + 0.2 * np.stack([-np.gradient(line[:, 1]), np.gradient(line[:, 0])], axis=-1) * cells / 3.0
+        strip = np.stack([line[:-1], side[:-1], side[1:], line[1:]], axis=1)
+    else:  # the place of x on the line of the one before it: line[k] + t (x - line[k])
+        crossings = [line[0] + [0.3, -0.4]]
+        for k in range(1, cells):
+            crossings.append(line[k] + (0.9 + 0.2 * (k % 2)) * (crossings[-1] - line[k]))
+        strip = np.stack([np.array(crossings), line[:-1], line[1:]], axis=1)
+    assert np.linalg.norm(ahead, axis=1).min() > 0.0
+    own = shapely.union_all(shapely.convex_hull(shapely.polygons(strip)))
+    polygons = united([strip], [strip[:1]], 1e-3, 0.0, Budget())
+    result = shapely.MultiPolygon([(rings[0], rings[1:]) for rings in polygons])
+    assert result.covers(own)
+    border = shapely.points(shapely.get_coordinates(shapely.segmentize(result.boundary, 0.01)))
+    assert shapely.distance(own, border).max() <= GROWTH_MOST * 1e-3 + GRID
