@@ -20,6 +20,7 @@ TESTS = ROOT / "tests"
 TOGETHER = {
     "assistant/test_assistant.py": "assistant/guide assistant/requests assistant/server assistant/tools command/mcp",
     "cards/test_cards.py": "cards/tables cards/words command/people questions/cues",
+    "cards/test_crew.py": "cards/timeline questions/crew",
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
     " contest/sensitivity contest/solved contest/tables questions/contest_kit",
     "files/test_figures.py": "files/figure_words",

@@ -1,1 +1,1 @@
-"""Cue cards: what the carriers of each bench have to know, in words, as a table and on paper."""
+"""Cue cards and the crew: what carriers have to know, and who carries when, in words, as a table and on paper."""

@@ -35,6 +35,7 @@ ROOMS = {
     "maps": "places",
     "plan": "places",
     "cues": "people",
+    "crew": "people",
     "collision-time": "contacts",
     "encounter": "encounter",
     "safe-delay": "encounter",

@@ -1,4 +1,4 @@
-"""The command bench-dragon cues: what the carriers of each bench have to know."""
+"""The commands on people: what the carriers of each bench have to know, and who carries when."""
 
 from __future__ import annotations
 
@@ -6,19 +6,25 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.table import Table
 
 from app.command import show
+from app.command.options import Json, asks, numbers, of_file
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
 from app.files.tables import CSV_TYPE, Language
 from app.maps.dances import read_dance
+from app.questions.crew import QUESTION as CREW
+from app.questions.crew import Crew, CrewFields, CrewRequest, PointBody, Roll
 from app.questions.cues import QUESTION as CUES
 from app.questions.cues import CuesRequest
 from app.questions.plan import PDF_TYPE
 from app.wire.messages import checked
 from app.wire.question import JSON, Terms
 from app.wire.refusals import refusing
+from core import InvalidValue
+from core.errors import Given
 
 # Form of a file by its ending.
 FORMS = {".pdf": PDF_TYPE, ".csv": CSV_TYPE, ".json": JSON}
@@ -51,3 +57,61 @@ def cues(
     with refusing(request), show.waiting("cues") as progress:
         data = CUES.to_bytes(request, Terms(progress=progress), FORMS[ending])
     show.write(output, data)
+
+
+@asks(CrewFields)
+def crew(
+    options: CrewFields,
+    context: typer.Context,
+    file: Annotated[Path, path_argument("FILE", "Dragon, path, venue and limits as for check: .toml or .json.")],
+    point: Annotated[
+        list[str] | None, typer.Option(help="A place X,Y [m] at which people change; may be given several times.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option(help="Write a .pdf (extra figures), .csv or .json file.")] = None,
+    json: Json = False,
+) -> None:
+    """Who carries which bench when: shifts, spare carriers, minutes and metres of each, and who is where at a time."""
+    ending = checked_output("output", output, tuple(FORMS)) if output else ""
+    if ending == ".pdf":
+        require("figures", "output", "A timeline")
+    request = of_file(file, CrewRequest, context)
+    if point:
+        request = request.model_copy(update={"points": [_point(text) for text in point]})
+    with refusing(request), show.waiting("crew") as progress:
+        terms = Terms(progress=progress)
+        data = CREW.to_bytes(request, terms, FORMS[ending] if output else JSON)
+    if output:
+        show.write(output, data)
+    elif json:
+        show.print_json(data)
+    else:
+        _print_crew(Crew.model_validate_json(data))
+
+
+def _point(text: str) -> PointBody:
+    """A point of an option. raises: InvalidValue"""
+    entries = numbers("point", text, float)
+    if len(entries) != 2:
+        raise InvalidValue.in_words("point", "--point must be X,Y [m]", got=Given(text))
+    return checked(PointBody, dict(zip("xy", entries, strict=True)))
+
+
+def _print_crew(answer: Crew) -> None:
+    title = f"{answer.people} people, {answer.spares} of them spares; {answer.changes} changes"
+    table = show.new_table(title, "person", "benches", "time [s]", "way [m]", "longest [s]")
+    for one in answer.carriers:
+        benches = ", ".join(dict.fromkeys(str(spell.bench) for spell in one.spells)) or "none"
+        table.add_row(one.label, benches, *(f"{value:.1f}" for value in (one.time, one.way, one.longest)))
+    show.print_parts(table, *([_roll_table(answer.at)] if answer.at else []))
+
+
+def _roll_table(roll: Roll) -> Table:
+    table = show.new_table(
+        f"Who is where at {roll.clock or f'{roll.time:g} s'}", "bench", "people", "x [m]", "y [m]", "mark [m]"
+    )
+    for one in roll.benches:
+        name = f"{one.bench} {one.name}".rstrip()
+        table.add_row(name, " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", f"{one.mark:g}")
+    if roll.resting:
+        table.add_row("rest", " ".join(roll.resting), "", "", "")
+    return table

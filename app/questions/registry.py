@@ -12,6 +12,7 @@ from app.questions import (
     contact_probability,
     contest_kit,
     course,
+    crew,
     cues,
     encounter,
     envelope,
@@ -67,6 +68,7 @@ _ALL = (
     maps.QUESTION,
     plan.QUESTION,
     cues.QUESTION,
+    crew.QUESTION,
     contest_kit.QUESTION,
 )
 QUESTIONS: dict[str, Question] = {question.name: question for question in _ALL}

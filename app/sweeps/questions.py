@@ -186,6 +186,7 @@ NO_ROWS = {
     "envelope": "its answer is polygons: sweep check with a venue",
     "course": "its answer is a drawn path: sweep check",
     "proposals": "its answers are dances: sweep check",
+    "crew": "its answer is a list of people: sweep check",
     "cues": "its answer is a card for each bench: sweep check",
     "paper": "it takes no parameters",
     **{name: PICTURE for name, question in KNOWN.items() if question.model is None},

@@ -19,7 +19,8 @@ DAY = 86_400  # [s]
 CLOCK = re.compile(r"([01]\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?", re.ASCII)
 
 
-def _clock(text: str | None) -> str | None:
+def checked_clock(text: str | None) -> str | None:
+    """The text, if it is a time of day."""
     if text is not None and not CLOCK.fullmatch(text):
         raise PydanticCustomError("rule", "must be a time of day such as 19:30 or 19:30:15")
     return text
@@ -27,14 +28,14 @@ def _clock(text: str | None) -> str | None:
 
 StartClock = Annotated[
     str | None,
-    AfterValidator(_clock),
+    AfterValidator(checked_clock),
     Field(description="Time of day at time 0, such as 19:30 or 19:30:15: failures, tables and films then show it too"),
 ]
 
 
 BeginClock = Annotated[
     str | None,
-    AfterValidator(_clock),
+    AfterValidator(checked_clock),
     Field(
         description="Time of day at which the dance starts, such as 19:30, in place of start_clock: at start if that "
         "is given, else when the whole dragon is on the path"

@@ -161,6 +161,7 @@ FILM = {"dragon": {"benches": 3}, "start": 1, "stop": 2, "seconds": 1, "height":
         ("trajectory_figure", {"benches": 3}, "image/png", b"\x89PNG"),
         ("maps", {"dragon": {"benches": 3}}, "image/vnd.dxf", b"  0\n"),
         ("plan", {"dragon": {"benches": 3}}, "application/pdf", b"%PDF"),
+        ("crew", {"dragon": {"benches": 3}, "stop": 9}, "application/pdf", b"%PDF"),
         ("cues", {"dragon": {"benches": 3}, "stop": 9}, "application/pdf", b"%PDF"),
         ("films", FILM, "image/gif", b"GIF89a"),
         ("films", FILM, "video/mp4", b"\x00\x00\x00"),

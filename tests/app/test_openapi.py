@@ -25,7 +25,7 @@ from tests.support.renew_examples import text
 EXAMPLES_PER_CALL = examples(5, 25)
 # Examples with right values for the calls that take up to a second each, and with wrong ones for files,
 # some of which are drawn. A picture has no schema to conform to, and its request is that of the question that it draws.
-SLOW = ("POST /contest-kit", "POST /cues", "POST /films", "POST /maps.{format}", "POST /plan")
+SLOW = ("POST /contest-kit", "POST /crew", "POST /cues", "POST /films", "POST /maps.{format}", "POST /plan")
 EXAMPLES_OF_SLOW = examples(3, 8)
 # Grazes are flat in time, so theirs is known to 1e-7 s only [m], [s], [rad] and relative.
 EXAMPLE_TOLERANCE = 1e-6
@@ -58,7 +58,7 @@ def is_tried(call: str, mode: GenerationMode) -> bool:
     method, path = call.split()
     if mode.is_positive:
         slow = "pitch-scan pitch-scan.{format} tolerance-curve contact-probability envelope proposals"
-        slow += " contest-kit cues films plan safe-delay"
+        slow += " contest-kit crew cues films plan safe-delay"
         return not path.endswith(tuple(slow.split()))
     description = SCHEMA.raw_schema["paths"][path][method.lower()]
     return "requestBody" in description or "parameters" in description

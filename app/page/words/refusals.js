@@ -67,6 +67,10 @@ export const RULES = {
   "be after the passage begins, at {begin}": [undefined, "应晚于该段开始的时刻（{begin}）"],
   "be further than where the passage begins, at {begin}": [undefined, "应超过该段开始的位置（{begin}）"],
   "be given": [undefined, "应填写时刻"],
+  "be shorter than the dance, which takes {most}": [undefined, "应短于全程（{most}）"],
+  "be at least 1 where people change": [undefined, "有人换班时至少应为 1"],
+  "be within {within} of the path that the dragon walks": [undefined, "应在路线 {within} 以内"],
+  "be during the dance, from {first} to {last}": [undefined, "应在舞龙期间（{first} 至 {last}）"],
   "be 0, for a pause, or at least {least}": [undefined, "应为 0（停顿），或至少为 {least}"],
 };
 
@@ -91,6 +95,7 @@ export const REASONS = {
   "lengths are in metres": "长度以米为单位",
   "speeds are in metres per second": "速度以米每秒为单位",
   "angles are in radians": "角度以弧度为单位",
+  "nobody could come in": "否则无人可换",
   "a pause does not reach {place}": "停顿应以时刻结束",
   "the turn bends to a radius of {bend}, and bench {bench} follows none below {least}": "调头的弯曲半径为 {bend}，而{bench}至少需要 {least}",
   "they are up to {extent} from its centre, more than {radius}": "圆弧距中心最远 {extent}，超过 {radius}",

@@ -1,0 +1,72 @@
+"""A crew in words and as CSV: who carries which bench from when to when."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from app.cards.words import CardWords
+from app.wire.clocks import time_of_day
+from app.wire.texts import text_to_cell
+from core.people.crew import Crew, Spell
+
+COLUMNS = (
+    "person", "label", "bench", "name", "begin", "begin_clock", "end", "end_clock", "time", "way", "relieves", "x", "y",
+    "mark", "past_mark", "steps",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class CrewWords:
+    """A crew and what its words follow from. places: of the front handle at the begin of each spell, x, y [m]"""
+
+    crew: Crew
+    words: CardWords
+    places: tuple[tuple[float, float], ...]
+
+    @cached_property
+    def labels(self) -> list[str]:
+        """Short names of all people: 17.2 is the second of bench 17 at the start, S3 the third spare."""
+        own = [f"{bench}.{k}" for bench, count in enumerate(self.crew.needed) for k in range(1, count + 1)]
+        return own + [self.words.say(f"S{k}", f"替{k}") for k in range(1, self.crew.spares + 1)]
+
+    def clock(self, time: float) -> str | None:
+        """Time of day at a time [s], if it is known."""
+        start = self.words.clock.start_clock
+        return None if start is None else time_of_day(time, start)
+
+    @property
+    def longest(self) -> float:
+        """The longest time that somebody carries without a break [s]."""
+        return max(one.end - one.begin for one in self.crew.spells)
+
+    @property
+    def changes(self) -> list[Spell]:
+        """The spells that begin with a change, in order of time."""
+        return [one for one in self.crew.spells if one.relieved is not None]
+
+
+def crew_csv(crew: CrewWords) -> bytes:
+    """CSV with the columns of COLUMNS, a line for each spell; an entry is empty where it does not apply."""
+    sink = io.StringIO(newline="")
+    writer = csv.DictWriter(sink, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(_lines(crew))
+    return sink.getvalue().encode()
+
+
+def _lines(crew: CrewWords) -> Iterator[dict[str, object]]:
+    names, chalk = crew.words.names, crew.words.chalk
+    for one, (x, y) in zip(crew.crew.spells, crew.places, strict=True):
+        mark, past = chalk.nearest(one.s)
+        yield {
+            "person": one.person, "label": crew.labels[one.person], "bench": one.bench,
+            "name": text_to_cell(names[one.bench]) if names else "",
+            "begin": one.begin, "begin_clock": crew.clock(one.begin), "end": one.end, "end_clock": crew.clock(one.end),
+            "time": one.end - one.begin, "way": one.way,
+            "relieves": "" if one.relieved is None else crew.labels[one.relieved],
+            "x": x, "y": y, "mark": mark, "past_mark": past, "steps": chalk.steps(past),
+        }  # fmt: skip

@@ -1,0 +1,342 @@
+"""The question crew: who carries which bench when, as JSON, as a table, and as a timeline on paper."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated, Self
+
+import numpy as np
+from pydantic import AfterValidator, Field
+
+import core
+from app.cards.crew import CrewWords, crew_csv
+from app.cards.words import CardWords, Chalk
+from app.files.tables import CSV_TYPE, Language
+from app.files.words import Say
+from app.maps.marks import mark_name
+from app.plan.timing import TimeFormat
+from app.questions.maps import Marked
+from app.questions.plan import FIRST_CHINESE, PDF_TYPE
+from app.wire.clocks import DAY, checked_clock
+from app.wire.dances import clock_of
+from app.wire.question import AS_WHOLE, JSON, Answer, Coordinate, Instant, Question, Terms, Wire, measure
+from core import Dance, InvalidValue
+from core.errors import Given, Parameter, Quantity, TooLarge
+from core.motion.places import handle_places
+from core.people import crew as facts
+from core.people.crew import ON_BENCH_MAX, PEOPLE_MAX, PLACES_MAX, SHIFT_MAX, Relief, places_near
+
+if TYPE_CHECKING:
+    from app.plan.tables import PlanTable
+
+# Estimated time of a bench, without and with a sheet of paper for its people [s], measured 2026-11-27.
+SECONDS, SECONDS_ON_PAPER = 0.002, 0.03
+# Labels of people who rest in a row of a table on paper.
+RESTING_IN_ROW = 8
+# Most points of changes.
+POINTS_MAX = 20
+
+People = Annotated[int, Field(ge=1, le=ON_BENCH_MAX), AS_WHOLE]
+
+
+class PointBody(Wire, strict=True):
+    """A point at which people change: each bench does where its front handle is nearest to it."""
+
+    x: Coordinate = measure("m", "x of the point")
+    y: Coordinate = measure("m", "y of the point")
+    within: float = measure("m", "Largest distance of the path from the point where it passes it", 2.0, ge=0, le=100)
+
+
+class CrewFields(Wire):
+    """The people of a dance."""
+
+    head_people: People = Field(8, description="People on the head's bench")
+    bench_people: People = Field(2, description="People on every other bench")
+    spares: Annotated[int, Field(ge=0, le=PEOPLE_MAX), AS_WHOLE] = Field(
+        0, description="Further people, who carry nothing at the start and come in at changes"
+    )
+    shift: float | None = measure(
+        "s", "Time after which people change, again and again; null: not by time", None, gt=0, le=SHIFT_MAX
+    )
+    rest: float = measure("s", "Least time from going out to coming in again", 0.0, ge=0, le=SHIFT_MAX)
+    at: Instant | None = measure("s", "Time at which the answer says who is where; null: none", None)
+    at_clock: Annotated[str | None, AfterValidator(checked_clock)] = Field(
+        None, description="The same as a time of day such as 19:45, for a dance with start_clock or begin_clock"
+    )
+    title: str = Field("", max_length=80, description="Title of the dance on paper")
+    language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
+
+
+class CrewRequest(CrewFields, Marked, strict=True):
+    """A dance, as for /check, and its people."""
+
+    people: list[People] | None = Field(
+        None,
+        description="People on each bench, head first, in place of head_people and bench_people; null: as these say",
+    )
+    points: list[PointBody] = Field(
+        [],
+        max_length=POINTS_MAX,
+        fail_fast=True,
+        description="Points at which the people of a bench change, each time that it passes one of them",
+    )
+
+    def needed(self) -> list[int]:
+        """People on each bench. raises: InvalidValue"""
+        if self.people is None:
+            return [self.head_people] + [self.bench_people] * (self.benches - 1)
+        if len(self.people) != self.benches:
+            rule = "must have an entry for each of the {benches} benches"
+            raise InvalidValue("people", rule, got=len(self.people), benches=self.benches)
+        return self.people
+
+
+class CrewSpell(Answer):
+    """A time in which a person carries a bench."""
+
+    bench: int = Field(description="The bench; 0 is the head")
+    name: str = Field(description="Its name; empty without one")
+    begin: float = measure("s")
+    begin_clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    end: float = measure("s")
+    end_clock: str | None = Field(description="Time of day then")
+    way: float = measure("m", "Way of the bench's front handle along the path from begin to end")
+    relieves: str | None = Field(description="Label of the person who goes out at the begin; null at the start")
+    x: float = measure("m", "x of the bench's front handle at the begin")
+    y: float = measure("m", "y of the same")
+    mark: float = measure("m", "The chalk mark nearest to it along the path, by its length from mark 0")
+
+
+class Carrier(Answer):
+    """One person, and all that they carry."""
+
+    person: int = Field(description="Number of the person, from 0 on; spares come last")
+    label: str = Field(description="Short name: 17.2 is the second of bench 17 at the start, S3 the third spare")
+    time: float = measure("s", "Time carried in all")
+    way: float = measure("m", "Way carried in all")
+    longest: float = measure("s", "Longest time carried without a break")
+    spells: list[CrewSpell] = Field(description="In order of time")
+
+
+class PlaceOfChange(Answer):
+    """A place at which the path passes a point of changes."""
+
+    point: int = Field(description="Index of the point")
+    x: float = measure("m", "x of the place on the path")
+    y: float = measure("m", "y of the same")
+    distance: float = measure("m", "Distance of the place from the point")
+    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
+
+
+class BenchRoll(Answer):
+    """A bench at one moment, and who carries it."""
+
+    bench: int = Field(description="Its number; 0 is the head")
+    name: str = Field(description="Its name; empty without one")
+    people: list[str] = Field(description="Labels of those who carry it; at a change of those who come in")
+    x: float = measure("m", "x of its front handle")
+    y: float = measure("m", "y of the same")
+    mark: float = measure("m", "The nearest chalk mark along the path, by its length from mark 0")
+
+
+class Roll(Answer):
+    """Who is where at one moment."""
+
+    time: float = measure("s")
+    clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    benches: list[BenchRoll] = Field(description="All benches, head first")
+    resting: list[str] = Field(description="Labels of those who carry nothing then")
+
+
+class Crew(Answer):
+    """The people of a dance."""
+
+    people: int = Field(description="Number of people, spares among them")
+    spares: int = Field(description="Those among them who carry nothing at the start")
+    start: float = measure("s", "Begin of the first spells")
+    stop: float = measure("s", "End of the last spells")
+    changes: int = Field(description="How many times somebody takes over from somebody")
+    longest: float = measure("s", "Longest time that anybody carries without a break")
+    places: list[PlaceOfChange] = Field(description="Where the path passes the points, in order of the points")
+    at: Roll | None = Field(description="Who is where at the time asked about; null: none was asked about")
+    carriers: list[Carrier] = Field(description="All people")
+
+    @classmethod
+    def of(cls, crew: CrewWords, places: list[PlaceOfChange], roll: Roll | None) -> Self:
+        result, own = crew.crew, dict[int, list[CrewSpell]]()
+        for one, place in zip(result.spells, crew.places, strict=True):
+            own.setdefault(one.person, []).append(_spell(one, place, crew))
+        carriers = [
+            Carrier.from_result(carried, person=person, label=crew.labels[person], spells=own.get(person, []))
+            for person, carried in enumerate(result.carried)
+        ]
+        more = {"longest": crew.longest, "places": places, "at": roll, "carriers": carriers}
+        return cls.from_result(result, changes=len(crew.changes), **more)
+
+
+def _name(bench: int, crew: CrewWords) -> str:
+    return crew.words.names[bench] if crew.words.names else ""
+
+
+def _spell(one: facts.Spell, place: tuple[float, float], crew: CrewWords) -> CrewSpell:
+    own = {
+        "name": _name(one.bench, crew), "begin_clock": crew.clock(one.begin), "end_clock": crew.clock(one.end),
+        "relieves": None if one.relieved is None else crew.labels[one.relieved],
+        "x": place[0], "y": place[1], "mark": crew.words.chalk.nearest(one.s)[0],
+    }  # fmt: skip
+    return CrewSpell.from_result(one, **own)
+
+
+def crew(request: CrewRequest, terms: Terms, form: str = JSON) -> Crew | bytes:
+    """Who carries which bench when: shifts, spare carriers, minutes and metres of each, and who is where at a time."""
+    dance, needed = _dance(request, terms), request.needed()
+    start, stop = dance.span(request.start, request.stop)
+    ends = handle_places(dance, [start, stop], budget=terms.budget)
+    clock = TimeFormat(clock_of(request, dance))
+    chalk = Chalk.of(dance, float(ends[0, -1]), request.spacing, 0.75)
+    words = CardWords(Say(request.language), dance.dragon.names, clock, chalk, False)
+    places = _places(request, dance, float(ends[0, -1]), float(ends[1, 0]), chalk)
+    rules = Relief(request.spares, request.shift, [s for s, _ in places], request.rest)
+    result = _planned(request, dance, needed, rules, terms)
+    begun = dance.path.position(np.array([one.s for one in result.spells]))
+    planned = CrewWords(result, words, tuple((x, y) for x, y in begun.tolist()))
+    if form == CSV_TYPE:
+        return crew_csv(planned)
+    at = _moment(request, clock, start, stop)
+    roll = None if at is None else _roll(at, planned, dance, terms)
+    if form == JSON:
+        return Crew.of(planned, [one for _, one in places], roll)
+    return _paper(request, dance, planned, roll, terms)
+
+
+def _dance(request: CrewRequest, terms: Terms) -> Dance:
+    """The dance of a request. raises: TooLarge, InvalidValue"""
+    if request.benches > PEOPLE_MAX:
+        raise TooLarge.in_words(
+            "dragon.benches", "benches must be at most {most} here", got=request.benches, most=PEOPLE_MAX
+        )
+    return request.to_dance(request.most_benches(terms.settings))
+
+
+def _planned(request: CrewRequest, dance: Dance, needed: list[int], rules: Relief, terms: Terms) -> facts.Crew:
+    """The crew. raises: errors in the names of the request"""
+    try:
+        return facts.crew(dance, needed, rules, start=request.start, stop=request.stop, budget=terms.budget)
+    except core.BenchDragonError as error:
+        if error.field.startswith("relief."):
+            raise error.named(error.field.removeprefix("relief.")) from error
+        raise
+
+
+def _places(
+    request: CrewRequest, dance: Dance, begin: float, end: float, chalk: Chalk
+) -> list[tuple[float, PlaceOfChange]]:
+    """Where the path passes the points: s [m] of each place, and the place. raises: InvalidValue"""
+    places = []
+    for k, point in enumerate(request.points):
+        near = places_near(dance.path, (point.x, point.y), begin, end, point.within)
+        if not near:
+            away = dance.path.position(np.linspace(begin, end, 1 + max(1, int(end - begin)))) - (point.x, point.y)
+            least = Quantity(float(np.hypot(*away.T).min()), "m", 4)
+            rule = "must be within {within} of the path that the dragon walks"
+            raise InvalidValue(f"points.{k}", rule, got=least, within=Quantity(point.within, "m"))
+        for s in near:
+            x, y = dance.path.position(s).tolist()
+            distance = math.hypot(x - point.x, y - point.y)
+            places.append((s, PlaceOfChange(point=k, x=x, y=y, distance=distance, mark=chalk.nearest(s)[0])))
+    if len(places) > PLACES_MAX:
+        rule = "must be passed at most {most} times in all"
+        raise InvalidValue("points", rule, got=len(places), most=PLACES_MAX)
+    return places
+
+
+def _moment(request: CrewRequest, clock: TimeFormat, start: float, stop: float) -> float | None:
+    """The time at which the answer says who is where [s]; None for none. raises: InvalidValue"""
+    name, time = "at", request.at
+    if request.at_clock is not None:
+        name = "at_clock"
+        if time is not None:
+            raise InvalidValue(
+                name, "must be left out beside {other}", got=Given(request.at_clock), other=Parameter("at")
+            )
+        if clock.start_clock is None:
+            rule = "must stand beside {other}, the time of day at time 0"
+            raise InvalidValue(name, rule, got=Given(request.at_clock), other=Parameter("start_clock"))
+        # The first time from the start on at which it is as late.
+        zero = _seconds(clock.start_clock)
+        time = start + (_seconds(request.at_clock) - zero - start) % DAY
+    if time is None or start <= time <= stop:
+        return time
+    got = Given(request.at_clock) if name == "at_clock" else Quantity(time, "s")
+    first, last = (clock.words(one) if name == "at_clock" else str(Quantity(one, "s", 9)) for one in (start, stop))
+    raise InvalidValue(name, "must be during the dance, from {first} to {last}", got=got, first=first, last=last)
+
+
+def _seconds(clock: str) -> float:
+    """Seconds of the day at a time of day, perhaps with a fraction of a second."""
+    hours, minutes, seconds = (float(part) for part in f"{clock}:00".split(":")[:3])
+    return 3600.0 * hours + 60.0 * minutes + seconds
+
+
+def _roll(time: float, crew: CrewWords, dance: Dance, terms: Terms) -> Roll:
+    places = handle_places(dance, [time], budget=terms.budget)[0, :-1]
+    benches = crew.crew.on_benches(time)
+    points = dance.path.position(places).tolist()
+    carrying = {person for people in benches for person in people}
+    rows = [
+        BenchRoll(
+            bench=bench, name=_name(bench, crew), people=[crew.labels[person] for person in people],
+            x=points[bench][0], y=points[bench][1], mark=crew.words.chalk.nearest(float(places[bench]))[0],
+        )
+        for bench, people in enumerate(benches)
+    ]  # fmt: skip
+    resting = [label for person, label in enumerate(crew.labels) if person not in carrying]
+    return Roll(time=time, clock=crew.clock(time), benches=rows, resting=resting)
+
+
+def _paper(request: CrewRequest, dance: Dance, crew: CrewWords, roll: Roll | None, terms: Terms) -> bytes:
+    """The crew as PDF."""
+    from app.cards.timeline import CrewSheets, crew_pdf
+    from app.files.fonts import families
+
+    say, result, clock = crew.words.say, crew.crew, crew.words.clock.words
+    title = request.title or say("Bench dragon", "板凳龙")
+    minutes, seconds = divmod(round(crew.longest), 60)
+    facts = [
+        say(
+            f"{result.people} people, {result.spares} of them spares, {len(crew.changes)} changes",
+            f"共 {result.people} 人，其中替补 {result.spares} 人；换人 {len(crew.changes)} 次",
+        ),
+        say(
+            f"from {clock(result.start)} to {clock(result.stop)}", f"时间 {clock(result.start)} 至 {clock(result.stop)}"
+        ),
+        say(
+            f"nobody carries longer than {minutes}:{seconds:02d} without a break",
+            f"连续抬板最长 {minutes}:{seconds:02d}",
+        ),
+    ]
+    family = families(Language.CHINESE if max(title) >= FIRST_CHINESE else request.language)
+    table = None if roll is None else _roll_table(roll, crew)
+    return crew_pdf(CrewSheets(crew, title, facts, family, terms.budget, table), terms.progress)
+
+
+def _roll_table(roll: Roll, crew: CrewWords) -> PlanTable:
+    from app.plan.tables import PlanTable
+
+    say, when = crew.words.say, crew.words.clock.words(roll.time)
+    columns = [say("bench", "板凳"), say("people", "抬板人"), "x [m]", "y [m]", say("near mark", "标记附近")]
+    rows = [
+        [str(one.bench), " ".join(one.people), f"{one.x:.2f}", f"{one.y:.2f}", mark_name(one.mark)]
+        for one in roll.benches
+    ]
+    for first in range(0, len(roll.resting), RESTING_IN_ROW):
+        some = roll.resting[first : first + RESTING_IN_ROW]
+        rows.append(["" if first else say("rest", "休息"), " ".join(some), "", "", ""])
+    return PlanTable(say(f"Who is where at {when}", f"{when} 时谁在何处"), columns, rows, frozenset({1}))
+
+
+def _cost(request: CrewRequest, form: str = JSON) -> float:
+    return request.benches * (SECONDS_ON_PAPER if form == PDF_TYPE else SECONDS)
+
+
+QUESTION = Question(crew, Crew, None, CrewRequest, (JSON, CSV_TYPE, PDF_TYPE), _cost)
