@@ -2,7 +2,7 @@
 
 import { Problem, TOO_LONG } from "./api.js";
 import { $, button, download, make, onClick } from "./elements.js";
-import { CONTACT, DRAGON, TURN, numbersOf, strayOf } from "./fields.js";
+import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
 import { UNFINISHED, bearer } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
 import { isPlain } from "./questions.js";
@@ -46,6 +46,7 @@ const ITEMS = [
   { key: "keepClearance", forms: ["JSON"], ask: "clearance", file: "clearance" },
   { key: "keepPaper", forms: ["JSON"], ask: "paper", file: "paper" },
 ];
+const BESIDES = [...CONTACT, "entry_radius", "exit_radius"];
 /** Name of a file in this format. */
 const named = (file, form) => (["A4", "A3"].includes(form) ? `${file}-${form}.pdf` : `${file}.${form}`).toLowerCase();
 /** Commands in addition to those of the items: for the shown answer, and for a proof. */
@@ -188,7 +189,9 @@ export class Keep {
     if (!this.questions.dance || $(`#${item.key}-${form}`).classList.contains("going")) return;
     if (item.ask === "kit" && this.questions.dance.extras.csv) return announce(() => say("kitUniform"));
     try {
-      if (item.job) return await this.#begin(item, form);
+      if (item.job) await this.#begin(item, form);
+      if (item.ask === "kit" && this.#besides().length) announce(() => say("kitWithout", { names: this.#besides().map((name) => say(name)).join(", ") }));
+      if (item.job) return;
       announce(() => say("making", { name: say(item.key) }), true);
       const blob = item.ask ? await this.#fetch(REQUESTS[item.ask](this.questions, form), form) : await this.#picture();
       const name = named(item.file, form);
@@ -199,6 +202,12 @@ export class Keep {
       if (error instanceof Problem && error.problem.type === TOO_LONG) this.#begin(item, form).catch(announceRefusal);
       else announceRefusal(error);
     }
+  }
+
+  /** The numbers in use that the contest's questions do not have. */
+  #besides() {
+    const { state } = this.questions;
+    return FIELDS.filter(({ name, only }) => BESIDES.includes(name) && Number(state.get(name)) && (!only || only === state.get("path"))).map(({ name }) => name);
   }
 
   async #fetch({ path, request, ...question }, form) {

@@ -170,7 +170,7 @@ def test_a_village_keeps_film_plan_cues_and_map_and_sees_there_how_far_they_are(
 
 
 def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page: Any) -> None:
-    page = open_page("?door=contest&benches=5&turning_diameter=8.5&time=end")
+    page = open_page("?door=contest&benches=5&turning_diameter=8.5&margin=0.01&stray=0.02&time=end")
     settled(page)
     button, jobs = page.locator("#kept li:visible button").first, page.locator("#jobs li", has_text="contest kit")
     expect(button).to_have_text("The whole contest kit")
@@ -185,6 +185,7 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
         button.click()
         expect(button).to_have_text(re.compile(r"^The whole contest kit \d+ %$"))
         expect(button).to_have_accessible_name(re.compile(r"^The whole contest kit, ZIP \d+ %$"))
+        expect(page.locator("#status")).to_contain_text("without: Margin, Stray.")
         assert serious(page, "#keep") == []
         expect(jobs).to_have_count(1)
         button.click()  # a second click starts no second job

@@ -40,6 +40,7 @@ export const MORE = {
   keepKit: ["The whole contest kit", "竞赛全套文件"],
   keepKitIs: ["Five answers, workbooks, tables, figures, films and a report as ZIP; takes a minute or two.", "五问答案、结果文件、表格、插图、动画与报告，打包为 ZIP，需一两分钟。"],
   kitUniform: ["The kit is for equal benches: reset the table of benches.", "全套文件只适用于相同的板凳：请先还原板凳表。"],
+  kitWithout: ["The kit answers the contest's questions, without: {names}.", "全套文件回答赛题五问，不含：{names}。"],
   filmReady: ["The film is below its button.", "影片已在按钮下方打开。"],
   keepTrajectory: ["Every handle, every second", "每秒各把手的位置与速度"],
   keepPicture: ["The picture as it is", "当前画面"],
