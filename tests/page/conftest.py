@@ -86,6 +86,15 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield service.url
 
 
+# Advice of Chromium for reading pixels again, which tests do and the page never does.
+READBACK = "Canvas2D: Multiple readback operations"
+
+
+def is_fault(message: Any) -> bool:
+    """Whether a message on the console is an error or a warning of the page."""
+    return message.type in ("error", "warning") and not message.text.startswith(READBACK)
+
+
 @dataclass
 class Watched:
     """A tab with a page, and the messages and requests of the page since the last check.
@@ -147,7 +156,7 @@ class Tabs:
             self._contexts[way].set_default_timeout(TIMEOUT)
         page = self._contexts[way].new_page()
         one = Watched(page, way)
-        page.on("console", lambda text: one.messages.append(text.text) if text.type in ("error", "warning") else None)
+        page.on("console", lambda text: one.messages.append(text.text) if is_fault(text) else None)
         page.on("pageerror", lambda error: one.messages.append(str(error)))
         page.on("request", lambda request: one.requests.append(request.url))
         return one
