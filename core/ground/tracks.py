@@ -12,13 +12,17 @@ route, nor on a spiral while half of the chord times the curvature is at most SI
 the ends of one interval give those of the next. Nearer to the centre of a spiral, let g(theta) = theta + delta(theta)
 be the rear handle's angle. As delta falls with theta (core/kernels/spiral.py), on [a, b]
     a + delta(b) <= g <= b + delta(a),
-and both bounds are within b - a of values of g. Intervals that may hold the least or the largest value are halved down
-to REVERSAL.
+and the equation of the chord gives
+    g' = 1 - (2 theta + delta) (1 - cos delta) / (theta (1 - cos delta) + delta + theta (theta + delta) sin delta),
+where all but the sine grow with theta and with delta up to pi, so that values at the ends bound g'. Where it keeps its
+sign, g is largest and least at the ends, and elsewhere beyond them by at most |g'| (b - a), of the second order in
+b - a. Intervals that may hold the least or the largest value are halved until their bound is within REVERSAL of g.
 """
 
 from __future__ import annotations
 
 import heapq
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -111,19 +115,40 @@ def _behind(path: Path, low: float, high: float, chord: float, gentle: float) ->
     def delta(theta: float) -> float:
         return float(kernels.first_root(theta, chord2))
 
+    def most(sign: float, a: float, b: float, at_a: float, at_b: float) -> float:
+        """Upper bound of sign g on [a, b]."""
+        plain = b + at_a if sign > 0.0 else -(a + at_b)
+        if at_a > math.pi:
+            return plain
+        least, largest = _slopes(a, b, at_a, at_b)
+        rise, fall = (largest, -least) if sign > 0.0 else (-least, largest)
+        from_a = sign * (a + at_a) + max(rise, 0.0) * (b - a)
+        from_b = sign * (b + at_b) + max(fall, 0.0) * (b - a)
+        return min(plain, from_a, from_b)
+
     def bound(sign: float) -> float:
         """Upper bound of sign g up to `bent`, at most the width of an interval above its largest value."""
         width = REVERSAL / (path.growth * (bent + 1.0))
-        heap = [(0.0, low, bent, delta(low), delta(bent))]
+        ends = low, bent, delta(low), delta(bent)
+        heap = [(-most(sign, *ends), *ends)]
         while True:
             least, a, b, at_a, at_b = heapq.heappop(heap)
-            if b - a <= width:
+            if -least - max(sign * (a + at_a), sign * (b + at_b)) <= width:
                 return -least
             middle = 0.5 * (a + b)
             at = delta(middle)
             for part in ((a, middle, at_a, at), (middle, b, at, at_b)):
-                most = part[1] + part[2] if sign > 0.0 else -(part[0] + part[3])
-                heapq.heappush(heap, (-most, *part))
+                heapq.heappush(heap, (-most(sign, *part), *part))
 
     outer = bound(1.0)
     return -bound(-1.0), max(outer, high + delta(high)) if high > gentle else outer
+
+
+def _slopes(a: float, b: float, at_a: float, at_b: float) -> tuple[float, float]:
+    """Bounds of g' between two angles, where delta falls from `at_a`, at most pi, to `at_b`."""
+    low, high = 1.0 - math.cos(at_b), 1.0 - math.cos(at_a)
+    sines = math.sin(at_a), math.sin(at_b)
+    highest = 1.0 if at_b < 0.5 * math.pi < at_a else max(sines)
+    below = a * low + at_b + a * (a + at_b) * min(sines)
+    above = b * high + at_a + b * (b + at_a) * highest
+    return 1.0 - (2.0 * b + at_a) * high / below, 1.0 - (2.0 * a + at_b) * low / above

@@ -274,15 +274,18 @@ def _pieces(strips: Sequence[Floats], budget: Budget) -> NDArray[np.object_]:
     import shapely
 
     pieces = []
-    for cells in (strip[k : k + PIECE] for strip in strips for k in range(0, len(strip), PIECE)):
-        budget.look()
-        first, last, back = (1, [2], 0) if cells.shape[1] == 3 else (0, [3, 2], 1)
-        ring = shapely.polygons(np.concatenate([cells[:, first], cells[-1, last], cells[::-1, back]]))
-        edges = np.roll(cells, -1, axis=1) - cells
+    for strip in strips:
+        first, last, back = (1, [2], 0) if strip.shape[1] == 3 else (0, [3, 2], 1)
+        edges = np.roll(strip, -1, axis=1) - strip
         onwards = np.roll(edges, -1, axis=1)
         turns = edges[..., 0] * onwards[..., 1] - edges[..., 1] * onwards[..., 0]
-        whole = (turns.min() >= 0.0 or turns.max() <= 0.0) and shapely.is_valid(ring)
-        pieces.append(np.array([ring]) if whole else shapely.convex_hull(shapely.polygons(cells)))
+        left, right = turns.min(axis=1) >= 0.0, turns.max(axis=1) <= 0.0
+        for part in (slice(k, k + PIECE) for k in range(0, len(strip), PIECE)):
+            budget.look()
+            cells = strip[part]
+            ring = shapely.polygons(np.concatenate([cells[:, first], cells[-1, last], cells[::-1, back]]))
+            whole = (left[part].all() or right[part].all()) and shapely.is_valid(ring)
+            pieces.append(np.array([ring]) if whole else shapely.convex_hull(shapely.polygons(cells)))
     return np.concatenate(pieces)
 
 
