@@ -126,7 +126,7 @@ def draw(rows: list[tuple[float, ...]], picture: Path) -> None:
     below.set_ylabel("slowest answer to\none more client [s]")
     below.set_xlabel("minutes of all attacks in turn beside 64 clients")
     for axes in (middle, below):
-        axes.legend(loc="upper right")
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False)
     for axes in (above, middle, below):
         axes.set_ylim(bottom=0.0)
         axes.grid(alpha=0.3)
