@@ -21,13 +21,13 @@ from core.errors import (
     question_about,
 )
 from core.extremes.speed import checked_limit
+from core.judgement import quick_check
 from core.kernels import Budget, Halted
 from core.proposal.answer import Objective, Proposal, Proposals, Reason, ReasonKind
 from core.proposal.designs import gate_poses
 from core.proposal.figures import Figure
 from core.proposal.gates import Gate, checked_gates
 from core.proposal.search import Rated, Search, Wish
-from core.tolerance.tolerance import tolerance
 from core.values import unheard
 from core.venue import Venue
 
@@ -35,6 +35,8 @@ from core.venue import Venue
 ORDER = (Figure.RING, Figure.SPIRAL, Figure.EIGHT, Figure.SERPENTINE, Figure.PARADE)
 # Largest numbers of benches of a dragon, and of proposals [1].
 BENCHES_MOST, COUNT_MOST = 2_000, 12
+# Number of halvings of a stray that find the largest one with which a dance passes its check [1].
+STRAY_HALVINGS = 10
 # Default work of a question, about a minute [1].
 PROPOSE_WORK = 3e8
 
@@ -97,8 +99,9 @@ def propose(
     if most is not None and search.needs.least_area > search.ground.area:
         lack = Reason(ReasonKind.AREA, 0, search.ground.area, search.needs.least_area)
         return Proposals((), 0, 0, lack, most)
-    best = _collected(search, kinds, int(count), found)
-    reason = None if best else _reason(search, venue, kinds)
+    best, reason = _collected(search, kinds, int(count), found), None
+    if not best:
+        best, reason = _otherwise(search, venue, kinds, found)
     return Proposals(best, search.tried, search.checked, reason, most)
 
 
@@ -166,8 +169,24 @@ _VALUES: dict[Objective, Callable[[Proposal], Any]] = {
 }
 
 
-def _reason(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason:
-    """Why no dance was found, by the first cause that holds."""
+def _otherwise(
+    search: Search, venue: Venue, figures: Sequence[Figure], found: Callable[[Proposal], None]
+) -> tuple[tuple[Proposal, ...], Reason | None]:
+    """Proposals of a second search, or why no dance was found, by the first cause that holds."""
+    narrow = _too_narrow(search, figures)
+    if narrow is not None:
+        return (), narrow
+    if search.wish.stray > 0.0:
+        best, reason = _without_stray(search, venue, figures)
+        for proposal in best:
+            found(proposal)
+        if best or reason is not None:
+            return best, reason
+    return (), _fewer_benches(search, venue, figures) or _failing(search)
+
+
+def _too_narrow(search: Search, figures: Sequence[Figure]) -> Reason | None:
+    """The reason that a way between two gates, or the whole square, is too narrow."""
     needs, tried = search.needs, search.tried
     _, _, _, most = search.ground.widest_circle()
     if Figure.PARADE in figures:
@@ -180,24 +199,52 @@ def _reason(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason:
     if 2.0 * most < needs.turning_width:
         bench = int(np.argmax(needs.dragon.chords[: needs.dragon.uniform_from + 1]))
         return Reason(ReasonKind.WIDTH, tried, 2.0 * most, needs.turning_width, who=(bench,))
-    return _less_stray(search, figures) or _fewer_benches(search, venue, figures) or _failing(search)
+    return None
 
 
-def _less_stray(search: Search, figures: Sequence[Figure]) -> Reason | None:
-    """The reason that only a smaller stray is possible, with the largest one of the dances that were tried."""
-    wish, most = search.wish, None
-    if wish.stray == 0.0:
-        return None
-    search.wish = Wish(0.0, wish.margin, wish.speed_limit, Objective.TOLERANCE)
+def _without_stray(
+    search: Search, venue: Venue, figures: Sequence[Figure]
+) -> tuple[tuple[Proposal, ...], Reason | None]:
+    """Dances designed as if nobody strayed: those that allow the stray all the same, or the largest stray of any.
+
+    These dances do not depend on the stray, so a search with a smaller one than the largest finds that dance again.
+    """
+    wish, most = search.wish, (0.0, figures[0])
+    steady = Wish(0.0, wish.margin, wish.speed_limit, Objective.TOLERANCE)
+    second = Search(venue, search.dragon, search.gates, steady, search.budget)
+    best = []
     for figure in figures:
-        passing = search.first(search.ranked(figure))
-        if passing is not None:
-            stray = tolerance(passing[1], search.venue, start=0.0, budget=search.budget).stray
-            most = max(most or (0.0, figure), (stray, figure))
-    search.wish = wish
-    if most is None or not 0.0 < most[0] < wish.stray:
-        return None
-    return Reason(ReasonKind.STRAY, search.tried, most[0], wish.stray, most[1])
+        passing = second.first(second.ranked(figure))
+        if passing is None:
+            continue
+        one, dance, _ = passing
+        stray = _allowed(second, dance, wish.stray)
+        most = max(most, (stray, figure), key=lambda each: each[0])
+        if stray == wish.stray:
+            second.wish = wish
+            best += [proposal for proposal in [second.certified(one, dance)] if proposal is not None]
+            second.wish = steady
+    search.tried, search.checked = search.tried + second.tried, search.checked + second.checked
+    search.nearest = search.nearest or second.nearest
+    if best or not 0.0 < most[0] < wish.stray:
+        return tuple(sorted(best, key=_VALUES[wish.objective], reverse=True)), None
+    return (), Reason(ReasonKind.STRAY, search.tried, most[0], wish.stray, most[1])
+
+
+def _allowed(search: Search, dance: Dance, stray: float) -> float:
+    """The largest stray up to a given one with which a dance was found to pass its check [m]."""
+
+    def passes(stray: float) -> bool:
+        limits = {**search.wish.limits, "stray": stray}
+        return quick_check(dance, venue=search.venue, start=0.0, budget=search.budget, **limits).passed
+
+    if passes(stray):
+        return stray
+    low, high = 0.0, stray
+    for _ in range(STRAY_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if passes(middle) else (low, middle)
+    return low
 
 
 def _fewer_benches(search: Search, venue: Venue, figures: Sequence[Figure]) -> Reason | None:
@@ -276,6 +323,7 @@ def _most_benches(
         if longest is not None and (one := longest[0].certified(*longest[1][:2])) is not None:
             every.append(one)
             found(one)
-    best = sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]
-    reason = None if best else _reason(search, venue, figures)
-    return Proposals(tuple(best), search.tried, search.checked, reason, most)
+    best, reason = tuple(sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]), None
+    if not best:
+        best, reason = _otherwise(search, venue, figures, found)
+    return Proposals(best, search.tried, search.checked, reason, most)

@@ -61,6 +61,27 @@ def test_proposals_for_random_squares_hold_and_reasons_are_right(seed: int) -> N
         assert wrong_reason(case, result) == ""
 
 
+def test_a_dance_for_people_who_never_stray_is_proposed_where_it_allows_the_stray() -> None:
+    case = random_case([48, 85])  # no ring that leaves room for the stray from the beginning
+    result = case.answer()
+    assert isinstance(result, core.Proposals)
+    assert [one.figure for one in result.proposals] == [Figure.RING]
+    assert result.proposals[0].tolerance >= case.limits["stray"]
+    assert refuted(case, result.proposals[0]) == ""
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.02])
+def test_the_largest_stray_of_a_reason_has_a_dance(margin: float) -> None:
+    dragon = Dragon(12)
+    reason = propose(SMALL, dragon, stray=0.8, margin=margin).reason
+    assert reason is not None
+    assert reason.kind is ReasonKind.STRAY
+    assert reason.have is not None
+    best = propose(SMALL, dragon, stray=0.999 * reason.have, margin=margin, count=1).proposals[0]
+    assert best.report.passed
+    assert propose(SMALL, dragon, stray=1.1 * reason.have, margin=margin).reason is not None
+
+
 def test_the_same_question_has_the_same_answer() -> None:
     first, again = (propose(SMALL, Dragon(10), figures=["ring", "spiral"], count=2) for _ in range(2))
     assert [one.dance for one in first.proposals] == [one.dance for one in again.proposals]
