@@ -259,7 +259,6 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
     """
     if type(value) is not float and (not isinstance(value, Real) or isinstance(value, bool)):
         raise InvalidValue(name, "must be a number", got=Given(value))
-    limits = quantities(unit, 6, least=low, most=high)
     try:
         number = float(value)
     except OverflowError as error:  # an int of Python may have any number of digits
@@ -275,7 +274,7 @@ def checked_number(name: str, value: object, unit: str, low: float, high: float,
         rule = "must be positive" if open_low or low > 0.0 else "must be zero or more"
     else:
         rule = "must be at least {least}"
-    raise InvalidValue(name, rule, got=Quantity(number, unit), **limits)
+    raise InvalidValue(name, rule, got=Quantity(number, unit), **quantities(unit, 6, least=low, most=high))
 
 
 def checked_type(name: str, value: object, kinds: type | tuple[type, ...]) -> None:
