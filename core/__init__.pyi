@@ -72,6 +72,7 @@ from .performance.cross_check import EncounterCheck, encounter_check
 from .performance.encounter import first_encounter
 from .performance.performance import Part, Performance, PerformanceEnd
 from .performance.safe_delay import SafeDelays, safe_delay
+from .performance.tolerance import PerformanceExhibit, PerformanceTolerance, performance_tolerance
 from .performance.verdict import PerformanceFailure, PerformanceReport, performance_check, performance_trajectory
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
@@ -158,9 +159,11 @@ __all__ = [
     "Performance",
     "PerformanceClearance",
     "PerformanceEnd",
+    "PerformanceExhibit",
     "PerformanceFailure",
     "PerformanceLeastClearance",
     "PerformanceReport",
+    "PerformanceTolerance",
     "Piece",
     "PitchScan",
     "ProbabilityClaim",
@@ -219,6 +222,7 @@ __all__ = [
     "performance_check",
     "performance_clearance",
     "performance_least_clearance",
+    "performance_tolerance",
     "performance_trajectory",
     "pitch_check",
     "pitch_scan",

@@ -261,6 +261,11 @@ def _touch(stage: Stage, met: FirstEncounter, touching: Dip) -> PerformanceLeast
     return PerformanceLeastClearance(0.0, 0.0, met.time, met.dragons, met.benches)
 
 
+def resampled(stage: Stage, known: Sequence[Dip], within: float) -> list[Dip]:
+    """The samples, looked at again on this stage where the known gap is at most `within` [m]."""
+    return [_looked(stage, one.time, one.rows) if one.gap <= within else one for one in known]
+
+
 def sampled_least(stage: Stage, samples: Sequence[Dip]) -> Dip:
     """The least clearance at the ends and in the dips of samples in order of time."""
     lowest = dips(np.array([sample.gap for sample in samples]), DIPS_REFINED).tolist()

@@ -101,7 +101,7 @@ def summary(performance: Performance) -> dict[str, object]:
     return {"parts": tuple(parts), "part_count": len(performance.parts), "bench_count": benches}
 
 
-def _claim(stage: Stage, kind: ClaimKind, **values: object) -> EncounterClaim:
+def encounter_claim(stage: Stage, kind: ClaimKind, **values: object) -> EncounterClaim:
     about = {"margin": stage.margin, "stray": stage.stray, "start": stage.span[0], **values}
     return EncounterClaim(kind, **summary(stage.performance), **about)  # type: ignore[arg-type]
 
@@ -126,7 +126,7 @@ def _undecided(stage: Stage, met: Met) -> FirstEncounter:
         Outcome.UNDECIDED,
         time_bracket=(met.proven, until),
         overlapping=overlapping,
-        certificate=_evidence(stage, met, _claim(stage, ClaimKind.UNDECIDED, **values)),
+        certificate=_evidence(stage, met, encounter_claim(stage, ClaimKind.UNDECIDED, **values)),
         margin=stage.margin,
         stray=stage.stray,
         performance=stage.performance,
@@ -137,7 +137,7 @@ def _decided(stage: Stage, met: Met, end: PerformanceEnd) -> FirstEncounter:
     outcome, performance = OUTCOMES[met.ended], stage.performance
     about = {"margin": stage.margin, "stray": stage.stray, "performance": performance}
     if met.ended not in TOUCHES or met.touching is None:
-        claim = _claim(stage, ClaimKind.CLEAR, clear_until=stage.span[1], end=end.reason)
+        claim = encounter_claim(stage, ClaimKind.CLEAR, clear_until=stage.span[1], end=end.reason)
         return FirstEncounter(outcome, end=end, certificate=_evidence(stage, met, claim), **about)  # type: ignore[arg-type]
     at_start = outcome is Outcome.CONTACT_AT_START
     begin = stage.span[0]
@@ -147,7 +147,7 @@ def _decided(stage: Stage, met: Met, end: PerformanceEnd) -> FirstEncounter:
     dragons, benches = stage.pair(*met.rows)
     clear_until = met.proven if met.proven > begin and not at_start else None
     kind = ClaimKind.CONTACT if clear_until is not None else ClaimKind.CONTACT_AT_START
-    claim = _claim(stage, kind, clear_until=clear_until, dragons=dragons, benches=benches, time=met.touching)
+    claim = encounter_claim(stage, kind, clear_until=clear_until, dragons=dragons, benches=benches, time=met.touching)
     features, point, gap = _features(stage, time, met.rows)
     (corner, of_corner), (edge, of_edge) = features
     return FirstEncounter(

@@ -163,7 +163,7 @@ def test_a_number_of_a_bench_or_a_count_has_no_unit() -> None:
 
 def test_results_with_the_same_numbers_are_equal(values: list[Any]) -> None:
     with_arrays = [value for value in values if isinstance(value, WithArrays)]
-    assert len(with_arrays) == 13
+    assert len(with_arrays) == 14
     for value in with_arrays:
         assert value != 3
         with pytest.raises(TypeError, match="unhashable"):

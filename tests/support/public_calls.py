@@ -16,6 +16,9 @@ DANCE = core.Dance(DRAGON, SPIRAL)
 POSES, COLUMN = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [2.0, 2.0]
 CONTACT, PITCH = core.first_contact(DANCE), core.minimum_pitch(DRAGON)
 PERFORMANCE = core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(40.0, 0.0))))])
+NEAR = core.Performance(
+    [core.Part(DANCE), core.Part(core.Dance(DRAGON, core.Spiral(centre=(18.3, 0.0), rotation=3.0)))]
+)
 # The second one stands where the first one does.
 ENCOUNTER = core.first_encounter(core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, SPIRAL))]), stop=9.0)
 # A valid call of each function; the names are those of its parameters.
@@ -54,6 +57,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     core.performance_check: {"performance": PERFORMANCE, "margin": 0.0, "stray": 0.0, "speed_limit": 0.9, "stop": 9.0},
     core.performance_clearance: {"performance": PERFORMANCE, "times": [0.0, 9.0]},
     core.performance_least_clearance: {"performance": PERFORMANCE, "stray": 0.0, "start": 1.0, "stop": 9.0},
+    core.performance_tolerance: {"performance": NEAR, "start": 1.0, "stop": 9.0},
     core.performance_trajectory: {"performance": PERFORMANCE, "times": [0.0]},
     core.pitch_check: {"minimum": PITCH, "dragon": DRAGON, "margin": 0.0},
     core.pitch_scan: {"dragon": DRAGON, "pitches": [0.5, 0.6], "start_turns": 8.0, "margin": 0.0},
