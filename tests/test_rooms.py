@@ -24,7 +24,7 @@ TOGETHER = {
     "contest/test_kit.py": "command/contest contest/answers contest/figures contest/films contest/report"
     " contest/sensitivity contest/solved contest/tables questions/contest_kit",
     "files/test_figures.py": "files/figure_words",
-    "files/test_film.py": "files/film_spec questions/films",
+    "files/test_film.py": "files/drum files/film_spec questions/films",
     "grade/test_command.py": "command/grade grade/contacts grade/names grade/numbers grade/shortcuts",
     "grade/test_diagnosis.py": "grade/chains grade/fits grade/geometry grade/outside grade/rings grade/rubric",
     "grade/test_layout.py": "grade/cells grade/judged grade/labels grade/lists grade/report grade/sheets",
@@ -69,7 +69,7 @@ TOGETHER = {
     "test_openapi.py": "service/examples wire/question",
     "test_prove.py": "command/prove",
     "test_streams.py": "command/streams",
-    "test_whole_dance.py": "wire/benches wire/clocks",
+    "test_whole_dance.py": "wire/beats wire/benches wire/clocks",
 }
 SHARED = {Path(f"{module}.py"): Path(file) for file, modules in TOGETHER.items() for module in modules.split()}
 

@@ -126,7 +126,12 @@ def _draw_cues(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> float:
     """
     left, bottom, right, top = box
     words, room = sheets.words, top - bottom - PICTURE - 7.0
-    sentences = [words.sentence(card, cue) for cue in card.cues]
+    # With music the count stands before a cue, and its time behind it.
+    counts = [words.clock.count(cue.time) for cue in card.cues]
+    behind = [
+        f" ({words.clock.clock(cue.time)})" if count else "" for count, cue in zip(counts, card.cues, strict=True)
+    ]
+    sentences = [words.sentence(card, cue) + time for cue, time in zip(card.cues, behind, strict=True)]
     size, shrink = WORDS_TYPE, 1.0
     lines = [_wrapped(sheet, one, size, right - left - INDENT) for one in sentences]
     while sum(LINE * shrink * len(one) + BETWEEN * shrink for one in lines) > room and shrink > 0.6:
@@ -137,7 +142,7 @@ def _draw_cues(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> float:
         y -= BETWEEN * shrink
         base = y - 0.78 * LINE * shrink
         _draw_number(sheet, number, (left + 2.0, base + 1.1), shrink)
-        time = words.clock.words(cue.time)
+        time = counts[number - 1] or words.clock.clock(cue.time)
         sheet.words(left + 5.0, base, time, TIME_TYPE * shrink, within=INDENT - 6.0, fontweight="bold")
         for one in some:
             sheet.entry(left + INDENT, base, one, size * shrink)

@@ -15,12 +15,14 @@ COLUMNS = (
     "bench", "name", "number", "kind", "time", "clock", "since", "until", "x", "y", "other", "other_name", "side",
     "gap", "oncoming", "speed", "mark", "past_mark", "steps", "words",
 )  # fmt: skip
+COUNT = "count"
 
 
 def cards_csv(cards: Sequence[Card], words: CardWords) -> bytes:
-    """CSV with the columns of COLUMNS; an entry is empty where it does not apply."""
+    """CSV with the columns of COLUMNS, with music also COUNT; an entry is empty where it does not apply."""
     sink = io.StringIO(newline="")
-    writer = csv.DictWriter(sink, COLUMNS, lineterminator="\n")
+    columns = [*COLUMNS, COUNT] if words.clock.music else COLUMNS
+    writer = csv.DictWriter(sink, columns, extrasaction="ignore", lineterminator="\n")
     writer.writeheader()
     for card in cards:
         for line in _lines(card, words):
@@ -45,6 +47,7 @@ def _lines(card: Card, words: CardWords) -> Iterator[dict[str, object]]:
     for number, cue in enumerate(card.cues, start=1):
         at = {"time": cue.time, "x": cue.x, "y": cue.y, "since": cue.since, "until": cue.until}
         told = {"number": number, "kind": cue.kind.value, "words": words.sentence(card, cue)}
+        told[COUNT] = words.clock.count(cue.time)
         yield own | told | at | _clock("clock", cue.time, words) | _more(card, cue, words)
 
 

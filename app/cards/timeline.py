@@ -128,7 +128,7 @@ def _draw_axis(sheet: Sheet, sheets: CrewSheets) -> tuple[float, float]:
     for k in range(int((stop - start) / step) + 1):
         x = left + step * k * unit
         sheet.line([(x, bottom), (x, top - AXIS)], linewidth=0.25, color="#AAAAAA", zorder=0)
-        words = crew.words.clock.words(start + step * k)
+        words = crew.words.clock.clock(start + step * k)
         if x + sheet.width(words, 6.0) < right:
             sheet.entry(x, top - AXIS + 1.5, words, 6.0)
     for k, words in enumerate((say("time", "时间"), say("way [m]", "路程 [m]"), say("longest", "最长连续")), start=1):

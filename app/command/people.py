@@ -38,6 +38,9 @@ def cues(
     output: Annotated[Path, typer.Option(help="Write a .pdf (extra figures), .csv or .json file.")] = Path("cues.pdf"),
     first_bench: Annotated[int | None, typer.Option(help="First bench with a card; default: 0, the head.")] = None,
     last_bench: Annotated[int | None, typer.Option(help="Last bench with a card; default: the tail.")] = None,
+    bench: Annotated[
+        list[str] | None, typer.Option(help="Name or number of a bench with a card; may be given several times.")
+    ] = None,
     reach: Annotated[float | None, typer.Option(help="Largest gap of a meeting [m]; default: 8")] = None,
     step_length: Annotated[float | None, typer.Option(help="Length of a step [m]; default: 0.75")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
@@ -49,8 +52,8 @@ def cues(
     if ending == ".pdf":
         require("figures", "output", "A card on paper")
     changes = {
-        "first_bench": first_bench, "last_bench": last_bench, "reach": reach, "step_length": step_length,
-        "spacing": spacing, "title": title, "language": language,
+        "first_bench": first_bench, "last_bench": last_bench, "cards": bench or None, "reach": reach,
+        "step_length": step_length, "spacing": spacing, "title": title, "language": language,
     }  # fmt: skip
     values = read_dance(file) | {name: value for name, value in changes.items() if value is not None}
     request = checked(CuesRequest, values, object_words(file))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import orjson
 import typer
 
 from app.command import show
-from app.command.options import Json
+from app.command.options import Json, numbers
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
@@ -113,6 +113,14 @@ def maps(
     show.write(output, data)
 
 
+def _gate(text: str) -> dict[str, Any]:
+    """A gate of an option. raises: InvalidValue"""
+    name, *place = text.rsplit(",", 2)
+    if len(place) != 2 or not name:
+        raise InvalidValue.in_words("gate", "--gate must be NAME,X,Y [m]", got=Given(text))
+    return {"name": name, **dict(zip("xy", numbers("gate", ",".join(place), float), strict=True))}
+
+
 def plan(
     file: Annotated[
         Path,
@@ -122,6 +130,10 @@ def plan(
     paper: Annotated[Literal["A4", "A3"] | None, typer.Option(help="Size of the paper; default: A4.")] = None,
     title: Annotated[str | None, typer.Option(help="Title of the plan")] = None,
     spacing: Annotated[float | None, typer.Option(help="Distance of the chalk marks along the path [m]")] = None,
+    gate: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME,X,Y of a gate whose times the plan names; may be given several times."),
+    ] = None,
     clear: Annotated[
         float | None, typer.Option(help="Width of the zone to keep clear [m]; default: the margin, or 0.5 m")
     ] = None,
@@ -132,6 +144,8 @@ def plan(
     require("figures", "output", "A plan")
     changes = {"paper": paper, "title": title, "spacing": spacing, "clear": clear, "language": language}
     values = read_dance(file) | {name: value for name, value in changes.items() if value is not None}
+    if gate:
+        values["gates"] = [_gate(text) for text in gate]
     request = checked(PlanRequest, values, object_words(file))
     with refusing(request), show.waiting("plan") as progress:
         data = plan_of(request, Terms(progress=progress))

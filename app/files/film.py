@@ -50,6 +50,10 @@ WAITING = 4
 # the file and take twice the time (measured 2026-11-22).
 OPTIONS, THREADS = {"crf": "24", "preset": "superfast", "x264-params": "bframes=0:subme=0"}, 2
 FAST_START = {"movflags": "faststart"}
+# The sound is whole before the first picture, so the file waits for as many pictures as it takes.
+WITH_SOUND = {"max_interleave_delta": "0"}
+# AAC: bits a second, and samples that are handed over at once.
+SOUND_BITS, AT_ONCE = 96_000, 1024
 BODY_EDGE = "#003A5D"
 # A GIF shows every frame for whole hundredths of a second.
 GIF_TICK = 100
@@ -61,6 +65,7 @@ GIF_BLENDS = (
     (BLUE, VERMILION), (BODY_EDGE, VERMILION), ("black", VERMILION), ("black", BLUE), ("white", PALE),
 )  # fmt: skip
 WORDS = {Language.ENGLISH: "{time:.2f} s", Language.CHINESE: "时间 {time:.2f} 秒"}
+COUNTS = {Language.ENGLISH: "bar {} beat {}", Language.CHINESE: "第 {} 小节第 {} 拍"}
 TOUCHING = {Language.ENGLISH: "benches {} and {} touch\n", Language.CHINESE: "第 {} 节与第 {} 节板凳相碰（龙头为 0）\n"}
 # Edge of benches [points], and of those that touch, as a share of the height of the picture.
 EDGE, TOUCHING_SHARE = 0.8, 0.0025
@@ -107,7 +112,7 @@ class FilmPicture:
     """A picture that is drawn again for each frame: the stored background, then the benches and the time."""
 
     def __init__(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
-        self.language, self.start_clock = spec.language, spec.start_clock
+        self.language, self.start_clock, self.music = spec.language, spec.start_clock, spec.music
         in_turn(lambda: self._draw(dance, spec, venue, title))
 
     def _draw(self, dance: Dance, spec: FilmSpec, venue: Venue | None, title: str) -> None:
@@ -154,6 +159,8 @@ class FilmPicture:
         self.body.get_path().vertices = closed[1:].reshape(-1, 2)
         words = f"{time_of_day(time, self.start_clock)}  " if self.start_clock else ""
         words += WORDS[self.language].format(time=time)
+        if self.music and (count := self.music.count(time)):
+            words = f"{COUNTS[self.language].format(*count)}  {words}"
         artists: list[Artist] = [self.body, self.head, self.time]
         if touching:
             self.touching.get_path().vertices = closed[list(touching)].reshape(-1, 2)
@@ -191,13 +198,15 @@ def encoded_mp4(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
     # The encoder's context is left first: closing the file while a frame is written would end the process.
     with (
         temporary("film-") as folder,
-        av.open(path := f"{folder}/film.mp4", "w", options=FAST_START) as file,
+        av.open(path := f"{folder}/film.mp4", "w", options=FAST_START | (WITH_SOUND if spec.music else {})) as file,
         ThreadPoolExecutor(1) as encoder,
     ):
         stream = file.add_stream("libx264", rate=round(spec.rate), options=OPTIONS)
         stream.width, stream.height, stream.pix_fmt = spec.width, spec.height, "yuv420p"
         stream.codec_context.thread_count = THREADS
         stream.codec_context.colorspace, stream.codec_context.color_range = Colorspace.ITU709, ColorRange.MPEG
+        if spec.music:  # last, because the first sound opens the encoders of both streams
+            add_drum(file, spec)
 
         def encode(picture: NDArray[np.uint8]) -> None:
             frame = av.VideoFrame.from_numpy_buffer(picture, format="rgba")
@@ -218,6 +227,22 @@ def encoded_mp4(sink: io.BytesIO, spec: FilmSpec) -> Iterator[Take]:
         finally:
             for one in waiting:
                 one.cancel()
+
+
+def add_drum(file: Any, spec: FilmSpec) -> None:
+    """Add the sound of a film to its file, which has the stream of the pictures already."""
+    import av
+
+    from app.files.drum import RATE, samples_of
+
+    stream = file.add_stream("aac", rate=RATE, layout="mono")
+    stream.bit_rate, stream.codec_context.thread_count = SOUND_BITS, 1
+    samples = samples_of(spec).astype(np.float32)
+    for first in range(0, samples.size, AT_ONCE):
+        frame = av.AudioFrame.from_ndarray(samples[None, first : first + AT_ONCE], format="fltp", layout="mono")
+        frame.sample_rate, frame.pts = RATE, first
+        file.mux(stream.encode(frame))
+    file.mux(stream.encode(None))
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from app.files.tables import Language
+from core.people.beats import Music
 from core.values import Floats
 
 MP4_TYPE, GIF_TYPE = "video/mp4", "image/gif"
@@ -20,7 +21,8 @@ LOOKS = {MP4_TYPE: (30, 1080), GIF_TYPE: (12, 360)}
 @dataclass(frozen=True)
 class FilmSpec:
     """start, stop: times in the dance [s]; seconds: length of the film [s]; rate: [frames/s]; height: [pixels]
-    start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant"""
+    start_clock: time of day at time 0, see time_of_day(); touching: benches that touch at the last instant
+    music: beats, which a film counts and an MP4 lets hear"""
 
     start: float
     stop: float
@@ -30,6 +32,7 @@ class FilmSpec:
     language: Language = Language.ENGLISH
     start_clock: str | None = None
     touching: tuple[int, int] | None = None
+    music: Music | None = None
 
     @property
     def width(self) -> int:

@@ -88,6 +88,7 @@ export class Files {
     this.walked = "dragon" in content ? null : content.passages;
     this.times.hidden = !this.walked;
     const { dragon = {}, path, venue } = content;
+    const paces = content.passages ?? content.beats?.map(({ bars, tempo, step, beats = 4 }) => ({ speed: (tempo * step) / 60, duration: (60 * bars * beats) / tempo }));
     const own = Object.fromEntries(UNIFORM.filter((one) => one in dragon).map((one) => [one, String(dragon[one])]));
     const numbers = Object.fromEntries(NUMBERS.filter((one) => typeof content[one] === "number").map((one) => [one, String(content[one])]));
     if (this.state.get("path") !== "route") this.state.choosePath("route");
@@ -98,7 +99,7 @@ export class Files {
     if (!venue && !("dragon" in content)) Object.assign(opened, { things, origin, grid });
     const others = {
       ...("dragon" in content && { csv: tableOf(dragon) }),
-      ...(content.passages && "dragon" in content && { passages: passagesText(content.passages) }),
+      ...(paces && "dragon" in content && { passages: passagesText(paces) }),
       ...(("start_clock" in content || "begin_clock" in content) && { start_clock: content.start_clock ?? "", begin_clock: content.begin_clock ?? "" }),
     };
     this.state.set({ ...own, ...numbers, ...others, time: null, view: null });

@@ -45,6 +45,7 @@ class GroundMap:
     """The content of a map.
 
     swept: the ground that benches sweep; clear: the zone to keep clear around it; width: of that zone [m]
+    gates: name, x and y [m] of each
     """
 
     dance: Dance
@@ -54,6 +55,7 @@ class GroundMap:
     width: float
     timing: Timing
     geographic: bool
+    gates: Sequence[tuple[str, float, float]] = ()
 
     @cached_property
     def line(self) -> Floats:
@@ -83,6 +85,7 @@ def draw_ground(sheet: Sheet, ground: GroundMap, scale: Scale, *, numbers: bool)
     sheet.line(line, frame, color=BLUE, linewidth=0.9 if numbers else 0.4, zorder=4)
     if numbers:
         _draw_arrows(sheet, line, frame)
+        _draw_gates(sheet, ground, scale)
         _draw_marks(sheet, ground, scale, line)
     return frame
 
@@ -184,6 +187,22 @@ def _draw_marks(sheet: Sheet, ground: GroundMap, scale: Scale, line: Floats) -> 
         free = [one for one in near_by if not (np.abs(line - one) < (wide, 1.0)).all(axis=1).any()]
         along = [points[k] + side * (wide + 1.0) * tangents[k] for side in (1.0, -1.0)]
         sheet.label(marks.names[k], MARK_TYPE, free or along, room, **look)
+
+
+def _draw_gates(sheet: Sheet, ground: GroundMap, scale: Scale) -> None:
+    """Draw each gate as a small square with its name beside it."""
+    left, bottom, right, top = scale.paper.room
+    for name, *place in ground.gates:
+        x, y = scale.on_paper(np.array(place)).tolist()
+        if not (left < x < right and bottom < y < top):
+            continue
+        sheet.axes.plot(x, y, marker="s", markersize=4.0, markerfacecolor="white", markeredgecolor="black", zorder=7)
+        sheet.take(np.array([x - 1.0, y - 1.0, x + 1.0, y + 1.0]))
+        beside = 0.5 * sheet.width(name, NAME_TYPE) + 2.0
+        near = [(x + beside, y), (x - beside, y), (x, y + 3.0), (x, y - 3.0)]
+        sheet.label(
+            name, NAME_TYPE, near, scale.paper.room, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4}
+        )
 
 
 def draw_benches(sheet: Sheet, scale: Scale, outlines: Floats, names: Sequence[str], frame: Rectangle) -> None:

@@ -21,8 +21,8 @@ from app.plan.sheet import BLOCK, MARGIN, Paper, PaperName, Scale, Sheet, Title,
 from app.plan.tables import PlanTable, draw_tables
 from app.plan.timing import TimeFormat, points_of
 
-# Fonts as outlines with a table of their characters: every machine draws them alike, and the text can be searched.
-FONTS: dict[Any, Any] = {"pdf.fonttype": 3, "hatch.linewidth": 0.4}
+# Fonts as outlines of TrueType: every machine and every printer draws them alike, and the text can be searched.
+FONTS: dict[Any, Any] = {"pdf.fonttype": 42, "hatch.linewidth": 0.4}
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ def _maps(plan: Plan, scale: Scale, say: Say) -> Iterator[_Page]:
 
 
 def _tables(plan: Plan, paper: Paper, say: Say) -> Iterator[_Page]:
-    tables = [_events(plan, say), _benches(plan, say), _marks(plan, say), _points(plan, say)]
+    tables = [_events(plan, say), _gates(plan, say), _benches(plan, say), _marks(plan, say), _points(plan, say)]
     for sheet in draw_tables(tables, lambda: Sheet(paper, say, plan.family, plan.budget)):
         sheet.frame(paper.room)
         yield _Page(sheet, say("Points to paint, and times", "放样点与时间表"))
@@ -126,6 +126,13 @@ def _points(plan: Plan, say: Say) -> PlanTable:
         for name, values in zip(marks.names, points_of(ground.dance, marks), strict=True)
     ]
     return PlanTable(say("Points to paint", "放样点"), columns[: len(rows[0])], rows)
+
+
+def _gates(plan: Plan, say: Say) -> PlanTable:
+    words = plan.clock.words
+    rows = [[name, f"{s:.1f} m", words(head), words(tail)] for name, s, head, tail in plan.ground.timing.gates]
+    columns = [say("gate", "出入口"), say("along the path", "沿路线"), say("head", "龙头"), say("tail", "龙尾")]
+    return PlanTable(say("Head and tail at the gates", "龙头与龙尾经过出入口的时间"), columns, rows, frozenset({0}))
 
 
 def _marks(plan: Plan, say: Say) -> PlanTable:

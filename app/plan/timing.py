@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,23 +11,38 @@ from app.maps.marks import Marks
 from app.wire.clocks import time_of_day
 from core import Budget, Dance
 from core.motion.places import Passing, handle_places
+from core.people.beats import Music
 from core.values import Floats
 
 
 @dataclass(frozen=True, slots=True)
 class TimeFormat:
-    """Format of times: minutes and seconds of the dance, or the time of day if it is known at time 0."""
+    """Format of times: minutes and seconds of the dance, or the time of day if it is known at time 0; with music, bar
+    and beat before them."""
 
     start_clock: str | None = None
+    music: Music | None = None
 
     def words(self, time: float | None) -> str:
         """A time [s]; a dash for None.
 
         >>> TimeFormat().words(72.46), TimeFormat().words(-4.19), TimeFormat().words(None)
         ('1:12.5', '-0:04.2', '–')
+        >>> from core.people.beats import Bars
+        >>> TimeFormat(music=Music([Bars(16, 96.0, 0.6)])).words(10.0)
+        '5.1 0:10.0'
         """
         if time is None:
             return "–"
+        return f"{self.count(time)} {self.clock(time)}".lstrip()
+
+    def count(self, time: float) -> str:
+        """Bar and beat nearest to a time [s]; empty outside the music."""
+        count = self.music and self.music.count(time)
+        return str(count) if count else ""
+
+    def clock(self, time: float) -> str:
+        """A time [s] without bar and beat."""
         if self.start_clock is not None:
             return time_of_day(time, self.start_clock)
         tenths = round(abs(time) * 10.0)
@@ -42,6 +58,7 @@ class Timing:
     moments: three instants (3,) [s]; handles: places of all handles then (3, n + 1), from the first mark [m]
     passes: times at which the front handle of each bench passes the place of the head at the start [s]
     tail_leaves: time at which the tail passes that place [s], None: not before the end
+    gates: name of each pass of a gate, its place from the first mark [m], and times of head and tail there [s]
     """
 
     marks: Marks
@@ -51,6 +68,7 @@ class Timing:
     handles: Floats
     passes: list[float | None]
     tail_leaves: float | None
+    gates: list[tuple[str, float, float | None, float | None]]
 
     @property
     def start_place(self) -> float:
@@ -58,8 +76,10 @@ class Timing:
         return float(self.handles[0, 0])
 
 
-def timing_of(dance: Dance, marks: Marks, start: float, stop: float, budget: Budget) -> Timing:
-    """The timing of a dance between two instants [s]. raises: TooMuchWork"""
+def timing_of(
+    dance: Dance, marks: Marks, start: float, stop: float, gates: Sequence[tuple[str, float]], budget: Budget
+) -> Timing:
+    """The timing of a dance between two instants [s]. gates: name and s [m] of each pass. raises: TooMuchWork"""
     passing, last = Passing(dance, start, stop, budget=budget), dance.dragon.benches
     moments = [start, 0.5 * (start + stop), stop]
     handles = handle_places(dance, moments, budget=budget)
@@ -67,7 +87,8 @@ def timing_of(dance: Dance, marks: Marks, start: float, stop: float, budget: Bud
     passes = [passing.when(k, begin) for k in range(last + 1)]
     head = [passing.when(0, s) for s in marks.s.tolist()]
     tail = [passing.when(last, s) for s in marks.s.tolist()]
-    return Timing(marks, head, tail, moments, handles - marks.first, passes[:-1], passes[-1])
+    passed = [(name, s - marks.first, passing.when(0, s), passing.when(last, s)) for name, s in gates]
+    return Timing(marks, head, tail, moments, handles - marks.first, passes[:-1], passes[-1], passed)
 
 
 def points_of(dance: Dance, marks: Marks) -> list[tuple[float, ...]]:

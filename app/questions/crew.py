@@ -192,7 +192,7 @@ def crew(request: CrewRequest, terms: Terms, form: str = JSON) -> Crew | bytes:
     dance, needed = _dance(request, terms), request.needed()
     start, stop = dance.span(request.start, request.stop)
     ends = handle_places(dance, [start, stop], budget=terms.budget)
-    clock = TimeFormat(clock_of(request, dance))
+    clock = TimeFormat(clock_of(request, dance), request.music)
     chalk = Chalk.of(dance, float(ends[0, -1]), request.spacing, 0.75)
     words = CardWords(Say(request.language), dance.dragon.names, clock, chalk, False)
     places = _places(request, dance, float(ends[0, -1]), float(ends[1, 0]), chalk)
@@ -268,7 +268,7 @@ def _moment(request: CrewRequest, clock: TimeFormat, start: float, stop: float) 
     if time is None or start <= time <= stop:
         return time
     got = Given(request.at_clock) if name == "at_clock" else Quantity(time, "s")
-    first, last = (clock.words(one) if name == "at_clock" else str(Quantity(one, "s", 9)) for one in (start, stop))
+    first, last = (clock.clock(one) if name == "at_clock" else str(Quantity(one, "s", 9)) for one in (start, stop))
     raise InvalidValue(name, "must be during the dance, from {first} to {last}", got=got, first=first, last=last)
 
 

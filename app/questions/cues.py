@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from typing import Annotated, Self
 
 from pydantic import Field
@@ -40,6 +42,12 @@ class CuesRequest(Marked, strict=True):
         None, description=f"First bench with a card, 0 for the head; at most {FOLLOWED_MAX} get one; null: the head"
     )
     last_bench: BenchNumber | None = Field(None, description="Last bench with a card; null: the tail")
+    cards: list[BenchNumber | str] | None = Field(
+        None,
+        min_length=1,
+        max_length=FOLLOWED_MAX,
+        description="Benches with cards, each by its name or its number, in place of first_bench and last_bench",
+    )
     reach: float = measure(
         "m", "Largest gap of a meeting: a bench that comes abreast further away is no cue", REACH, ge=0, le=REACH_MAX
     )
@@ -49,9 +57,15 @@ class CuesRequest(Marked, strict=True):
     title: str = Field("", max_length=80, description="Title of the dance on every card")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
-    def to_range(self, dragon: core.Dragon) -> range:
+    def benches_of(self, dragon: core.Dragon) -> Sequence[int]:
         """The benches that get cards. raises: InvalidValue, TooLarge"""
         count = dragon.benches
+        if self.cards is not None:
+            for name in ("first_bench", "last_bench"):
+                if getattr(self, name) is not None:
+                    rule, other = "must be left out beside {other}", Parameter("cards")
+                    raise InvalidValue(name, rule, got=getattr(self, name), other=other)
+            return [_bench_named(f"cards.{k}", one, dragon) for k, one in enumerate(self.cards)]
         first = 0 if self.first_bench is None else self.first_bench
         last = count - 1 if self.last_bench is None else self.last_bench
         for name, bench in (("first_bench", first), ("last_bench", last)):
@@ -63,6 +77,18 @@ class CuesRequest(Marked, strict=True):
             rule = "cards must be at most {most}: choose the benches with first_bench and last_bench"
             raise TooLarge.in_words("last_bench", rule, got=last - first + 1, most=FOLLOWED_MAX)
         return range(first, last + 1)
+
+
+def _bench_named(field: str, word: int | str, dragon: core.Dragon) -> int:
+    """The bench with that name, or else that number. raises: InvalidValue"""
+    if isinstance(word, str):
+        if word and word in dragon.names:
+            return dragon.names.index(word)
+        if not re.fullmatch(r"\d{1,9}", word, re.ASCII):
+            raise InvalidValue(field, "must be the name or the number of a bench", got=Given(word))
+    if int(word) >= dragon.benches:
+        raise InvalidValue(field, "must be at most {most}, the tail", got=int(word), most=dragon.benches - 1)
+    return int(word)
 
 
 class Neighbour(Answer):
@@ -118,6 +144,9 @@ class Cue(Answer):
     kind: rule.CueKind = Field(description="begin, pause, fastest, meeting or done")
     time: float = measure("s", "Moment of the cue: of several meetings, that of the nearest")
     clock: str | None = Field(description="Time of day then, if start_clock or begin_clock is given")
+    count: str | None = Field(
+        description="Nearest beat of the music then, such as 17.3 for the third of bar 17; null: none"
+    )
     since: float = measure(
         "s", "Beginning of a pause, or moment of the first of several meetings; else the same as time"
     )
@@ -183,7 +212,8 @@ def _card(card: Card, words: CardWords) -> CueCard:
     bench = card.bench
     cues = [
         Cue.from_result(
-            cue, clock=_clock(cue.time, words), nearest=cue.nearest and _meeting(cue.nearest, words),
+            cue, clock=_clock(cue.time, words), count=words.clock.count(cue.time) or None,
+            nearest=cue.nearest and _meeting(cue.nearest, words),
             others=[one.bench for one in cue.meetings], words=words.sentence(card, cue),
         )
         for cue in card.cues
@@ -209,7 +239,7 @@ def _card(card: Card, words: CardWords) -> CueCard:
 def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | bytes:
     """A card for each bench: where it stands, when it walks, whom it meets and how near, where it is fastest."""
     dance = request.to_dance(request.most_benches(terms.settings))
-    benches = request.to_range(dance.dragon)
+    benches = request.benches_of(dance.dragon)
     _refuse_equal_names(dance.dragon)
     place = request.to_place(dance.dragon)
     found = bench_cues(dance, benches, reach=request.reach, start=request.start, stop=request.stop, budget=terms.budget)
@@ -223,7 +253,7 @@ def _words(request: CuesRequest, dance: Dance, place: Place, terms: Terms) -> Ca
     start, _ = dance.span(request.start, request.stop)
     tail = float(handle_places(dance, [start], budget=terms.budget)[0, -1])
     chalk = Chalk.of(dance, tail, request.spacing, request.step_length)
-    clock = TimeFormat(clock_of(request, dance))
+    clock = TimeFormat(clock_of(request, dance), request.music)
     geographic = request.origin_at(place) is not None
     return CardWords(Say(request.language), dance.dragon.names, clock, chalk, geographic)
 
@@ -262,6 +292,7 @@ def _paper(
 def _cost(request: CuesRequest, form: str = JSON) -> float:
     last = request.benches - 1 if request.last_bench is None else request.last_bench
     count = max(1, min(FOLLOWED_MAX, last - (request.first_bench or 0) + 1))
+    count = len(request.cards or range(count))
     return count * (SECONDS_PER_BENCH + (SECONDS_PER_CARD if form == PDF_TYPE else 0.0))
 
 

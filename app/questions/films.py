@@ -63,7 +63,8 @@ def film_of(request: FilmFields, dance: Dance, terms: Terms, form: str) -> bytes
     )
     start, stop, touching = span_of(request, dance, terms)
     clock = clock_of(placed, dance) if placed else None
-    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching)
+    music = placed.music if placed else None
+    spec = FilmSpec(start, stop, request.seconds, rate, height, request.language, clock, touching, music)
     venue = placed.to_place(dance.dragon).venue if placed else None
     return film.film(dance, spec, form, venue=venue, title=request.title, budget=terms.budget, progress=terms.progress)
 

@@ -16,10 +16,12 @@ from app.questions.check import verdict_of
 from app.questions.maps import Marked
 from app.wire.dances import clock_of
 from app.wire.degrees import Place
-from app.wire.question import Question, Terms, measure
-from core import Dance, FailureKind, Judgement
+from app.wire.question import Coordinate, Question, Terms, Wire, measure
+from core import Dance, FailureKind, InvalidValue, Judgement
 from core.display import format_count
-from core.errors import format_number, question_about
+from core.errors import Given, Quantity, format_number, question_about
+from core.motion.places import handle_places
+from core.people.crew import places_near
 from core.shapes.engines import widened
 
 if TYPE_CHECKING:
@@ -34,6 +36,8 @@ CLEAR = 0.5
 SECONDS = 4.0
 # First character of Unicode that needs a Chinese font, approximately.
 FIRST_CHINESE = "\u2e80"
+# Most gates of a plan.
+GATES_MAX = 20
 # Words for each kind of failure.
 FAILURES = {
     FailureKind.CONTACT: ("benches touch or are too near", "板凳相碰或过近"),
@@ -45,6 +49,15 @@ FAILURES = {
 }
 
 
+class PlanGate(Wire, strict=True):
+    """A gate, or another place by name, whose passes the plan lists by the clock."""
+
+    name: str = Field(min_length=1, max_length=40, description="Its name")
+    x: Coordinate = measure("m", "x of the place")
+    y: Coordinate = measure("m", "y of the place")
+    within: float = measure("m", "Largest distance of the path from the place where it passes it", 5.0, ge=0, le=100)
+
+
 class PlanRequest(Marked):
     """A dance, as for /check, and the look of its plan."""
 
@@ -53,6 +66,12 @@ class PlanRequest(Marked):
         "m", "Width of the zone to keep clear around the swept ground; default: the margin, or 0.5 m without one", None,
         ge=0, le=100,
     )  # fmt: skip
+    gates: list[PlanGate] = Field(
+        [],
+        max_length=GATES_MAX,
+        fail_fast=True,
+        description="Gates and other places by name: the plan shows them, and when head and tail pass each",
+    )
     title: str = Field("", max_length=80, description="Title of the plan")
     language: Language = Field(Language.ENGLISH, description="Language of the words: en or zh", strict=False)
 
@@ -66,10 +85,10 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
     from app.plan.timing import TimeFormat, timing_of
 
     dance, budget, say = request.to_dance(terms.settings.checked_benches_max), terms.budget, Say(request.language)
-    place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance))
+    place, clock = request.to_place(dance.dragon), TimeFormat(clock_of(request, dance), request.music)
     start, stop = dance.span(request.start, request.stop)
     marks = marks_of(dance, start, stop, request.spacing)
-    timing = timing_of(dance, marks, start, stop, budget)
+    timing = timing_of(dance, marks, start, stop, _gates(request, dance, start, stop, budget), budget)
     swept = core.envelope(dance, start=start, stop=stop, excess=EXCESS, budget=budget).polygons
     width = request.clear if request.clear is not None else request.margin or CLEAR
     clear = widened(swept, width) if width else swept
@@ -82,13 +101,38 @@ def plan(request: PlanRequest, terms: Terms) -> bytes:
         report.verdict is Judgement.PASSES,
         geographic,
     )
-    ground = GroundMap(dance, place.venue, swept, clear, width, timing, geographic)
+    gates = [(one.name, one.x, one.y) for one in request.gates]
+    ground = GroundMap(dance, place.venue, swept, clear, width, timing, geographic, gates)
     numbers = [say("head", "龙头"), *map(str, range(1, dance.dragon.benches))]
     names = [f"{number} {own}".rstrip() for number, own in zip_longest(numbers, dance.dragon.names, fillvalue="")]
-    texts = "".join([title.title, *names, *(area.name for area in (place.venue.areas if place.venue else ()))])
+    texts = "".join(
+        [
+            title.title,
+            *names,
+            *(one.name for one in request.gates),
+            *(area.name for area in (place.venue.areas if place.venue else ())),
+        ]
+    )
     # Chinese names may stand in an English plan.
     family = families(Language.CHINESE if max(texts) >= FIRST_CHINESE else request.language)
     return _drawn(dance, Plan(ground, family, names, clock, title, request.paper, budget), say, terms)
+
+
+def _gates(
+    request: PlanRequest, dance: Dance, start: float, stop: float, budget: core.Budget
+) -> list[tuple[str, float]]:
+    """Name and s [m] of each pass of a gate, in order along the path. raises: InvalidValue for a gate off the path"""
+    if not request.gates:
+        return []
+    ends = handle_places(dance, [start, stop], budget=budget)
+    passes = []
+    for k, gate in enumerate(request.gates):
+        near = places_near(dance.path, (gate.x, gate.y), float(ends[0, -1]), float(ends[1, 0]), gate.within)
+        if not near:
+            rule = "must be within {within} of the path that the dragon walks"
+            raise InvalidValue(f"gates.{k}", rule, got=Given(gate.name), within=Quantity(gate.within, "m"))
+        passes += [(gate.name, s) for s in near]
+    return sorted(passes, key=lambda one: one[1])
 
 
 @question_about("dance", Dance, "the plan was not drawn")

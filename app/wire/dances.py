@@ -7,6 +7,7 @@ dance.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
@@ -14,6 +15,7 @@ from pydantic import AfterValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
 from app.settings import Settings
+from app.wire.beats import BarsBody, music_of
 from app.wire.benches import BenchCsv
 from app.wire.clocks import BeginClock, PassageBody, StartClock, clock_at_zero, passages_of
 from app.wire.paths import KINDS, AnyPath, SpiralPath
@@ -31,7 +33,8 @@ from app.wire.question import (
 )
 from core import Dance, Dragon, InvalidValue
 from core.errors import Given, Parameter, quantities
-from core.passages import PASSAGES_MAX
+from core.passages import PASSAGES_MAX, Passage
+from core.people.beats import Music
 from core.values import Floats
 
 if TYPE_CHECKING:
@@ -170,7 +173,19 @@ class PathFields(HeadSpeed, DragonFields, strict=True):
         "other; after the last one, head_speed holds. Contacts depend only on the place of the head; the time of a "
         "contact is the first time at which the head is there",
     )
+    beats: list[BarsBody] = Field(
+        [],
+        max_length=PASSAGES_MAX,
+        fail_fast=True,
+        description="Bars of a drum from time 0 on, in place of passages: on each beat the head goes one step; after "
+        "the last bar, head_speed holds. Plan, cue cards and film count in bars and beats, and the film has the drum",
+    )
     path: AnyPath = Field(default_factory=SpiralPath, description="The path")
+
+    @property
+    def music(self) -> Music | None:
+        """The beats of the dance; None without them. raises: InvalidValue"""
+        return music_of(self.beats)
 
     def most_benches(self, settings: Settings) -> int:
         return super().most_benches(settings) if self.path.kind == "spiral" else settings.checked_benches_max
@@ -178,7 +193,16 @@ class PathFields(HeadSpeed, DragonFields, strict=True):
     def to_dance(self, benches_max: int) -> Dance:
         """raises: TooLarge, InvalidValue"""
         dragon, path = self.dragon.to_dragon(benches_max), self.path.to_path()
-        return Dance(dragon, path, self.head_speed, passages_of(self.passages))
+        return Dance(dragon, path, self.head_speed, self._passages())
+
+    def _passages(self) -> Sequence[Passage]:
+        """The passages, of which beats give their own. raises: InvalidValue"""
+        if (music := self.music) is None:
+            return passages_of(self.passages)
+        if self.passages:
+            other = Parameter("beats")
+            raise InvalidValue("passages", "must be left out beside {other}, which give the speeds", other=other)
+        return music.passages
 
 
 class DanceFields(PathFields, strict=True):

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from core.display import Readable
+from core.errors import checked_type
 from core.people.cues import BenchCues, Meeting
 
 # Most cues of a card, and most pauses among them; the first of these holds the beginning and the end, too.
@@ -69,7 +70,8 @@ class Card(Readable):
 
 
 def card_of(bench: BenchCues) -> Card:
-    """The card of a bench, by the rule above."""
+    """The card of a bench, by the rule above. raises: InvalidValue for anything but the cues of a bench"""
+    checked_type("bench", bench, BenchCues)
     begin, done, fastest = bench.begin, bench.done, bench.fastest
     always = [
         Cue(CueKind.BEGIN, begin.time, begin.x, begin.y, begin.time, begin.time),

@@ -58,7 +58,7 @@ class Spell(Readable):
     s: float
     until_s: float
     relieved: int | None
-    _units = {"begin": "s", "end": "s", "until_s": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    _units = {"begin": "s", "end": "s", "s": "m"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     @property
     def way(self) -> float:
@@ -73,6 +73,7 @@ class Carried(Readable):
     time: float
     way: float
     longest: float
+    _units = {"way": "m", "longest": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -89,7 +90,7 @@ class Crew(Readable):
     stop: float
     needed: tuple[int, ...]
     spells: tuple[Spell, ...]
-    _units = {"start": "s", "stop": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
+    _units = {"people": ""}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
     def on_benches(self, time: float) -> list[list[int]]:
         """The people on each bench at a time [s]; at a change those who come in. Nobody outside the dance."""
@@ -128,6 +129,7 @@ class Relief(Readable):
     shift: float | None = None
     places: Sequence[float] = ()
     rest: float = 0.0
+    _units = {"shift": "s", "places": "m", "rest": "s"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @question_about("dance", Dance, "the crew was not planned")

@@ -19,8 +19,8 @@ from itertools import pairwise
 import numpy as np
 
 from core.dance import Dance
-from core.display import Readable
-from core.errors import InvalidValue, Quantity, bound, checked_number, question_about
+from core.display import LINE_DIGITS, Readable, display, format_count
+from core.errors import InvalidValue, Quantity, bound, checked_number, checked_type, question_about
 from core.kernels import Budget
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
@@ -55,6 +55,7 @@ class Stand(Readable):
     y: float
     s: float
     heading: float
+    _units = {"s": "m", "heading": "rad"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -121,6 +122,13 @@ class BenchCues(Readable):
     done: Stand
     _units = {"direction": "rad"}  # noqa: RUF012 - a field of a dataclass may not be annotated here
 
+    def _line(self) -> str:
+        walks = (
+            f"walks from {display(self.begin.time, 's', LINE_DIGITS)} to {display(self.done.time, 's', LINE_DIGITS)}"
+        )
+        met, paused = format_count(len(self.meetings), "meeting"), format_count(len(self.pauses), "pause")
+        return f"bench {self.bench} {walks}, {met}, {paused}, at most {display(self.fastest.speed, 'm/s', LINE_DIGITS)}"
+
 
 @question_about("dance", Dance, "the cues were not found")
 def bench_cues(
@@ -183,6 +191,8 @@ def bench_cues(
 def _checked_benches(dance: Dance, benches: Sequence[int] | None) -> list[int]:
     """The benches to follow. raises: InvalidValue"""
     count = dance.dragon.benches
+    if benches is not None:
+        checked_type("benches", benches, (list, tuple, range))
     followed = list(range(count)) if benches is None else [*benches]
     if not 1 <= len(followed) <= FOLLOWED_MAX:
         rule = "must name from 1 to {most} benches"

@@ -20,6 +20,7 @@ ROOMS = {
     "judgement": ("The verdict on a dance", ("core.judgement", "core.failures")),
     "design": ("Design: pitches and turns", ("core.design",)),
     "tolerance": ("Tolerance", ("core.tolerance",)),
+    "people": ("The people of a dance", ("core.people",)),
     "performance": ("Several dragons", ("core.performance",)),
     "proposal": ("Proposals for a square", ("core.proposal",)),
     "ground": ("Ground that benches sweep", ("core.ground",)),

@@ -10,6 +10,7 @@ from typing import Any
 
 import httpx
 import numpy as np
+import pypdfium2
 import pytest
 
 import core
@@ -279,3 +280,57 @@ def test_a_pause_has_a_length(client: httpx.Client) -> None:
     assert first.json() == second.json()
     refused = client.post("/check", json=body | {"passages": [{"speed": 0, "until_time": 5, "duration": 3}]})
     assert "must be left out beside passages[0].until_time" in refused.json()["detail"] or "until_time" in refused.text
+
+
+BEATS = [
+    {"bars": 4, "tempo": 96, "step": 0.6},
+    {"bars": 2, "tempo": 60, "step": 0},
+    {"bars": 8, "tempo": 120, "step": 0.45},
+]
+LANE = {"kind": "route", "start": 20, "pieces": [{"kind": "line", "start": [0, 0], "end": [80, 0]}]}
+
+
+def test_beats_give_the_speeds_that_their_passages_give(client: httpx.Client) -> None:
+    passages = [{"speed": 0.96, "until_time": 10}, {"speed": 0, "until_time": 18}, {"speed": 0.9, "until_time": 34}]
+    body = {"dragon": {"benches": 6}, "path": LANE, "start_clock": "19:30"}
+    for name in ("check", "trajectory"):
+        answers = [client.post(f"/{name}", json=body | speeds) for speeds in ({"beats": BEATS}, {"passages": passages})]
+        assert answers[0].raise_for_status().content == answers[1].content
+
+
+def test_cards_and_plan_count_in_bars_and_beats(client: httpx.Client) -> None:
+    body = {"dragon": {"benches": 6}, "path": LANE, "beats": BEATS, "head_speed": 0.9}
+    body |= {"first_bench": 2, "last_bench": 2}
+    cues = client.post("/cues", json=body).raise_for_status().json()["cards"][0]["cues"]
+    assert [(cue["kind"], cue["count"]) for cue in cues] == [("begin", "1.1"), ("pause", "5.1"), ("done", None)]
+    assert "until 7.1 0:18.0" in cues[1]["words"]
+    table = client.post("/cues", json=body, headers={"accept": "text/csv"}).raise_for_status().text
+    assert [line["count"] for line in csv.DictReader(io.StringIO(table))] == ["", "1.1", "5.1", ""]
+    texts = []
+    for name in ("cues", "plan"):
+        request = {key: value for key, value in body.items() if name == "cues" or "bench" not in key}
+        data = client.post(f"/{name}", json=request, headers={"accept": "application/pdf"}).raise_for_status().content
+        texts.append(" ".join(page.get_textpage().get_text_bounded() for page in pypdfium2.PdfDocument(data)))
+    assert "5.1" in texts[0]
+    assert "5.1 0:10.0" in texts[1]
+
+
+@pytest.mark.parametrize(
+    ("change", "pointer", "words"),
+    [
+        ({"beats": [{"bars": 16, "tempo": 0, "step": 0.6}]}, "/beats/0/tempo", "tempo must be at least 10"),
+        (
+            {"beats": [{"bars": 16, "tempo": 96, "step": 0.001}]},
+            "/beats/0/step",
+            "must be 0, to mark time, or at least",
+        ),
+        ({"beats": [{"bars": 0.5, "tempo": 96, "step": 1}]}, "/beats/0/bars", "bars must be a whole number"),
+        ({"beats": BEATS, "passages": PASSAGES}, "/passages", "passages must be left out beside beats"),
+    ],
+    ids=["tempo 0", "tiny step", "half a bar", "both"],
+)
+def test_beats_that_cannot_be_are_refused(client: httpx.Client, change: Any, pointer: str, words: str) -> None:
+    refused = client.post("/check", json={"dragon": {"benches": 6}, "path": LANE} | change)
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["pointer"] == pointer
+    assert words in refused.json()["detail"]

@@ -74,7 +74,7 @@ LANE = Waypoints(((0, 0), (6, 1), (11, 6), (9, 13)))
 CONTACT = first_contact(Dance(Dragon(), Spiral()))
 
 # Functions without a budget: their work grows only with arrays that their caller made.
-SMALL = {"bench_outlines", "bench_poses", "course", "separation", "verdicts"}
+SMALL = {"bench_outlines", "bench_poses", "card_of", "course", "separation", "verdicts"}
 
 Question = Callable[[Budget | None], Any]
 # Every question that takes a budget; the calls here have more work than the short ones that they replace.

@@ -64,6 +64,14 @@ def results() -> Iterator[Any]:
     yield from (chance, chance.claim)
     yield core.propose(SQUARE, Dragon(150), figures=["ring"]).reason
     yield from parts(core.course(core.Legs([(0, 0), (9, 0), (9, 9)], [0, 1], radius=1.0), Dragon(2)))
+    there_and_back = Route(
+        [Line((0, 0), (40, 0)), Arc((40, 2), 2.0, -0.5 * math.pi, math.pi), Line((40, 4), (0, 4))], 30
+    )
+    paused = Dance(
+        Dragon(12), there_and_back, 1.0, [core.Passage(1.0, until_s=9.0), core.Passage(0.0, until_time=20.0)]
+    )
+    yield from parts(core.card_of(core.bench_cues(paused, [5])[0]))
+    yield from core.crew(DANCE, [2] * 223, stop=9.0).carried[:1]
     yield core.Misplaced("well", 3, (1.0, 2.0))
     yield core.NearPass(75.06, 0.06, (0, 1), (1, 4))
 
@@ -78,6 +86,7 @@ INPUTS = [
     core.Passage(0.5, until_s=20.0),
     core.Stray(0.02, 0.055, 0.05),
     core.Gate((-20.0, 3.0), 0.1),
+    core.Relief(4, 600.0, (20.0, 45.5), rest=60.0),
     core.Wobble(lateral=0.02, pitch_error=0.001),
     Line((0.0, 1.0), (2.0, 3.0)),
     Arc((0.0, 0.0), 4.5, 0.25, -1.5),

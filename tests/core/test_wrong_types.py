@@ -49,7 +49,7 @@ WRONG = {
 # None stands for a default there, and these are right there.
 ALLOWED = {
     ("nothing", name)
-    for name in ("venue", "speed_limit", "start", "step", "stop", "entry_radius", "exit_radius", "ratio")
+    for name in ("venue", "benches", "speed_limit", "start", "step", "stop", "entry_radius", "exit_radius", "ratio")
 } | {("nothing", name) for name in ("start_heading", "end_heading", "gates", "figures")}
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
 

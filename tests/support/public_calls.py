@@ -21,8 +21,12 @@ NEAR = core.Performance(
 )
 # The second one stands where the first one does.
 ENCOUNTER = core.first_encounter(core.Performance([core.Part(DANCE), core.Part(core.Dance(DRAGON, SPIRAL))]), stop=9.0)
+CUES = core.bench_cues(DANCE, [2], stop=9.0)[0]
 # A valid call of each function; the names are those of its parameters.
 CALLS: dict[Callable[..., Any], dict[str, Any]] = {
+    core.bench_cues: {"dance": DANCE, "benches": [0], "reach": 8.0, "start": 0.0, "stop": 9.0},
+    core.card_of: {"bench": CUES},
+    core.crew: {"dance": DANCE, "needed": [2] * 5, "relief": core.Relief(1, 3.0), "start": 0.0, "stop": 9.0},
     core.bench_outlines: {"dragon": DRAGON, "handles": np.zeros((6, 2)) + np.arange(6)[:, None]},
     core.bench_poses: {"handles": np.zeros((3, 2)) + np.arange(3)[:, None]},
     core.check: {"dance": DANCE, "venue": SQUARE, "margin": 0.0, "speed_limit": 2.0, "stop": 9.0},

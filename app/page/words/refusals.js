@@ -70,6 +70,7 @@ export const RULES = {
   "be shorter than the dance, which takes {most}": [undefined, "应短于全程（{most}）"],
   "be at least 1 where people change": [undefined, "有人换班时至少应为 1"],
   "be within {within} of the path that the dragon walks": [undefined, "应在路线 {within} 以内"],
+  "be 0, to mark time, or at least {least}": [undefined, "应为 0（原地踏步），或至少为 {least}"],
   "be during the dance, from {first} to {last}": [undefined, "应在舞龙期间（{first} 至 {last}）"],
   "be 0, for a pause, or at least {least}": [undefined, "应为 0（停顿），或至少为 {least}"],
 };

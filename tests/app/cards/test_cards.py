@@ -222,6 +222,19 @@ def test_chinese_cards_are_the_same_from_a_terminal(client: httpx.Client, body: 
         assert words in text
 
 
+def test_cards_are_chosen_by_name_and_by_number(client: httpx.Client, body: dict[str, Any], tmp_path: Path) -> None:
+    names = ["", "Wang", "17", *[""] * 21]  # bench 2 is named 17
+    request = body | {"dragon": {"benches": 24, "names": names}}
+    cards = json.loads(asked(client, request | {"cards": ["Wang", 5, "17", "6"]}, "application/json"))["cards"]
+    assert [card["bench"] for card in cards] == [1, 5, 2, 6]
+    alone = json.loads(asked(client, request | {"first_bench": 5, "last_bench": 5}, "application/json"))["cards"]
+    assert cards[1:2] == alone
+    file, output = tmp_path / "dance.json", tmp_path / "cues.json"
+    file.write_text(json.dumps(request))
+    run("cues", str(file), "--bench", "Wang", "--bench", "6", "--output", str(output))
+    assert [card["bench"] for card in json.loads(output.read_text())["cards"]] == [1, 6]
+
+
 @pytest.mark.parametrize(
     ("change", "pointer", "words"),
     [
@@ -231,10 +244,16 @@ def test_chinese_cards_are_the_same_from_a_terminal(client: httpx.Client, body: 
         ({"dragon": {"benches": 100_000}, "path": {"kind": "spiral"}, "stop": 5}, "/last_bench",
          "cards must be at most 1000: choose the benches with first_bench and last_bench, got 100000"),
         ({"path": {"kind": "spiral"}}, "/stop", "speeds grow without bound"),
+        ({"cards": ["Li"]}, "/cards/0", "cards[0] must be the name or the number of a bench, got 'Li'"),
+        ({"cards": [3, 24]}, "/cards/1", "cards[1] must be at most 23, the tail, got 24"),
+        ({"cards": [3], "last_bench": 5}, "/last_bench", "last_bench must be left out beside cards, got 5"),
         ({"step_length": 0}, "/step_length", "must be"),
         ({"reach": -1}, "/reach", "must be"),
     ],
-    ids=["one name twice", "no such bench", "backwards", "too many", "fold", "no step", "no reach"],
+    ids=[
+        "one name twice", "no such bench", "backwards", "too many", "fold", "no name", "no number", "twice", "no step",
+        "no reach",
+    ],
 )  # fmt: skip
 def test_bad_input_is_one_sentence(client: httpx.Client, body: Any, change: Any, pointer: str, words: str) -> None:
     refused = client.post("/cues", json=body | change)

@@ -14,7 +14,19 @@ from PIL import Image, ImageSequence
 
 from app.files.film import FilmPicture, film
 from app.files.film_spec import GIF_TYPE, MP4_TYPE, FilmSpec
-from core import Budget, Dance, Dragon, Spiral, TooMuchWork, Turn, bench_poses, first_contact, trajectory
+from core import (
+    Budget,
+    Dance,
+    Dragon,
+    Spiral,
+    TooMuchWork,
+    Turn,
+    bench_outlines,
+    bench_poses,
+    first_contact,
+    trajectory,
+)
+from core.people.beats import Bars, Music
 from tests.support.command import run
 from tests.support.depth import some
 
@@ -162,3 +174,57 @@ def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
     with pytest.raises(TooMuchWork, match="the film was not drawn"):  # not: the trajectory of the first frames
         film(Dance(Dragon(benches=5), Spiral()), spec, form, budget=budget)
     assert len(film(Dance(Dragon(benches=5), Spiral()), FilmSpec(0.0, 1.0, 0.2, 10), form)) > 1000
+
+
+# A march of which a film shows a part in slow motion, and the error with which a stroke may be heard [s].
+MARCH = [{"bars": 2, "tempo": 96, "step": 0.6}, {"bars": 2, "tempo": 132, "step": 0.3, "beats": 3}]
+HEARD = 0.010
+# A stroke is heard where the sound first passes this loudness again [1], and this long after the one before [s].
+LOUD, APART = 0.15, 0.2
+
+
+def onsets(data: bytes) -> list[float]:
+    """Times at which the sound of a film begins to be loud [s], by the times that its packets name."""
+    with av.open(io.BytesIO(data)) as file:
+        stream = file.streams.audio[0]
+        assert stream.codec_context.name == "aac"
+        parts = [(float(frame.pts * frame.time_base), frame.to_ndarray()[0]) for frame in file.decode(stream)]
+        rate = stream.codec_context.sample_rate
+    times = np.concatenate([begin + np.arange(part.size) / rate for begin, part in parts])
+    loud = times[np.abs(np.concatenate([part for _, part in parts])) > LOUD]
+    return [float(one) for k, one in enumerate(loud) if k == 0 or one - loud[k - 1] > APART]
+
+
+def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
+    start, stop, seconds, rate = 1.0, 6.0, 8.0, 10
+    request = {"dragon": {"benches": 3}, "beats": MARCH, "start": start, "stop": stop, "seconds": seconds}
+    data = client.post("/films", json=request | {"rate": rate, "height": 90}).raise_for_status().content
+    beats = [60 / 96 * k for k in range(8)] + [5.0 + 60 / 132 * k for k in range(6)]
+    # Each frame shows its instant as long as it stands; between two of them time goes on evenly.
+    frames = FilmSpec(start, stop, seconds, rate).times
+    heard = np.interp([beat for beat in beats if start <= beat <= stop], frames, np.arange(frames.size) / rate)
+    found = onsets(data)
+    assert len(found) == len(heard) == 9
+    assert np.abs(np.array(found) - heard).max() < HEARD
+    # The pictures are those of the same dance without a sound.
+    with av.open(io.BytesIO(data)) as file:
+        assert file.streams.video[0].frames == frames.size
+        length = float(file.streams.audio[0].duration * file.streams.audio[0].time_base)
+        assert length == pytest.approx(seconds, abs=0.05)
+    assert client.post("/films", json=request | {"rate": rate, "height": 90}).content == data
+
+
+def test_a_film_counts_bars_and_beats(client: httpx.Client) -> None:
+    music = Music([Bars(2, 96.0, 0.6), Bars(2, 132.0, 0.3, beats=3)])
+    dance = Dance(Dragon(3), Spiral(), 1.0, music.passages)
+    stage = FilmPicture(dance, FilmSpec(0.0, 9.0, music=music), None, "")
+    for instant, words in ((0.0, "bar 1 beat 1  0.00 s"), (5.46, "bar 3 beat 2  5.46 s"), (8.5, "8.50 s")):
+        stage.frame(instant, bench_outlines(dance.dragon, trajectory(dance, [instant]).position)[0])
+        assert stage.time.get_text() == words
+    gif = client.post("/films", json={"beats": MARCH, **SMALL}, headers={"Accept": GIF_TYPE}).raise_for_status()
+    assert gif.content.startswith(b"GIF89a")
+
+
+def test_a_film_without_beats_has_no_sound(client: httpx.Client) -> None:
+    with av.open(io.BytesIO(client.post("/films", json=SMALL).raise_for_status().content)) as file:
+        assert len(file.streams.audio) == 0

@@ -107,6 +107,11 @@ def test_every_font_is_in_the_file(pages: Any) -> None:
         assert all(font.is_embedded for font in used)
 
 
+def test_fonts_are_true_type(data: bytes) -> None:
+    assert b"/FontFile2" in data
+    assert b"/Type3" not in data
+
+
 def test_no_words_are_painted_over(pages: Any) -> None:
     drawn = list(pages[-1].get_objects())
     complete = (ctypes.c_uint * 4)()
@@ -164,6 +169,24 @@ def test_a_plan_in_chinese_on_a3_is_the_same_from_a_terminal(client: httpx.Clien
     assert size(page) == pytest.approx([420.0, 297.0], abs=0.01)
     assert all(word in words(page) for word in ("板凳龙 2027", "保持清空", "检查：通过", "1:200"))
     assert holds_box(page, 30.0, 20.0)
+
+
+def test_a_gate_stands_on_the_map_and_has_the_times_of_head_and_tail(client: httpx.Client, tmp_path: Path) -> None:
+    # The head is at x = t, the last handle 2.86 + 5 1.65 m behind it.
+    gates = [{"name": "north gate", "x": 21.3, "y": 2.0}]
+    data = client.post("/plan", json=BODY | {"gates": gates}).raise_for_status().content
+    pages = list(pypdfium2.PdfDocument(data))
+    assert "north gate" in words(pages[0])
+    table = " ".join(words(pages[-1]).split())
+    for text in ("Head and tail at the gates", "north gate", "21.3 m", "0:21.3", "0:32.4"):
+        assert text in table
+    file = tmp_path / "dance.json"
+    file.write_text(json.dumps(BODY))
+    run("plan", str(file), "--gate", "north gate,21.3,2", "--output", str(tmp_path / "plan.pdf"))
+    assert (tmp_path / "plan.pdf").read_bytes() == data
+    refused = client.post("/plan", json=BODY | {"gates": [{"name": "far", "x": 21.3, "y": 8}]})
+    assert refused.status_code == 422
+    assert refused.json()["detail"] == "gates[0] must be within 5 m of the path that the dragon walks, got 'far'"
 
 
 def test_a_spiral_has_its_radius_and_angle_and_its_failure_in_the_title(client: httpx.Client) -> None:
