@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import json
 import logging
+import math
+import time
+from collections import Counter
 from contextvars import ContextVar
 from copy import deepcopy
+from threading import Lock
 from typing import Any
 
 # Name of the current request; empty between requests.
@@ -32,6 +36,33 @@ class RequestName(logging.Filter):
         name = request_id.get()
         record.request_id, record.of_request = name, f" [{name}]" if name else ""
         return True
+
+
+class Faults:
+    """Faults that repeat: each is logged when it comes first, and how often it came when all are over.
+
+    words: of the line, with the fault as its argument
+    """
+
+    def __init__(self, logger: logging.Logger, words: str) -> None:
+        self.logger, self.words = logger, words
+        self.last = -math.inf  # time of the last one [s, monotonic]
+        self._lock, self._times = Lock(), Counter[str]()
+
+    def log(self, fault: str) -> None:
+        with self._lock:
+            self.last = time.monotonic()
+            self._times[fault] += 1
+            if self._times[fault] == 1:
+                self.logger.error(self.words, fault)
+
+    def over(self) -> None:
+        """Log how often faults came that are over."""
+        with self._lock:
+            for fault, times in self._times.items():
+                if times > 1:
+                    self.logger.error(f"{self.words} (%d times; it is over)", fault, times)
+            self._times.clear()
 
 
 class JsonLines(logging.Formatter):

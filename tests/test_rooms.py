@@ -35,7 +35,7 @@ TOGETHER = {
     "jobs/test_disk.py": "jobs/reserve",
     "jobs/test_limits.py": "jobs/keeper service/token",
     "service/test_job_routes.py": "jobs/task service/job_bodies service/job_metrics",
-    "jobs/test_runner.py": "files/lock jobs/reports jobs/work logs",
+    "jobs/test_runner.py": "files/lock jobs/reports jobs/work",
     "jobs/test_store.py": "files/flush jobs/job jobs/room jobs/tables jobs/turns",
     "jobs/test_sweeps.py": "jobs/sweeping",
     "maps/test_maps.py": "command/places files/words maps/dxf maps/features maps/geojson maps/kml maps/layout"

@@ -20,6 +20,7 @@ from app.files.fonts import kept_list
 from app.files.lock import FolderLock
 from app.files.scratch import reclaim, temporary
 from app.jobs.store import Store
+from app.logs import Faults
 from app.processes.child import Child
 from app.settings import Settings
 
@@ -27,6 +28,8 @@ logger = logging.getLogger("uvicorn.error")
 
 # Longest wait of new work for a keeper in another process [s].
 KEEP_SECONDS = 1.0
+# Time after the last fault of the store from which faults are over [s].
+OVER_SECONDS = 60.0
 # Longest time for a runner to end [s].
 END_SECONDS = 5.0
 # Time after which the children of a killed process have ended [s].
@@ -44,6 +47,7 @@ class Keeper:
 
     def __init__(self, store: Store, settings: Settings) -> None:
         self.store, self.settings = store, settings
+        self.faults = Faults(logger, "The store of the jobs failed, and is tried again each second: %s")
         self.free = BoundedSemaphore(settings.jobs_listeners_max)
         self.leaving = Event()
         self._lock = FolderLock(store.folder, "keeper")
@@ -69,7 +73,6 @@ class Keeper:
         self._lock.give_back()
 
     def _keep(self) -> None:
-        reported = ""
         while not self.leaving.is_set():
             try:
                 self.store.check()
@@ -78,11 +81,10 @@ class Keeper:
                     if ended and self.store.has_work(self.settings.job_days_max):
                         self._runner = Child("app.jobs.runner", str(self.store.folder), answers=False)
                     self._clear()
-                reported = ""
+                if time.monotonic() > self.faults.last + OVER_SECONDS:
+                    self.faults.over()
             except (OSError, sqlite3.Error) as error:
-                if str(error) != reported:  # Logged once: the folder may be gone for hours.
-                    reported = str(error)
-                    logger.error("The store of the jobs failed, and is tried again each second: %s", reported)
+                self.faults.log(str(error))  # The folder may be gone for hours.
             self._wake.wait(KEEP_SECONDS)
             self._wake.clear()
 

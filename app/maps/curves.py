@@ -22,14 +22,15 @@ from core.values import Floats
 SAG = 0.005
 # Largest radius of an arc [m]: the arcs of a flat bulge in a side of 100 m have one of 1,000 km.
 RADIUS_MAX = 1e9
-# Highest degree of a spline; programs write 3, seldom 5.
-DEGREE_MAX = 25
+# Highest degree of a spline; programs write 3, seldom 5. Most points through which one that has no control points goes:
+# memory grows with the square of their number.
+DEGREE_MAX, FIT_POINTS_MAX = 25, 1_000
 # Vertex of a POLYLINE that does not lie on it: a control point of the curve that others follow.
 CONTROL_POINT = 16
 
 
 class Damaged(Exception):
-    """A curve whose numbers do not fit together."""
+    """A curve whose numbers do not fit together, or are too many, in words."""
 
 
 def points_of(entity: Any, factor: float) -> Floats:
@@ -160,6 +161,8 @@ def _side(a: Floats, b: Floats, bulge: float, factor: float) -> Floats:
 # and nothing outside u[p] .. u[n]. Its second derivative there is a mean of the control points of the second
 # derivative, which are differences of P. A chord over a step h is at most h^2 / 8 times that from it.
 def _spline(entity: Any, sag: float) -> Floats:
+    if len(entity.fit_points) > FIT_POINTS_MAX and not len(entity.control_points):
+        raise Damaged(f"SPLINE through more than {FIT_POINTS_MAX} points")
     tool = entity.construction_tool()
     control = np.array([[float(point.x), float(point.y), 1.0] for point in tool.control_points])
     knots, degree = np.array(tool.knots(), dtype=float), int(tool.order) - 1

@@ -32,10 +32,12 @@ def read_dance(file: Path) -> dict[str, Any]:
         raise InvalidValue.in_words("file", words, got=ending or "no ending", file=str(file), endings=endings)
     piped = standard_input() if str(file) == "-" else b""
     if ending != ".toml" and (not piped.strip() or piped.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")):
-        request = read_json(file)
+        with reading():
+            request = read_json(file)
     else:
         try:
-            request = toml_of(piped or file.read_bytes())
+            with reading():
+                request = toml_of(piped or file.read_bytes())
         except Unreadable as error:
             raise error.of("file", display_name(file)) from error
     if not request:

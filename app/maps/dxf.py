@@ -30,7 +30,7 @@ UNITS = {1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 0.001, 5: 0.01, 6: 1.0, 7: 1000.0
 ACROSS_MAX = 2_000.0
 # Most lines and most records of a file, counted before ezdxf reads it: it takes 50 us for a record (2026-11-26).
 LINES_MAX, RECORDS_MAX = 2_000_000, 100_000
-RECORD_BEGIN = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*[A-Z]")
+RECORD_BEGIN = re.compile(rb"\n[^\S\n]*[+-]?0[0_]*[^\S\n]*\n[^\S\n]*[A-Za-z_]")
 # Layer of each role, with its number in the colour index of AutoCAD: white or black, grey, blue, red.
 LAYERS = {"square": ("SQUARE", 7), "obstacle": ("OBSTACLES", 8), "path": ("PATH", 5), "mark": (MARKS, 1)}
 # Words of ezdxf for an entity that it has left out, with its kind in group 1.

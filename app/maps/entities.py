@@ -138,8 +138,8 @@ class Entities:
     def _add_curve(self, entity: Any, feature: MapFeature) -> None:
         try:
             places = [(x, y) for x, y in points_of(entity, self.factor).tolist()]
-        except Damaged:
-            self.collector.leave_out(f"damaged {entity.dxftype()}")
+        except Damaged as error:
+            self.collector.leave_out(str(error) or f"damaged {entity.dxftype()}")
             return
         points = tuple(b for a, b in zip((None, *places), places, strict=False) if a is None or dist(a, b) > SAME)
         if len(points) < 2:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import codecs
-import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -25,7 +24,7 @@ from app.maps.tracks import CHORD
 from app.processes.limits import reading
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
-from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, toml_of
+from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, refuse_deep, toml_of
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 from core.errors import Given, Parameter
 
@@ -36,9 +35,6 @@ FILE_MAX = 20_000_000
 DANCE_MAX = 4_000_000
 # Most objects and lists of GeoJSON, TOML or JSON: twice those of the largest map.
 PARTS_MAX = 2 * (POINTS_MAX + 3 * FEATURES_MAX)
-# A name in TOML with more parts than this, as in a.b.c; the time to read one grows with the square of their number.
-KEY_PARTS_MAX = 20
-LONG_KEY = re.compile(rb"(?<![\w-])(?:[\w-]{1,40}[ \t]*\.[ \t]*){20}")
 MARKS_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
@@ -145,17 +141,17 @@ def _of_text(start: bytes, units: Coordinates | None, say: Say) -> DanceParts:
             raise InvalidValue("file", "must be JSON without a fault: {why}", why=str(error)) from error
         if "type" in content:
             return Reading(geojson.read(content), units, say).parts()
-        _refuse_long(start)
-        return _of_dance(content, say)
     _refuse_long(start)
-    if LONG_KEY.search(start):
-        raise InvalidValue("file", "must not have a name of more than {most} parts", most=KEY_PARTS_MAX)
     try:
-        return _of_dance(toml_of(start), say)
+        if start.startswith(b"{"):
+            refuse_deep(content)
+        else:
+            content = toml_of(start)
     except Unreadable as error:
-        content = error.of("file", "it")
-        rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {content.template}: {content.reason}"
-        raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **content.values) from error
+        why = error.of("file", "it")
+        rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {why.template}: {why.reason}"
+        raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **why.values) from error
+    return _of_dance(content, say)
 
 
 def _refuse_long(data: bytes) -> None:

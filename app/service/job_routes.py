@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import difflib
 import io
-import logging
 import math
 import os
 import re
@@ -65,8 +64,6 @@ from app.wire.problem import PROBLEM_TYPE, item_of
 from app.wire.question import JSON, FileFormat, check_limit, short_json
 from core import BenchDragonError
 from core.errors import Given, Quantity
-
-logger = logging.getLogger("uvicorn.error")
 
 # Time between two checks for news, and between two signs of life while there are none [s].
 LOOK_SECONDS, BEAT_SECONDS = 0.25, 15.0
@@ -128,7 +125,7 @@ def take(request: Request, task: Task, cost: float) -> Response:
     except Full as error:
         raise full(error, keeper.settings) from error
     except OSError as error:
-        logger.error("The store of the jobs failed: %s", error.strerror)
+        keeper.faults.log(str(error))
         words = "This service takes no jobs now: the store of the jobs failed."
         raise Refused(503, words, None, COME_AGAIN) from error
     keeper.hurry()
@@ -170,7 +167,7 @@ async def store_problem(request: Request, error: Exception) -> Response:
     if getattr(error, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL:
         words = "removing a job needs some room too: free some" if request.method == "DELETE" else MAKE_ROOM
         return problem(507, "insufficient-storage", f"The disk of the data folder is full: {words}.")
-    logger.error("The store of the jobs failed: %s", error)
+    keeper_of(request).faults.log(str(error))
     words = "The store of the jobs failed ({why}): try again."
     return problem(503, "service-unavailable", words, headers=COME_AGAIN, why=str(error))
 

@@ -23,7 +23,7 @@ from app.sweeps import shards
 from app.sweeps.run import SPEC_FILE, TABLE_FILE, missing_shards
 from app.sweeps.spec import Spec
 from app.wire.question import JSON
-from app.wire.texts import FORMULA
+from app.wire.texts import TO_CELL
 from core import InvalidValue
 from core.display import format_count
 from core.errors import Given
@@ -246,6 +246,6 @@ def without_formulas(table: pa.Table) -> pa.Table:
     """A table whose texts no spreadsheet takes for formulas: as text_to_cell()."""
     for k, field in enumerate(table.schema):
         if pa.types.is_string(field.type) or pa.types.is_large_string(field.type):
-            cells = pc.replace_substring_regex(table.column(k), f"^({FORMULA.pattern})", r"'\1")
+            cells = pc.replace_substring_regex(table.column(k), TO_CELL, r"\1'\2")
             table = table.set_column(k, field, cells)
     return table

@@ -26,6 +26,8 @@ WORDS = {
     "width": ("width", "宽度", "宽"),
     "overhang": ("overhang", "孔心距板头", "孔距", "端距"),
 }
+# Most lines of a table [1]: reading 100,000 takes a second.
+LINES_MAX = 200_000
 STATED = re.compile(r"sep=([\t;,])")
 SIZES = {"length": LENGTHS, "width": WIDTHS, "overhang": OVERHANGS}
 
@@ -60,6 +62,8 @@ def bench_table(text: str) -> BenchTable:
     [3.41]
     """
     lines = text.removeprefix("\N{ZERO WIDTH NO-BREAK SPACE}").splitlines()
+    if len(lines) > LINES_MAX:
+        raise InvalidValue("dragon.csv", "must have at most {most} lines", got=len(lines), most=LINES_MAX)
     first = next((k for k, line in enumerate(lines) if line.strip()), None)
     if first is None:
         raise _line_error(1, "must be the names of columns name,length,width,overhang", got="nothing")

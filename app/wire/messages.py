@@ -68,8 +68,8 @@ def fault_of(error: Mapping[str, Any], request_type: Any, thing: str = OBJECT) -
         return InvalidValue.in_words(
             name, f"{{table}}: {inner.template}", got=inner.got, reason=inner.reason, **inner_values
         )
-    kind = next((part for part in reversed(names) if part in KINDS), "")
-    unit = "" if AXIS in names else units.get(f"{kind}.{name}", units.get(name, ""))
+    owner = next((part for part in reversed(names) if f"{part}.{name}" in units), "")
+    unit = "" if AXIS in names else units.get(f"{owner}.{name}", units.get(name, ""))
     indices = list(takewhile(lambda part: isinstance(part, int), reversed(place)))
     subject = ".".join(map(str, [name, *reversed(indices)]))
     if AXIS in names:
@@ -183,20 +183,34 @@ def _field_name(names: Sequence[str], units: Mapping[str, str], place: Sequence[
 
 @cache
 def known_units() -> dict[str, str]:
-    """Name of every request field -> its unit, empty for a pure number; fields of a path also by kind and name."""
-    return _units(Wire.__subclasses__())
+    """Name of every request field -> its unit, empty for a pure number.
 
-
-def _units(models: list[type[Wire]]) -> dict[str, str]:
-    units: dict[str, str] = {}
-    for model in sorted(models, key=lambda model: "kind" in model.model_fields):
-        kind = model.model_fields.get("kind")
+    Fields of a path stand there also as kind.name, and those of the objects in a list as list.name.
+    """
+    owned, units = owners(), dict[str, str]()
+    for model, before in sorted(owned.items(), key=lambda one: bool(one[1])):
         for name, field in model.model_fields.items():
-            for word in get_args(kind.annotation) if kind else ():
-                units[f"{word}.{name}"] = unit_of(field)
             units.setdefault(name, unit_of(field))
-        units = _units(model.__subclasses__()) | units
+            units |= {f"{owner}.{name}": unit_of(field) for owner in before}
     return units
+
+
+def owners() -> dict[type[Wire], list[str]]:
+    """For every model of requests what stands before its names: its kinds, or the fields that are lists of it."""
+    result: dict[type[Wire], list[str]] = {}
+    left: list[type[Wire]] = [Wire]
+    while left:
+        left = [inner for outer in left for inner in outer.__subclasses__()]
+        for model in left:
+            kind = model.model_fields.get("kind")
+            result[model] = [*get_args(kind.annotation)] if kind else []
+    for model in list(result):
+        for name, field in model.model_fields.items():
+            for form in (field.annotation, *get_args(field.annotation)):
+                for entry in get_args(form) if get_origin(form) is list else ():
+                    if entry in result and name not in result[entry]:
+                        result[entry].append(name)
+    return result
 
 
 def names_at(kind: Any, place: Sequence[Any]) -> list[str]:

@@ -24,19 +24,28 @@ WORKBOOKS = (b"PK", OLD_WORKBOOK)
 # Encoding of Chinese versions of Excel.
 CHINESE = "gb18030"
 NO_TEXT = re.compile("[\0\ud800-\udfff]")
+# Deepest nesting of objects and lists, of which no request has ten; pydantic and orjson write 254 (2026-11-27).
+DEPTH_MAX = 100
+# A name in TOML with more parts than this, as in a."b".c: memory and time to read one grow with the square of them.
+NAME_PARTS_MAX = 20
+LONG_NAME = re.compile(
+    rf"""(?<![\w-])(?:(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{NAME_PARTS_MAX}}}"""
+)
 
-
-# What a spreadsheet takes for the beginning of a formula (OWASP, CSV injection), perhaps behind our own mark.
-FORMULA = re.compile("'*[=+\\-@\t\r]")
+# What a spreadsheet takes for the beginning of a formula (OWASP, CSV injection), perhaps behind blanks and our own
+# mark: at the beginning of a text, and behind what separates the entries of a line elsewhere.
+FORMULA = r"(['\s\x{200b}\x{feff}]*[=+\-@\t\r\x{ff1d}\x{ff0b}\x{ff0d}\x{ff20}])"
+TO_CELL, OF_CELL = f"(^|[;\t]){FORMULA}", f"(^|[;\t])'{FORMULA}"
+_TO_CELL, _OF_CELL = (re.compile(re.sub(r"\\x{(\w+)}", r"\\u\1", one)) for one in (TO_CELL, OF_CELL))
 
 
 def text_to_cell(text: str) -> str:
-    """A text as an entry of CSV that no spreadsheet runs: with ' before it if it could be a formula.
+    """A text as an entry of CSV that no spreadsheet runs: with ' before what could be a formula.
 
-    >>> text_to_cell("=1+1"), text_to_cell("Li's"), text_to_cell("'=1")
-    ("'=1+1", "Li's", "''=1")
+    >>> text_to_cell("=1+1"), text_to_cell("Li's"), text_to_cell("'=1"), text_to_cell("x;=1")
+    ("'=1+1", "Li's", "''=1", "x;'=1")
     """
-    return f"'{text}" if FORMULA.match(text) else text
+    return _TO_CELL.sub(r"\1'\2", text)
 
 
 def text_of_cell(cell: str) -> str:
@@ -45,7 +54,7 @@ def text_of_cell(cell: str) -> str:
     >>> text_of_cell("'=1+1"), text_of_cell("'quoted'")
     ('=1+1', "'quoted'")
     """
-    return cell[1:] if cell.startswith("'") and FORMULA.match(cell) else cell
+    return _OF_CELL.sub(r"\1\2", cell)
 
 
 class Unreadable(InvalidValue):
@@ -105,13 +114,35 @@ def json_of(data: bytes) -> Any:
         value = json.loads(text, object_pairs_hook=_once)
     if ESCAPES.search(text):
         _refuse_no_text(value)
+    refuse_deep(value)
     return value
 
 
 def toml_of(data: bytes) -> dict[str, Any]:
     """The values of TOML. raises: Unreadable"""
+    text = text_of(data)
+    if LONG_NAME.search(text):
+        raise Unreadable.that("has a name of more than {most} parts", most=NAME_PARTS_MAX)
     with _refusing():
-        return tomllib.loads(text_of(data))
+        value = tomllib.loads(text)
+    refuse_deep(value)
+    return value
+
+
+def refuse_deep(value: Any) -> None:
+    """Refuse objects and lists that nest deeper than DEPTH_MAX, which nothing could write again. raises: Unreadable"""
+    level = [value]
+    for _ in range(DEPTH_MAX):
+        level = [inner for outer in level for inner in _entries(outer)]
+        if not level:
+            return
+    raise Unreadable.that("nests objects and lists more than {most} deep", most=DEPTH_MAX)
+
+
+def _entries(value: Any) -> list[Any]:
+    """The objects and lists in an object or a list."""
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return [one for one in inner if isinstance(one, (dict, list))]
 
 
 @contextmanager

@@ -118,6 +118,21 @@ def dotted_toml() -> bytes:
 
 
 @of_map
+def quoted_toml() -> bytes:
+    return b'"a" . ' * 300_000 + b"a = 1"
+
+
+@of_map
+def deep_toml() -> bytes:
+    return b"x = " + b"{a = " * 300 + b"1" + b"}" * 300
+
+
+@of_map
+def deep_json() -> bytes:
+    return b'{"path": null, "x": ' + b"[" * 300 + b"1" + b"]" * 300 + b"}"
+
+
+@of_map
 def integer_of_toml() -> bytes:
     return b"x = " + b"1" * 19_000_000
 
@@ -183,6 +198,17 @@ def array_of_dxf() -> bytes:
 @of_map
 def entities_of_dxf() -> bytes:
     return drawn("\n".join(["0\nPOINT\n10\n0\n20\n0"] * 900_000))
+
+
+@of_map
+def signed_records_of_dxf() -> bytes:
+    return b"0\nSECTION\n2\nENTITIES\n" + b"+0\nPOINT\n" * 900_000 + b"00\nENDSEC\n0\nEOF\n"
+
+
+@of_map
+def fit_points_of_dxf() -> bytes:
+    points = "".join(f"11\n{k % 7}\n21\n{k}\n" for k in range(20_000))
+    return drawn(f"0\nSPLINE\n8\nA\n70\n8\n71\n3\n74\n20000\n{points}")
 
 
 @of_map

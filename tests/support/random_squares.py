@@ -52,7 +52,7 @@ def random_case(seed: int | list[int]) -> Case:
     size = random.uniform(8.0, 45.0)
     angles = np.sort(random.uniform(0.0, math.tau, corners)) if random.random() < 0.5 else np.arange(corners)
     gaps = np.diff(angles, append=angles[0] + math.tau)  # around the centre, so that no side crosses another one
-    angles = angles if 0.0 <= gaps.min() and gaps.max() < 3.0 else np.linspace(0.3, 5.8, corners)
+    angles = angles if gaps.min() >= 0.0 and gaps.max() < 3.0 else np.linspace(0.3, 5.8, corners)
     radii = size * random.uniform(0.6, 1.0, corners)
     ring = np.stack([radii * np.cos(angles), random.uniform(0.5, 1.0) * radii * np.sin(angles)], axis=-1)
     square = Area("square", (closed(ring),))

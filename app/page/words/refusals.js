@@ -212,6 +212,7 @@ export const WHOLE = {
   "{field} must be a position of two numbers": ["A position in the file is not a pair of numbers", "文件中有一处坐标不是两个数字"],
   "{field} must be in metres, got what looks like longitude and latitude, a square of {width} by {height}, narrower than a bench of {length}": ["The square is only {width} by {height} m large: its coordinates look like longitude and latitude", "广场只有 {width} × {height} m：其坐标像是经纬度"],
   "{field} must be in metres, got what looks like latitude and longitude in that order, a square of {width} by {height}, narrower than a bench of {length}": ["The square is only {width} by {height} m large: its coordinates look like latitude and longitude", "广场只有 {width} × {height} m：其坐标像是经纬度，且纬度在前"],
+  "must have at most {most} lines": ["It has {got} lines, and may have {most}", "共 {got} 行，最多 {most} 行"],
   "{field} must not nest elements deeper than {most}": TOO_COMPLEX,
   "{field} must not nest objects deeper than {most}": TOO_COMPLEX,
   "{field} must unpack to at most {most} bytes": TOO_COMPLEX,

@@ -14,9 +14,9 @@ from app.questions.check import CheckRequest
 from app.questions.collision_time import CollisionQuery
 from app.questions.overlaps import OverlapsRequest
 from app.questions.trajectory import TrajectoryRequest
-from app.wire.messages import names_at
+from app.wire.messages import names_at, owners
 from app.wire.problem import BYTES_MAX
-from app.wire.question import Wire, unit_of
+from app.wire.question import unit_of
 
 
 def refusals(answer: httpx.Response) -> list[tuple[str, str, str]]:
@@ -135,19 +135,15 @@ def test_the_names_of_a_place_are_those_of_its_type() -> None:
 
 
 def test_a_name_has_the_same_unit_in_all_requests() -> None:
-    """Sentences take the unit from the name, whichever requests this process knows; pieces of a path say their kind."""
+    """Sentences take the unit from the name, whichever requests this process knows; pieces of a path and entries of a
+    list say whose they are."""
     for room in walk_packages(app.__path__, "app."):
         if room.name != "app.sweeps.cluster":
             import_module(room.name)
     units: dict[str, set[str]] = {}
-
-    def collect(model: type[Wire]) -> None:
-        for kind in model.__subclasses__():
-            for name, field in {} if "kind" in kind.model_fields else kind.model_fields.items():
-                units.setdefault(name, set()).add(unit_of(field))
-            collect(kind)
-
-    collect(Wire)
+    for model, before in owners().items():
+        for name, field in {} if before else model.model_fields.items():
+            units.setdefault(name, set()).add(unit_of(field))
     assert {name: result for name, result in units.items() if len(result) > 1} == {}
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import codecs
+import random
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from app.wire.texts import Unfit, Unreadable, json_of, text_of, toml_of
+from app.wire.texts import Unfit, Unreadable, json_of, text_of, text_of_cell, text_to_cell, toml_of
 
 DANCE = '{"path": {"pitch": 0.5}, "venue": "广场"}'
 
@@ -31,10 +32,14 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
         (json_of, b'{"a', "is not JSON: Unterminated string starting at character 1"),
         (json_of, b'{"a": \xff}', "is not text in UTF-8: byte 0xff at position 6"),
         (json_of, b"[" * 100_000, "nests too many objects and lists in one another"),
+        (json_of, b"[" * 101 + b"]" * 101, "nests objects and lists more than 100 deep"),
         (json_of, b"9" * 5000, "has a whole number of more than 4300 digits"),
         (toml_of, b"a =", "is not TOML: Invalid value (at end of document)"),
         (toml_of, b"a = 1\na = 2", "is not TOML: Cannot overwrite a value (at end of document)"),
         (toml_of, b"a = " + b"[" * 100_000, "nests too many objects and lists in one another"),
+        (toml_of, b"a = " + b"[" * 101 + b"]" * 101, "nests objects and lists more than 100 deep"),
+        (toml_of, b"a." * 20 + b"a = 1", "has a name of more than 20 parts"),
+        (toml_of, b"['a' . " + b'"\\"b" .c.' * 10 + b"d]", "has a name of more than 20 parts"),
         (toml_of, b"a = " + b"9" * 5000, "has a whole number of more than 4300 digits"),
         (toml_of, b"a = '\xff'", "is not text in UTF-8: byte 0xff at position 5"),
     ],
@@ -64,3 +69,38 @@ def test_json_that_fits_no_request_is_refused(data: bytes, words: str) -> None:
 
 def test_a_whole_character_in_two_escapes_is_text() -> None:
     assert json_of(b'{"a": "\\ud83d\\udc09"}') == {"a": "\N{DRAGON}"}
+
+
+def test_short_names_and_shallow_lists_are_read() -> None:
+    assert toml_of(b"a." * 19 + b"a = 1")["a"]
+    assert toml_of(b'text = "' + b"a.b " * 30 + b'"')
+    assert json_of(b"[" * 100 + b"]" * 100)
+
+
+@pytest.mark.parametrize(
+    ("text", "cell"),
+    [
+        ("=1+1", "'=1+1"),
+        (" =1+1", "' =1+1"),
+        ("x;=HYPERLINK(1)", "x;'=HYPERLINK(1)"),
+        ("x\t@SUM(1)", "x\t'@SUM(1)"),
+        ("\uff1d1+1", "'\uff1d1+1"),
+        ("\u200b=1", "'\u200b=1"),
+        ("x, -1", "x, -1"),
+        ("Li's", "Li's"),
+    ],
+)
+def test_no_part_of_a_cell_is_a_formula(text: str, cell: str) -> None:
+    assert text_to_cell(text) == cell
+    assert text_of_cell(cell) == text
+
+
+def test_every_text_comes_back_from_its_cell() -> None:
+    chance = random.Random(7)
+    for _ in range(20_000):
+        text = "".join(chance.choices("'=+-@;\t \r,x\u200b\uff1d", k=chance.randrange(9)))
+        cell = text_to_cell(text)
+        assert text_of_cell(cell) == text
+        assert not any(
+            part.strip("\u200b ")[:1] in set("=+-@\uff1d") for part in cell.split(";") if part.strip("\u200b ")
+        )
