@@ -19,42 +19,46 @@ from core.errors import Given
 
 
 def ending_of(file: Path) -> str:
-    """The ending of a name with its point, in lower case; empty for "dance" and, on every Python, for "dance."."""
+    """The ending of a file's name, as ".csv", in lower case; empty for "dance" and for "dance.".
+
+    Without removesuffix() "dance." would have the ending "." on some versions of Python, and none on others.
+    """
     return file.suffix.lower().removesuffix(".")
 
 
 def checked_output(option: str, file: Path, endings: Sequence[str] = ()) -> str:
-    """The ending of the file named by an option, checked before any work is done.
+    """The ending of the file that an option names. The file is checked here, before any work is done.
 
-    option: its name; endings: the allowed ones in lower case; none: any ending is allowed
+    option: its name; endings: the allowed ones, in lower case; empty: any ending is allowed
     raises: InvalidValue for another ending; OSError if the file cannot be written
     """
     ending = ending_of(file)
     if endings and ending not in endings:
-        *most, last = endings
-        words = f"{', '.join(most)} or {last}" if most else last
+        *others, last = endings
+        words = f"{', '.join(others)} or {last}" if others else last
         values = {"got": ending or "no ending", "option": option, "endings": words}
         raise InvalidValue.in_words(option, "--{option} must end in {endings}", **values)
     if file.is_dir():
-        raise _refused(errno.EISDIR, file)
+        raise _os_error(errno.EISDIR, file)
     target = file.resolve()
     if not target.parent.is_dir():
         words = "--{option} must be in a folder that exists"
         raise InvalidValue.in_words(option, words, got=str(file), option=option)
-    # An existing file may be replaced only by a user who may write both it and its folder.
-    touched = [target] if target.exists() else []
-    if not touched or target.is_file():
-        touched.append(target.parent)
-    if not all(os.access(place, os.W_OK) for place in touched):
-        raise _refused(errno.EACCES, file)
+    # write_whole() puts a new file into the folder, in the place of the old one; only a device or a pipe is written to
+    # directly. An old file that is read-only must not be replaced either.
+    written = [target] if target.exists() else []
+    if not written or target.is_file():
+        written.append(target.parent)
+    if not all(os.access(place, os.W_OK) for place in written):
+        raise _os_error(errno.EACCES, file)
     return ending
 
 
 def write_whole(file: Path, data: bytes) -> None:
     """Write a file completely or not at all; an existing file is kept until the new one is complete.
 
-    A temporary file in the same folder then replaces it in one step. A link is followed, an existing file keeps its
-    mode, and a device or a pipe is written to directly.
+    The data goes into a temporary file in the same folder, which takes the place of the file in one step. A link is
+    followed, an existing file keeps its mode, and a device or a pipe is written to directly.
     raises: OSError naming the file
     """
     target = file.resolve()
@@ -65,16 +69,17 @@ def write_whole(file: Path, data: bytes) -> None:
             with new_file(target.parent, f".{target.name[:100]}-", target) as sink:
                 sink.write(data)
     except OSError as error:
-        raise _refused(error.errno, file) from error
+        raise _os_error(error.errno, file) from error
 
 
-def _refused(number: int | None, file: Path) -> OSError:
+def _os_error(number: int | None, file: Path) -> OSError:
+    """The system's error of that number about this file, by the name that the user gave."""
     return OSError(number, os.strerror(number or errno.EIO), str(file))
 
 
 @cache
 def standard_input() -> bytes:
-    """All of standard input, also for the second of two figures of its dance."""
+    """All of standard input, kept because it can be read only once and several figures may be of its dance."""
     return sys.stdin.buffer.read()
 
 
@@ -96,5 +101,5 @@ def read_json(file: Path) -> dict[str, Any]:
 
 
 def object_words(file: Path) -> str:
-    """Word for an object in the format of a file."""
+    """What a message calls an object in this file: TOML has tables."""
     return "a table" if ending_of(file) == ".toml" else OBJECT

@@ -1,4 +1,4 @@
-/** Charts drawn by uPlot (clearance over time; stray and radius at first contact against the pitch), and ticks of all axes. */
+/** Charts by uPlot: clearance over time, and against the pitch stray and radius at first contact; and ticks of all axes. */
 
 import { colours, inType, make } from "./elements.js";
 import { say } from "./text.js";
@@ -9,14 +9,17 @@ const ABOVE = 1.06;
 /** Tolerance of a tick, as a part of the step between ticks: far more than rounding [1]. */
 const ROUNDING = 1e-6;
 
-/** A chart in a box; click or drag calls seek(x). The marker `now` is an element, so that it moves without a redraw. */
+/** A chart in a box. A click or a drag calls seek(x). The marker is an element above the chart, so that it moves without a redraw. */
 export class Chart {
   #plot = null;
   #data = null;
   #now = null;
   #marker = make("div", { className: "now" });
 
-  /** plan(data): {labels of both axes, table of uPlot, range of y, width of the line [px] (0: draw() draws it), draw(pen, colours)} */
+  /**
+   * plan(data) gives {labels: of both axes; table: the columns x and y; range: of y; width: of the line of this table [px],
+   * 0 for none; draw(pen): draws everything else}.
+   */
   constructor(box, plan, seek) {
     this.box = box;
     this.plan = plan;
@@ -24,7 +27,7 @@ export class Chart {
     new ResizeObserver(() => this.#plot?.setSize({ width: box.clientWidth, height: HEIGHT })).observe(box);
   }
 
-  /** Redraw, also after a change of language or colour scheme. */
+  /** Draw the data, or draw the last data again after a change of language or colour scheme. */
   show(data = this.#data) {
     this.#data = data;
     this.#plot?.destroy();
@@ -37,7 +40,7 @@ export class Chart {
     this.now(this.#now);
   }
 
-  /** x: place of the marker; null hides it */
+  /** Move the marker to x; null hides it. */
   now(x) {
     this.#now = x;
     if (!this.#plot) return;
@@ -49,34 +52,34 @@ export class Chart {
   #options({ labels, range, width, draw }) {
     const colour = colours();
     const [grid, font] = [{ stroke: colour("line"), width: 1 }, `${inType(12)}px system-ui, sans-serif`];
-    const looks = { stroke: colour("muted"), grid, ticks: grid, font, labelFont: font, labelSize: 22 };
-    const place = () => this.now(this.#now);
+    const look = { stroke: colour("muted"), grid, ticks: grid, font, labelFont: font, labelSize: 22 };
+    const moveMarker = () => this.now(this.#now);
     return {
       width: this.box.clientWidth,
       height: HEIGHT,
       legend: { show: false },
       cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
       scales: { x: { time: false }, y: { range } },
-      axes: labels.map((label, k) => ({ ...looks, label: say(label), size: inType([34, 52][k]) })),
+      axes: labels.map((label, k) => ({ ...look, label: say(label), size: inType([34, 52][k]) })),
       series: [{}, { stroke: colour("accent"), width, points: { show: false }, ...(width ? {} : { paths: () => null }) }],
-      hooks: { draw: [(plot) => draw(pen(plot, colour))], setSize: [place], ready: [place] },
+      hooks: { draw: [(plot) => draw(pen(plot, colour))], setSize: [moveMarker], ready: [moveMarker] },
     };
   }
 
   #listen(over) {
-    const go = (event) => {
+    const seek = (event) => {
       const box = over.getBoundingClientRect();
       this.seek(this.#plot.posToVal(Math.min(Math.max(event.clientX - box.left, 0), box.width), "x"));
     };
     over.addEventListener("pointerdown", (event) => {
       over.setPointerCapture(event.pointerId);
-      go(event);
+      seek(event);
     });
-    over.addEventListener("pointermove", (event) => event.buttons && go(event));
+    over.addEventListener("pointermove", (event) => event.buttons && seek(event));
   }
 }
 
-/** Draws on a uPlot canvas at data coordinates, in a colour of the page by its name. */
+/** A pen that draws on the canvas of a uPlot, at places in the units of its axes, in colours of the page by their names. */
 function pen(plot, colour) {
   const { ctx: context } = plot;
   const { left, top, width, height } = plot.bbox;
@@ -91,18 +94,22 @@ function pen(plot, colour) {
     context.setLineDash([]);
   };
   return {
-    /** A line through all points [[x, y], ...]. */
+    /** A line through all points [[x, y], ...]; dash: lengths of dashes and gaps [px], empty for a full line. */
     along(points, name, dash = []) {
       for (let k = 1; k < points.length; k++) line(at(...points[k - 1]), at(...points[k]), name, dash);
     },
+    /** A dashed line across the whole chart at a height y. */
     across: (y, name) => line([left, at(0, y)[1]], [left + width, at(0, y)[1]], name, [6, 4]),
+    /** A dashed line from the bottom to the top of the chart at x. */
     up: (x, name) => line([at(x, 0)[0], top], [at(x, 0)[0], top + height], name, [2, 3]),
+    /** A filled circle; radius in pixels of the page. */
     dot(x, y, name, radius) {
       context.beginPath();
       context.arc(...at(x, y), radius * devicePixelRatio, 0, 2 * Math.PI);
       context.fillStyle = colour(name);
       context.fill();
     },
+    /** A diagonal cross. */
     cross(x, y, name) {
       const [px, py] = at(x, y);
       const size = 6 * devicePixelRatio;
@@ -111,7 +118,7 @@ function pen(plot, colour) {
   };
 }
 
-/** Clearance over time, of /clearance; margin [m]; contact: {time [s], gap [m]} of the first one, or null. */
+/** Clearance over time, from an answer of /clearance. margin: [m]; contact: {time [s], gap [m]} of the first contact, or null */
 export function clearancePlan({ time, clearance, grazes, margin, contact }) {
   const low = 1000 * Math.min(0, ...clearance);
   const high = 1000 * Math.max(margin, ...clearance) || 1;
@@ -128,7 +135,10 @@ export function clearancePlan({ time, clearance, grazes, margin, contact }) {
   };
 }
 
-/** Proven stray against the pitch, of /tolerance-curve; own: a stray [m]; least: the pitch for it, or null. */
+/**
+ * Proven stray against the pitch, from an answer of /tolerance-curve. own: the stray of the dance on the page [m];
+ * least: the minimum pitch with that stray [m], or null
+ */
 export function curvePlan({ pitch, stray, own, least }) {
   return {
     labels: ["pitchAxis", "strayAxis"],
@@ -143,8 +153,8 @@ export function curvePlan({ pitch, stray, own, least }) {
 }
 
 /**
- * Radius of the head at first contact against the pitch, of /pitch-scan; circle: radius of the turning circle [m];
- * coarse: a first view of the samples, whose jumps are not known yet.
+ * Distance of the head from the centre at first contact, against the pitch, from an answer of /pitch-scan.
+ * circle: radius of the turning circle [m]; coarse: true for a first view of samples, whose jumps are not known yet
  */
 export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, coarse }) {
   const samples = pitch.map((one, k) => [one, radius[k]]);
@@ -163,7 +173,7 @@ export function scanPlan({ pitch, radius, pieces, jumps, minimum_pitch, circle, 
   };
 }
 
-/** Parts without a jump, each a list of points: the samples of a piece, and the ends of the jumps around them. */
+/** Stretches without a jump, each a list of points: the samples of a piece, and before and after them the ends of jumps. */
 export function staircase(samples, pieces, jumps) {
   const ends = jumps.map(({ pitch, radius }) => pitch.map((one, k) => [one, radius[k]]));
   const stretches = [[]];
@@ -172,17 +182,17 @@ export function staircase(samples, pieces, jumps) {
     stretches.push([after]);
   };
   for (const [from, to] of pieces) {
-    const known = ends.length;
+    const left = ends.length;
     while (ends.length && ends[0][0][0] < samples[from][0]) jump(ends.shift());
-    // Between two pieces without a jump there is no contact.
-    if (known === ends.length) stretches.push([]);
+    // Two pieces without a jump between them are apart: at the pitches between them nothing touches.
+    if (left === ends.length) stretches.push([]);
     stretches.at(-1).push(...samples.slice(from, to));
   }
   ends.forEach(jump);
   return stretches.filter((points) => points.length);
 }
 
-/** Round numbers in a range, about as many as a largest count, and their decimals: {values, decimals}. */
+/** Round numbers in a range, with steps of 1, 2 or 5 times a power of ten, and their decimals: {values, decimals}. most: steps at most */
 export function ticks([low, high], most) {
   const rough = (high - low) / most || 1;
   const power = 10 ** Math.floor(Math.log10(rough));

@@ -1,7 +1,7 @@
-"""The engine across machines: an existing Dask cluster, or a new one on this machine.
+"""The engine for a sweep on several machines: an existing Dask cluster, or a new one on this machine.
 
-Workers need the same version of bench-dragon, but no common folder: the client receives and writes their answers. A
-piece that is lost with a worker, a future or the scheduler is submitted again.
+Workers need the same version of bench-dragon, but no common folder: this process receives and writes their answers. A
+piece is submitted again if its worker, its future or the scheduler is lost.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from distributed.comm.core import connect
 from app.sweeps.engines import Done, NoAnswer, NoScheduler, attempt, done_of
 from app.sweeps.shards import ShardPiece
 
-# Name of a new cluster on this machine, in place of an address.
+# Stands in place of an address for a new cluster on this machine.
 LOCAL = "local"
-# Longest wait for a lost scheduler, and time between two attempts to reach it [s].
-PATIENCE, AGAIN = 600.0, 1.0
-# Number of failures in a row, while the scheduler answers, that ends a run.
-FAILURES = 8
-# Longest time for a connection and for the transfer of an answer, and time between two checks for lost futures [s].
-CONNECT, ANSWER, LOOK = 10.0, 60.0, 2.0
+# Longest wait for a scheduler that is lost, and time between two attempts to reach it [s].
+PATIENCE, RETRY_AFTER = 600.0, 1.0
+# A run ends after so many failures in a row while the scheduler answers.
+FAILURES_MOST = 8
+# Longest time to connect, longest time for the transfer of an answer, and time between two checks for lost futures [s].
+CONNECT, ANSWER, CHECK_EVERY = 10.0, 60.0, 2.0
 
 
-def _local(workers: int | None) -> LocalCluster:
-    """A cluster of this machine. It does not retry a piece whose worker died: the run does."""
+def _local_cluster(workers: int | None) -> LocalCluster:
+    """A new cluster on this machine. It does not retry a piece whose worker died, because the run does."""
     return LocalCluster(
         n_workers=workers,
         threads_per_worker=1,
@@ -41,25 +41,31 @@ def _local(workers: int | None) -> LocalCluster:
     )
 
 
-async def _greet(address: str) -> None:
-    """Connect once, because a Client waits forever for an address without an answer. raises: OSError, TimeoutError"""
+async def _connect_once(address: str) -> None:
+    """Connect to an address and disconnect, because a Client would wait forever for an address that does not answer.
+
+    raises: OSError, TimeoutError
+    """
     if address.startswith("tcp://") or "://" not in address:
         async with asyncio.timeout(CONNECT):
             await (await connect(address, timeout=CONNECT)).close()
 
 
 class Cluster:
-    """A Dask cluster."""
+    """A Dask cluster as a SweepEngine."""
 
     alone = False
 
     def __init__(
         self, address: str, workers: int | None = None, patience: float = PATIENCE, first: float = 0.0
     ) -> None:
-        """address: of the scheduler, or LOCAL; workers: of a local cluster, default: one for each core
-        patience: longest wait for a lost scheduler [s]; first: for one that has not answered yet [s]
-        raises: NoScheduler"""
-        self._own = _local(workers) if address == LOCAL else None
+        """Connect to a cluster, or start one.
+
+        address: of the scheduler, or LOCAL; workers: their number in a local cluster, by default one for each core
+        patience: longest wait for a scheduler that was lost [s]; first: longest wait for its first answer [s]
+        raises: NoScheduler
+        """
+        self._own = _local_cluster(workers) if address == LOCAL else None
         self._address = self._own.scheduler_address if self._own else address
         self._patience = patience
         self._finished: queue.SimpleQueue[Future[tuple[bytes | None, str]]] = queue.SimpleQueue()
@@ -75,7 +81,7 @@ class Cluster:
 
     def submit(self, piece: ShardPiece) -> None:
         """Submit a piece to the cluster, now or after the connection is restored."""
-        # Not "pure", because then a new future with the same key would be the cancelled one.
+        # pure=False gives each future a key of its own. With the key of a cancelled future, Dask would return that one.
         try:
             future = self._client.submit(attempt, piece, pure=False)
         except Exception as error:
@@ -91,12 +97,12 @@ class Cluster:
             done += self._result_of(self._finished.get(timeout=seconds))
             while True:
                 done += self._result_of(self._finished.get_nowait())
-        if time.monotonic() - self._checked_at > LOOK:
+        if time.monotonic() - self._checked_at > CHECK_EVERY:
             self._check()
         return done
 
     def close(self) -> None:
-        """Disconnect from the cluster; a local one ends."""
+        """Disconnect from the cluster, and end it if it is a local one."""
         for future in self._out:
             with suppress(Exception):
                 future.cancel()
@@ -106,6 +112,7 @@ class Cluster:
             self._own.close()
 
     def _result_of(self, future: Future[tuple[bytes | None, str]]) -> list[Done]:
+        """The piece of a finished future with its rows; empty if it must be submitted again, or was already."""
         piece = self._out.pop(future, None)
         if piece is None:
             return []
@@ -123,9 +130,12 @@ class Cluster:
         return []
 
     def _failed(self, piece: ShardPiece, error: Exception) -> None:
-        """Submit a piece again: a failing cluster raises many kinds of errors. raises: NoAnswer after many in a row"""
+        """Note a piece whose future failed, to be submitted again: a failing cluster raises many kinds of errors.
+
+        raises: NoAnswer after FAILURES_MOST of them in a row
+        """
         self._failures += 1
-        if self._failures >= FAILURES and self._client.status == "running":
+        if self._failures >= FAILURES_MOST and self._client.status == "running":
             words, why = "workers of {address} cannot answer: {why}", f"{type(error).__name__}: {error}"
             raise NoAnswer.in_words("workers", words, address=self._address, why=why) from error
         self._lost.append(piece)
@@ -155,7 +165,7 @@ class Cluster:
         while True:
             try:
                 with ThreadPoolExecutor(1) as thread:  # The caller's thread may have an event loop, as in a notebook.
-                    thread.submit(asyncio.run, _greet(self._address)).result()
+                    thread.submit(asyncio.run, _connect_once(self._address)).result()
                 client = Client(self._address, timeout=CONNECT, set_as_default=False)
                 self._workers = max(sum(client.nthreads().values()), 1)
                 return client
@@ -164,4 +174,4 @@ class Cluster:
                     words = "no Dask scheduler answers at {address}"
                     why = "start one there, or name another, and run the sweep again: it continues"
                     raise NoScheduler.in_words("dask", words, reason=why, address=self._address) from error
-                time.sleep(AGAIN)
+                time.sleep(RETRY_AFTER)

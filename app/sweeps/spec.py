@@ -18,7 +18,7 @@ import core
 from app.sweeps.questions import SweepQuestion, question_of
 from app.wire.dances import AXIS
 from app.wire.messages import checked
-from app.wire.question import AS_WHOLE, Whole, measure
+from app.wire.question import AS_WHOLE, Whole, measure, shallow
 from app.wire.texts import Unreadable, json_of, toml_of
 from core import InvalidValue, TooLarge
 from core.errors import Given
@@ -30,7 +30,8 @@ SHARDS_MAX = 10**6
 SHARD_SECONDS = 5.0
 SHARD_MAX = 100_000
 SHARDS_SMALL = 64
-VALUES_MAX = 100_000
+# Most values of a parameter; and how deep objects and lists may nest in them: a venue has up to 20.
+VALUES_MAX, VALUES_DEPTH_MAX = 100_000, 40
 # Most dimensions of scipy's Sobol points.
 SOBOL_DIMENSIONS = 21_201
 # The first columns of every table.
@@ -99,10 +100,12 @@ class Spec(_Strict):
     """
 
     question: str = Field(description="The operation id")
-    over: dict[Parameter, Axis] = Field(
+    over: Annotated[dict[Parameter, Axis], shallow(VALUES_DEPTH_MAX)] = Field(
         min_length=1, description="Parameters that vary, by dotted names, with their values"
     )
-    request: dict[str, Any] = Field(default_factory=dict, description="The other parameters; default: their defaults")
+    request: Annotated[dict[str, Any], shallow(VALUES_DEPTH_MAX)] = Field(
+        default_factory=dict, description="The other parameters; default: their defaults"
+    )
     samples: Samples | None = Field(None, description="Method for ranges without a count")
     shard_size: Annotated[int, Field(ge=1, le=SHARD_MAX), AS_WHOLE] | None = Field(
         None, description="Designs in a shard; null: about 5 s of work"

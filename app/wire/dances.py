@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import numpy as np
-from pydantic import AfterValidator, Discriminator, Field, Tag
-from pydantic_core import PydanticCustomError
+from pydantic import Discriminator, Field, Tag
 
 from app.settings import Settings
 from app.wire.beats import BarsBody, music_of
@@ -30,6 +29,7 @@ from app.wire.question import (
     Wire,
     check_limit,
     measure,
+    shallow,
 )
 from core import Dance, Dragon, InvalidValue
 from core.errors import Given, Parameter, quantities
@@ -270,26 +270,10 @@ class TimedDance(DanceFields):
         return np.asarray(times, dtype=np.float64)
 
 
-def _shallow(value: dict[str, Any] | None) -> dict[str, Any] | None:
-    """The value, refused if it is nested so deep that recursion over it could exhaust the stack."""
-    level: list[Any] = [value]
-    for _ in range(VENUE_DEPTH_MAX):
-        level = [inner for outer in level for inner in _inside(outer)]
-    if level:
-        raise PydanticCustomError("too_deep", "objects and lists in one another", {"most": VENUE_DEPTH_MAX})
-    return value
-
-
-def _inside(outer: Any) -> list[Any]:
-    """Objects and lists directly inside an object or a list."""
-    entries = outer.values() if isinstance(outer, dict) else outer if isinstance(outer, list) else ()
-    return [inner for inner in entries if isinstance(inner, (dict, list))]
-
-
 class VenueFields(Wire):
     """A venue, and the unit of its coordinates."""
 
-    venue: Annotated[dict[str, Any] | None, AfterValidator(_shallow)] = Field(
+    venue: Annotated[dict[str, Any] | None, shallow(VENUE_DEPTH_MAX)] = Field(
         None,
         description="GeoJSON with coordinates in metres or in degrees: the square (the polygon named square, otherwise "
         "the first one; its holes are outside) and the obstacles in it; null: an endless plain",

@@ -15,7 +15,15 @@ from enum import StrEnum
 from functools import lru_cache
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, GetJsonSchemaHandler, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    model_validator,
+)
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, PydanticCustomError
 
@@ -32,6 +40,26 @@ BYTES = "application/octet-stream"
 SHOWN_MAX = 60
 # An object with more names than this is refused without a look at its fields.
 NAMES_MAX = 100
+
+
+def shallow(most: int) -> AfterValidator:
+    """A check that objects and lists are at most so deep in one another, because recursion exhausts the stack."""
+
+    def checked(value: Any) -> Any:
+        level = [value]
+        for _ in range(most):
+            level = [inner for outer in level for inner in _inside(outer)]
+        if level:
+            raise PydanticCustomError("too_deep", "objects and lists in one another", {"most": most})
+        return value
+
+    return AfterValidator(checked)
+
+
+def _inside(outer: Any) -> list[Any]:
+    """Objects and lists directly inside an object or a list."""
+    entries = outer.values() if isinstance(outer, dict) else outer if isinstance(outer, list) else ()
+    return [inner for inner in entries if isinstance(inner, (dict, list))]
 
 
 def short_json(value: Any) -> str:

@@ -1,7 +1,7 @@
-"""The last part of a run before a fold: a bound on the remaining motion of benches, and so on their clearance.
+"""The last part of a run before a fold: a bound on how far benches still move, and so on their clearance.
 
-Before a fold handle speeds grow without bound, so the steps of a march shrink to nothing: each tenth of the remaining
-way needs about forty of them. This bound replaces them.
+Just before a fold the speeds of handles grow without bound, so the steps of a march shrink to nothing: about forty of
+them go over a tenth of the remaining way. This bound takes their place.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from core.kernels.constants import CHORD, EDGES_PER_WORK, ERROR, FREE, HALF_LENG
 from core.kernels.results import Marched
 from core.values import Floats
 
-# Number of samples on the rest of the way to a fold, to find a graze there [1].
+# Number of samples on the rest of the way to a fold, in which a graze would show [1].
 WAY_SAMPLES = 12
-# Most parts into which the way to a fold is divided; each takes 0.1 to 0.3 ms.
+# Largest number of parts into which the way to a fold is divided; each takes 0.1 to 0.3 ms.
 FOLD_STRETCHES = 200
-# Upper bound on the relative error of the angle of a fold, and of angles from leader to follower [1], see least_left().
+# Largest relative error of theta at a fold, and of the angle from leader to follower [1], see least_left().
 THETA_ROUNDING = 1e-12
-# Work of one part of the way, and of each bench in it [1].
+# Work of each part of the way, and of each bench in it [1].
 STRETCH_WORK, FOLD_WORK = 1000.0, 20.0
 
 
-# fold_stops() gives the travels at which the march may end, and their distances from the fold. If the bound is not
-# enough at one of them, a new march goes on to the next. It starts at twice the distance of the last stop, so that it
-# also sees a graze there. Everything before it is clear. So it need not follow all pairs again, if the run begins where
-# the ring bound clears all of them (`rings_reach`). Otherwise the march is repeated from its own start to the last
-# stop.
+# fold_stops() gives the travels at which the march may end, each with its distance from the fold. If the bound is not
+# enough at a stop, a new march goes on to the next one. The way before that stop is clear. If the run begins where the
+# ring bound clears all pairs (`rings_reach`), the new march need not follow all of them again: it starts at twice the
+# distance of the stop from the fold, so that it also sees a graze at the stop. Otherwise the march is repeated from its
+# own start, to the last stop at once.
 def approach_fold(
     search: ContactSearch,
     begin: float,
@@ -43,11 +43,11 @@ def approach_fold(
     end: RunEnd,
     first: Approached,
 ) -> Approached:
-    """How a march from a travel [m] to a fold ends, as ContactSearch.approach(); REACHED: clear up to the fold.
+    """End of a march from a travel [m] to a fold, like that of ContactSearch.approach(); REACHED: clear up to the fold.
 
     stops: ContactSearch.fold_stops(); first: ContactSearch.approach() to the first of them
-    The march goes on beyond a stop if the bound is not enough there, or if a narrower graze may lie ahead than those
-    before it.
+    The march goes on beyond a stop if the bound is not enough there, or if a graze that may lie ahead is narrower than
+    all before it.
     """
     assert end.theta is not None
     start, opening, passed = begin, True, Marched(begin)
@@ -82,7 +82,8 @@ def _may_end_at(search: ContactSearch, early: float, last: float, result: Marche
 def _dips_ahead(search: ContactSearch, early: float, last: float, result: Marched) -> bool:
     """True if samples between two travels [m] show a graze that is narrower than the one of the march before."""
     leaders = min(search.dragon.uniform_from + 1, search.dragon.benches)
-    left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2  # evenly spaced for handles, which move as its root
+    # Handles move as the square root of the way that is left, so for them these samples are evenly spaced.
+    left = (last - early) * np.linspace(1.0, 0.0, WAY_SAMPLES) ** 2
     gaps = [search.clearance(travel, leaders)[0] for travel in (last - left).tolist()]
     known = result.graze.gap if result.graze is not None else FREE
     return any(
@@ -97,12 +98,13 @@ def clear_to_fold(search: ContactSearch, travel: float, fold: float) -> bool:
 
 
 # Towards the fold handles move as the square root of the remaining travel. So a part whose bound is too low is divided
-# where a quarter of it remains: each side has about half of the motion. Its bound holds for both.
+# where a quarter of it remains: each side has about half of the motion. The bound of the whole part also holds for both
+# sides.
 def least_to_fold(search: ContactSearch, travel: float, fold: float) -> float | None:
     """Lower bound of all gaps from a travel to the fold, or the margin if they exceed it [m]; None if unknown.
 
     fold: theta of the head there [rad]
-    The way is divided into at most FOLD_STRETCHES parts, until the bound exceeds the margin.
+    The way is divided into up to FOLD_STRETCHES parts, until the bound exceeds the margin.
     """
     if not search.pairs:
         return FREE
@@ -121,36 +123,37 @@ def least_to_fold(search: ContactSearch, travel: float, fold: float) -> float | 
     return least if least > NO_BOUND else None
 
 
-# From a travel to a later one handle 0 stands in [low_0, high_0] = [theta then, theta now]. Follower and leader
-# differ by delta(theta), which falls with theta (spiral.py), so handle k + 1 stands in
+# While the head goes from a travel to a later one, theta of handle 0 is in [low_0, high_0] = [its last, its first].
+# Follower and leader differ by delta(theta), which falls with theta (spiral.py), so theta of handle k + 1 is in
 #     [low_k + delta(high_k), high_k + delta(low_k)],
 # and where the curvature at low_k times half the chord is at most SINE_LIMIT (chord lemma, bounds.py) in
 #     [low_k + delta(low_k), high_k + delta(high_k)],
-# as the follower then moves in the direction of its leader. It goes no further than its leader there (Vogt), so
-# once this holds for all chords that follow, no handle behind moves further than that one. A handle moves by no
-# more than D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) rotates by
-#     angle = min((D_a + D_b) / c, k (D_a + D_b) / 2)
-# at most, the second under the lemma, which bounds omega by k (a' + b') / 2 there; and a point of it, beyond a
-# handle by o at most and sideways by w / 2, moves by no more than
+# because there the follower moves in the direction of its leader. It also goes no further than its leader there (Vogt),
+# so once this holds for all chords that follow, no handle behind moves further than this one. Handle k moves by at most
+# D_k, the arc between the ends of its interval. A bench (front handle a, rear handle b, chord c) rotates by at most
+#     angle = min((D_a + D_b) / c, curvature (D_a + D_b) / 2).
+# The second holds under the lemma, which bounds omega by curvature (a' + b') / 2, with that at low_a. A point of the
+# bench, at most o beyond a handle and w / 2 sideways, moves by at most
 #     max(D_a, D_b) + (o + w / 2) angle.
 # Edges at rest do not move: a gap to one of them loses only the motion of the bench.
-# Where delta folds for low_k, or rounds to a fold, the delta of the fold itself takes its place, which is larger.
+# If there is no delta for low_k because the chord folds, or rounds to a fold, that of the fold itself, which is larger,
+# takes its place.
 #
-# Rounding. Stretches meet at the same computed theta, so that nothing is left out. The first one begins earlier than
-# its travel by the largest error of that travel. Every interval is wider at both ends by w = THETA_ROUNDING of theta,
-# which covers the error of delta, near the fold too. A computed delta is the root for a chord^2 = f that is off by 14 u
-# f (rounding.py). Where theta f_theta >= 0.03 f, that is a theta off by less than 500 u, far less than w. Else 4 theta
-# (theta + delta) s^2 < 0.03 f, s = sin(delta / 2), and delta^2 > 0.97 f; up to delta = pi f_delta / 2 >= delta, and
-# from there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta + delta) s <= 0.12 delta, so
-# f_delta / 2 >= 0.88 delta: delta is off by 9 u of itself, far less than w again. The arcs, widened by growth w theta
-# sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. The largest error of a gap is
-# gap_rounding(). It grows far less than the gap itself, so it is computed for the largest gap that any pair which may
-# be the nearest can have.
+# Rounding. Stretches meet at the same computed theta, so that nothing is left out. The first one begins before its
+# travel, by the largest error of that travel. Every interval is wider at both ends by w = THETA_ROUNDING of theta. This
+# covers the error of delta, near the fold too: a computed delta is the root for a chord^2 = f that is off by 14 u f
+# (rounding.py). If theta f_theta >= 0.03 f, this is the root for a theta that is off by less than 500 u, far less than
+# w. Otherwise, with s = sin(delta / 2), 4 theta (theta + delta) s^2 < 0.03 f and delta^2 > 0.97 f. Then f_delta / 2 >=
+# delta for delta <= pi. From there to the crest s >= 0.64 and theta (theta + delta) |sin delta| <= 2 theta (theta +
+# delta) s <= 0.12 delta, so f_delta / 2 >= 0.88 delta. So delta is off by 9 u of itself, again far less than w. The
+# arcs, widened by growth w theta sqrt(1 + theta^2), and what follows from them are products and sums of terms >= 0. The
+# largest error of a gap is gap_rounding(). It grows far less than the gap itself, so it is computed for the largest gap
+# of any pair that may be the nearest.
 def least_left(search: ContactSearch, travel: float, theta: float) -> float:
     """Lower bound of all gaps from a travel until the head is at theta, or the margin if they exceed it [m].
 
-    It is the gap of every pair after that travel, less the remaining motion of both benches, computed from their own
-    sizes; NO_BOUND if a bench without a place in `placed` could come near one that leads a pair.
+    For each pair it is the gap after that travel, less the remaining motion of both benches, found from their sizes.
+    NO_BOUND: a bench without a place in `placed` could come near one that leads a pair.
     """
     search.spend(STRETCH_WORK + FOLD_WORK * search.room * (1.0 + len(search.edges) / EDGES_PER_WORK))
     gap, _ = search.clearance(travel)

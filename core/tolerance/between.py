@@ -1,42 +1,44 @@
-"""Benches with one bench between them: the stray up to which it holds them apart, and a pose in which they touch.
+"""Two benches with one bench between them: the stray up to which it holds them apart, and a pose in which they touch.
 
-The march takes all benches to stray independently (core/shapes/reach.py). For three consecutive benches this bound
-is far too low: the first and the last hang on the one between, and touch only if the three fold up.
+The march lets all benches stray independently (core/shapes/reach.py). For three consecutive benches its bound is far
+too low: the first and the last one hang on the one between, and touch only if the three fold up.
 
-In the frame of the bench between, with its chord c_1 from handle 2 to handle 1 along x, the shape of the three is given
-by the headings a of the first and b of the last one. The distances of handles are
+The shape of the three is (a, b), the headings of the first and of the last one in the frame of the bench between. In
+that frame the chord c_1 leads along x from handle 2 to handle 1. The distances between handles are
     d_02 = |c_0 e(a) + c_1|,   d_13 = |c_1 + c_2 e(b)|,   d_03 = |c_0 e(a) + c_1 + c_2 e(b)|,   e(a) = exp(i a).
-The sag of handle j of three handles i, j, k is its distance from the point between i and k where it would be on a
-straight line. With L = c_0 + c_1 + c_2 the sag of
-    0, 1, 2 is |u (e(a) - 1) - v (e(b) - 1)| with u = c_0 c_1 / (c_0 + c_1), v = 0,   and of 1, 2, 3 likewise,
-    0, 1, 3 has u = c_0 (c_1 + c_2) / L, v = c_0 c_2 / L,   and 0, 2, 3 has u = c_0 c_2 / L, v = (c_0 + c_1) c_2 / L.
-Strays within delta change no distance between two handles and no sag by more than 2 delta. So three benches whose
-nominal shape has the distances D and the sags S can come into a shape (a, b) with d and s only if
+Of three handles i, j, k, the sag of j is its distance from the point between i and k where it would be if the benches
+stood in a straight line. Every sag is |u (e(a) - 1) - v (e(b) - 1)|, where with L = c_0 + c_1 + c_2
+    0, 1, 2 has u = c_0 c_1 / (c_0 + c_1), v = 0,         1, 2, 3 has u = 0, v = c_1 c_2 / (c_1 + c_2),
+    0, 1, 3 has u = c_0 (c_1 + c_2) / L, v = c_0 c_2 / L, 0, 2, 3 has u = c_0 c_2 / L, v = (c_0 + c_1) c_2 / L.
+Strays of at most delta change every distance between two handles and every sag by at most 2 delta. So three benches
+whose nominal shape has the distances D and the sags S can come into a shape (a, b) with d and s only if
     delta >= N(a, b) = max(D - d, s - S) / 2 over all of them.
-They do not touch while delta is below the least N of all shapes in which they touch. Distances show a fold; small
-angles change them only by their squares, but change sags in proportion.
+They do not touch while delta is below the least N of all shapes in which they touch. Both are needed: distances show
+that benches fold up, but change only by the square of a small angle; sags change in proportion to it.
 
 The nominal places. Let no curvature of the path exceed k, with k c / 2 <= 1 for every chord c. The next handle is where
 the path first comes to the distance c; by Schur's comparison with a circle, this is after a length L of at most
-(2 / k) asin(k c / 2). The tangent turns by at most k L <= pi over this length, and the angle between the chord, which
-is its mean, and the tangent at either end is at most half of that: let x = k s - k L / 2, and let the path turn by x'
-with x' <= x and x' >= -k s - k L / 2 >= -pi - x; then sin x' <= sin x, and the integral of sin x over L is 0. So two
-consecutive chords differ in direction by at most
+(2 / k) asin(k c / 2). Over this length the tangent turns by at most k L <= pi, and at either end its angle with the
+chord is at most k L / 2. Proof: let x' be the direction of the tangent at the length s, measured so that x' = -k L / 2
+at the start. Then x' <= x = k s - k L / 2 and x' >= -k s - k L / 2 >= -pi - x, so sin x' <= sin x. The integral of
+sin x over L is 0, so that of sin x' is at most 0, and the chord is at most k L / 2 to the left of the tangent at the
+start. The mirrored and the reversed path give the same to the right, and at the end. So two consecutive chords differ
+in direction by at most
     A = asin(k c_0 / 2) + asin(k c_1 / 2),   B = asin(k c_1 / 2) + asin(k c_2 / 2),   both <= pi,
     D_02^2 >= c_0^2 + c_1^2 + 2 c_0 c_1 cos A,   D_13 likewise,   D_03 >= c_0 cos A + c_1 + c_2 cos B,
     S <= u |e(A) - 1| + v |e(B) - 1|.
 
 The least N. The shapes are cut into cells of half width h. Within a cell d_02 differs from its value in the middle by
 at most min(c_0, c_1) h, d_13 likewise, d_03 by (c_0 + c_2) h, a sag by (u + v) h, and the separation of the two benches
-by (r_0 + r_2) h, with r the distance of a bench's furthest corner from the handle that it hangs on. So benches do not
-touch in a cell whose middle has a larger separation than this. For the other cells N in the middle less its change is a
-lower bound. They are cut further while this bound is below the largest stray of interest, and below N of a middle in
-which benches touch. Mirrored shapes are alike: 0 <= a <= pi is enough.
+by (r_0 + r_2) h, with r the distance of a bench's furthest corner from the handle that it hangs on. So the two benches
+touch nowhere in a cell whose middle has a larger separation than that. In each other cell N is at least N in the middle
+less the largest change of N. The cell is cut further while this bound is below the largest stray of interest and below
+each N of a middle in which benches touch. The mirror image of a shape has the same N, so 0 <= a <= pi is enough.
 
-The pose. For a shape and a direction, the least value of the largest stray is the radius of the smallest circle around
-the four handles' differences from their places, and this is the largest of the radii for three of them. Grids that
-narrow around their best point find a shape in which benches touch, and its direction. If they miss a better one, the
-bracket is wider, but still true.
+The pose. Three benches in a given shape and direction can still be shifted. Around the differences of the four handles
+from their places there is a smallest circle: its radius is the largest stray after the best shift. It is the largest of
+the smallest circles around three of the four. Grids that narrow around their best point find a shape and a direction in
+which benches touch. If they miss a better one, the bracket is wider, but still true.
 """
 
 from __future__ import annotations
@@ -52,25 +54,25 @@ from core.kernels import Budget
 from core.shapes.rectangles import frames, frames_separation
 from core.values import Floats
 
-# Number of cells of a full circle at first, and the number of times that they are cut in four, down to 2e-4 rad [1].
+# Number of cells around a full circle at first, and number of times that each is cut in four, down to 2e-4 rad [1].
 CELLS, CUTS = 24, 9
-# Largest number of cells that are tried together [1]; if more are needed, the bound reached so far is the result.
+# Largest number of cells that are tried together [1]; if more are needed, the result is the bound reached so far.
 CELLS_MOST = 200_000
 # Largest number of different triples of benches in a dragon that are tried, which takes 0.1 s [1].
 TRIPLES_MOST = 100
 # Subtracted from the bound, for the rounding of fewer than 100 operations on lengths up to 1e3 m [m].
 ROUNDING = 1e-9
-# Number of shapes of the first grid over each angle; number of touching shapes that are tried, and of directions for
-# each; points of each further grid, its width relative to the one before, and the number of grids [1].
+# The first grid has SHAPES values of each angle. Of its shapes that touch, SHAPES_TRIED are tried in SHAPES directions.
+# Of ROUNDS further grids each has GRID values of each angle, and NARROWER times the width of the one before [1].
 SHAPES, SHAPES_TRIED, GRID, NARROWER, ROUNDS = 120, 600, 9, 0.7, 45
 # Depth of the overlap in the pose shown, far above the rounding of places up to 1e4 m [m].
 DEPTH = 1e-7
-# Work of a cell, in the unit of one pair of benches [1].
+# Work of a cell, where that of a pair of benches is 1 [1].
 CELL_WORK = 1.0
 
 
 def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float:
-    """Stray proven safe for all pairs of benches with one between them, `most` at most; 0 if none is proven [m].
+    """Stray proven safe for all pairs of benches with one between them, up to `most`; 0 if none is proven [m].
 
     until: travel of the head up to which the claim holds [m]
     """
@@ -85,13 +87,13 @@ def held_apart(dance: Dance, until: float, most: float, budget: Budget) -> float
 
 
 def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) -> float:
-    """Lower bound of N over the shapes in which the first and the last of three benches touch, `most` at most [m].
+    """Lower bound of N over the shapes in which the first and the last of three benches touch, up to `most` [m].
 
     triples: (K, 3, 3) chord, length and width of three benches [m]; leans: (K, 3) asin(k c / 2)
     """
     chords, joint_angles = triples[..., 0], leans[:, ::2] + leans[:, 1:2]
-    places = _distances(chords, joint_angles)
-    places[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(joint_angles)).sum(axis=1)
+    nominal = _distances(chords, joint_angles)
+    nominal[:, 2] = chords[:, 1] + (chords[:, ::2] * np.cos(joint_angles)).sum(axis=1)
     pulls = sag_pulls(chords)
     most_sag = (pulls * np.abs(np.exp(1j * joint_angles) - 1.0)[:, None]).sum(axis=2)
     shorter, ends = np.minimum(chords[:, :2], chords[:, 1:]), chords[:, ::2].sum(axis=1, keepdims=True)
@@ -100,21 +102,23 @@ def _least_stray(triples: Floats, leans: Floats, most: float, budget: Budget) ->
     half = 0.5 * math.pi / CELLS
     a, b = np.meshgrid(half * np.arange(1, 2 * CELLS, 2), half * np.arange(1 - 2 * CELLS, 2 * CELLS, 2), indexing="ij")
     middles = np.tile(np.stack([a.ravel(), b.ravel()], axis=1), (len(triples), 1))
-    of = np.repeat(np.arange(len(triples)), a.size)
+    # Each cell has its middle (a, b), and the row of its triple of benches.
+    row = np.repeat(np.arange(len(triples)), a.size)
     for cut in range(CUTS + 1):
-        budget.afford(CELL_WORK * len(of))
-        gap = shape_gaps(triples[of], middles)
-        fallen, risen = places[of] - _distances(chords[of], middles), sags_of(pulls[of], middles) - most_sag[of]
-        change = np.concatenate([fallen, risen], axis=1)
-        needed, at_least = 0.5 * change.max(axis=1), 0.5 * (change - slack[of] * half).max(axis=1)
+        budget.afford(CELL_WORK * len(row))
+        gap = shape_gaps(triples[row], middles)
+        shortened = nominal[row] - _distances(chords[row], middles)
+        sagged = sags_of(pulls[row], middles) - most_sag[row]
+        change = np.concatenate([shortened, sagged], axis=1)
+        needed, at_least = 0.5 * change.max(axis=1), 0.5 * (change - slack[row] * half).max(axis=1)
         most = min(most, float(needed[gap <= 0.0].min(initial=most)))
-        going = (gap <= (corner[of, 0] + corner[of, 2]) * half) & (at_least < most)
-        middles, of, at_least = middles[going], of[going], at_least[going]
-        if cut == CUTS or 4 * len(of) > CELLS_MOST:
+        undecided = (gap <= (corner[row, 0] + corner[row, 2]) * half) & (at_least < most)
+        middles, row, at_least = middles[undecided], row[undecided], at_least[undecided]
+        if cut == CUTS or 4 * len(row) > CELLS_MOST:
             break
         half *= 0.5
         middles = (middles[:, None] + half * np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]])).reshape(-1, 2)
-        of = np.repeat(of, 4)
+        row = np.repeat(row, 4)
     return min(most, float(at_least.min(initial=most)))
 
 
@@ -173,13 +177,13 @@ def touching_pose(triple: Floats, places: Floats) -> Floats | None:
     best, least = tried[0], math.inf
     for _ in range(ROUNDS):
         tried = tried[_overlapping(triple, tried[:, :2])]
-        radii, centres = smallest_circles(nominal - _laid(triple[:, 0], tried, way))
+        radii, centres = smallest_circles(nominal - _handles_of(triple[:, 0], tried, way))
         at = int(radii.argmin()) if len(radii) else -1
         if at >= 0 and radii[at] < least:
             best, least, centre = tried[at], float(radii[at]), centres[at]
         spans = [NARROWER * span for span in spans]
         tried = _grid(*(np.linspace(x - span, x + span, GRID) for x, span in zip(best, spans, strict=True)))
-    moved = _laid(triple[:, 0], best[None], way)[0] + centre
+    moved = _handles_of(triple[:, 0], best[None], way)[0] + centre
     return np.stack([moved.real, moved.imag], axis=-1)
 
 
@@ -191,14 +195,17 @@ def _overlapping(triple: Floats, headings: Floats) -> NDArray[np.bool_]:
     return shape_gaps(np.broadcast_to(triple, (len(headings), 3, 3)), headings) <= -DEPTH
 
 
-def _laid(chords: Floats, shapes: Floats, way: float) -> NDArray[np.complex128]:
-    """Handles (N, 4) of three benches, from the headings of the first and the last in the frame of the bench between,
-    and the rotation of that bench from a direction [rad]; its middle is at 0."""
+def _handles_of(chords: Floats, shapes: Floats, way: float) -> NDArray[np.complex128]:
+    """Handles (N, 4) of three benches, with the middle of the bench between at 0.
+
+    shapes: (N, 3) headings of the first and of the last in the frame of the bench between, and the rotation of that
+        bench from the direction `way` [rad]
+    """
     a, b, rotation = shapes.T
     half = np.full(len(shapes), 0.5 * chords[1])
     handles = np.stack([half + chords[0] * np.exp(1j * a), half, -half, -half - chords[2] * np.exp(1j * b)], axis=1)
-    laid: NDArray[np.complex128] = np.exp(1j * (way + rotation))[:, None] * handles
-    return laid
+    handles_there: NDArray[np.complex128] = np.exp(1j * (way + rotation))[:, None] * handles
+    return handles_there
 
 
 def smallest_circles(points: NDArray[np.complex128]) -> tuple[Floats, NDArray[np.complex128]]:

@@ -287,19 +287,19 @@ BEATS = [
     {"bars": 2, "tempo": 60, "step": 0},
     {"bars": 8, "tempo": 120, "step": 0.45},
 ]
-LANE = {"kind": "route", "start": 20, "pieces": [{"kind": "line", "start": [0, 0], "end": [80, 0]}]}
+LONG_LANE = {"kind": "route", "start": 20, "pieces": [{"kind": "line", "start": [0, 0], "end": [80, 0]}]}
 
 
 def test_beats_give_the_speeds_that_their_passages_give(client: httpx.Client) -> None:
     passages = [{"speed": 0.96, "until_time": 10}, {"speed": 0, "until_time": 18}, {"speed": 0.9, "until_time": 34}]
-    body = {"dragon": {"benches": 6}, "path": LANE, "start_clock": "19:30"}
+    body = {"dragon": {"benches": 6}, "path": LONG_LANE, "start_clock": "19:30"}
     for name in ("check", "trajectory"):
         answers = [client.post(f"/{name}", json=body | speeds) for speeds in ({"beats": BEATS}, {"passages": passages})]
         assert answers[0].raise_for_status().content == answers[1].content
 
 
 def test_cards_and_plan_count_in_bars_and_beats(client: httpx.Client) -> None:
-    body = {"dragon": {"benches": 6}, "path": LANE, "beats": BEATS, "head_speed": 0.9}
+    body = {"dragon": {"benches": 6}, "path": LONG_LANE, "beats": BEATS, "head_speed": 0.9}
     body |= {"first_bench": 2, "last_bench": 2}
     cues = client.post("/cues", json=body).raise_for_status().json()["cards"][0]["cues"]
     assert [(cue["kind"], cue["count"]) for cue in cues] == [("begin", "1.1"), ("pause", "5.1"), ("done", None)]
@@ -330,7 +330,7 @@ def test_cards_and_plan_count_in_bars_and_beats(client: httpx.Client) -> None:
     ids=["tempo 0", "tiny step", "half a bar", "both"],
 )
 def test_beats_that_cannot_be_are_refused(client: httpx.Client, change: Any, pointer: str, words: str) -> None:
-    refused = client.post("/check", json={"dragon": {"benches": 6}, "path": LANE} | change)
+    refused = client.post("/check", json={"dragon": {"benches": 6}, "path": LONG_LANE} | change)
     assert refused.status_code == 422
     assert refused.json()["errors"][0]["pointer"] == pointer
     assert words in refused.json()["detail"]

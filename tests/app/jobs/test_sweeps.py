@@ -207,6 +207,7 @@ def test_a_dismissed_sweep_leaves_no_shard_nor_process_and_others_are_answered_m
             "count must be at least 2",
         ),
         ({"over": {"pitch": {"start": 1, "stop": 2}}}, 422, "/samples", "samples must say how to sample pitch"),
+        ({"over": {"pitch": [json.loads("[" * 300 + "]" * 300)]}}, 422, "/over", "over must nest objects and lists at"),
         ({"over": {}}, 422, "/over", "over must have at least 1 entry, got none"),
         ({"question": "pitch", "over": {"pitch": [1.0]}}, 422, "/question", "question must be one of collision_time,"),
         ({"over": {"pitch": [1.0]}, "accept": "image/png"}, 406, "/accept", "This call answers application/vnd.apache"),

@@ -32,7 +32,6 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
         (json_of, b'{"a', "is not JSON: Unterminated string starting at character 1"),
         (json_of, b'{"a": \xff}', "is not text in UTF-8: byte 0xff at position 6"),
         (json_of, b"[" * 100_000, "nests too many objects and lists in one another"),
-        (json_of, b"[" * 101 + b"]" * 101, "nests objects and lists more than 100 deep"),
         (json_of, b"9" * 5000, "has a whole number of more than 4300 digits"),
         (toml_of, b"a =", "is not TOML: Invalid value (at end of document)"),
         (toml_of, b"a = 1\na = 2", "is not TOML: Cannot overwrite a value (at end of document)"),
@@ -74,7 +73,7 @@ def test_a_whole_character_in_two_escapes_is_text() -> None:
 def test_short_names_and_shallow_lists_are_read() -> None:
     assert toml_of(b"a." * 19 + b"a = 1")["a"]
     assert toml_of(b'text = "' + b"a.b " * 30 + b'"')
-    assert json_of(b"[" * 100 + b"]" * 100)
+    assert toml_of(b"a = " + b"[" * 99 + b"]" * 99)
 
 
 @pytest.mark.parametrize(
