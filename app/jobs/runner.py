@@ -30,7 +30,7 @@ import orjson
 from app.files.lock import FolderLock
 from app.jobs.job import SWEEP
 from app.jobs.store import Store
-from app.logs import log_to_stderr
+from app.logs import Faults, log_to_stderr
 from app.processes.child import ProcessEnded
 from app.processes.parent import follow_parent
 from app.processes.pool import Pool
@@ -98,14 +98,13 @@ class Runner:
     def run(self) -> None:
         """Run jobs until none has waited for a while."""
         self.store.begin()
-        idle_since, reported = time.monotonic(), ""
+        idle_since = time.monotonic()
+        faults = Faults(logger, "The store of the jobs failed, and is tried again each second: %s")
         while self.runs or time.monotonic() - idle_since < IDLE_SECONDS:
             try:
                 self.step()
             except (OSError, sqlite3.Error) as error:
-                if str(error) != reported:  # Logged once, because a disk may be full for hours.
-                    reported = str(error)
-                    logger.error("The store of the jobs failed, and is tried again each second: %s", reported)
+                faults.log(str(error))  # A disk may be full for hours.
                 time.sleep(RETRY_SECONDS)
             if self.runs:
                 idle_since = time.monotonic()

@@ -42,24 +42,31 @@ SHOWN_MAX = 60
 NAMES_MAX = 100
 
 
-def shallow(most: int) -> AfterValidator:
-    """A check that objects and lists are at most so deep in one another, because recursion exhausts the stack."""
-
-    def checked(value: Any) -> Any:
-        level = [value]
-        for _ in range(most):
-            level = [inner for outer in level for inner in _inside(outer)]
-        if level:
-            raise PydanticCustomError("too_deep", "objects and lists in one another", {"most": most})
-        return value
-
-    return AfterValidator(checked)
+def is_deeper(value: Any, most: int) -> bool:
+    """True if objects and lists nest deeper than that in one another."""
+    level = [value]
+    for _ in range(most):
+        level = [inner for outer in level for inner in _inside(outer)]
+        if not level:
+            return False
+    return True
 
 
 def _inside(outer: Any) -> list[Any]:
     """Objects and lists directly inside an object or a list."""
     entries = outer.values() if isinstance(outer, dict) else outer if isinstance(outer, list) else ()
     return [inner for inner in entries if isinstance(inner, (dict, list))]
+
+
+def shallow(most: int) -> AfterValidator:
+    """A check that objects and lists are at most so deep in one another, because recursion exhausts the stack."""
+
+    def checked(value: Any) -> Any:
+        if is_deeper(value, most):
+            raise PydanticCustomError("too_deep", "objects and lists in one another", {"most": most})
+        return value
+
+    return AfterValidator(checked)
 
 
 def short_json(value: Any) -> str:

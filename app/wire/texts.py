@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Any, Self
 
-from app.wire.question import short_json
+from app.wire.question import is_deeper, short_json
 from core import InvalidValue
 from core.errors import Given, Value
 
@@ -34,9 +34,8 @@ LONG_NAME = re.compile(
 
 # What a spreadsheet takes for the beginning of a formula (OWASP, CSV injection), perhaps behind blanks and our own
 # mark: at the beginning of a text, and behind what separates the entries of a line elsewhere.
-FORMULA = r"(['\s\x{200b}\x{feff}]*[=+\-@\t\r\x{ff1d}\x{ff0b}\x{ff0d}\x{ff20}])"
+FORMULA = "(['\\s\u00a0\u200b\u3000\ufeff]*[=+\\-@\t\r\uff1d\uff0b\uff0d\uff20])"
 TO_CELL, OF_CELL = f"(^|[;\t]){FORMULA}", f"(^|[;\t])'{FORMULA}"
-_TO_CELL, _OF_CELL = (re.compile(re.sub(r"\\x{(\w+)}", r"\\u\1", one)) for one in (TO_CELL, OF_CELL))
 
 
 def text_to_cell(text: str) -> str:
@@ -45,7 +44,7 @@ def text_to_cell(text: str) -> str:
     >>> text_to_cell("=1+1"), text_to_cell("Li's"), text_to_cell("'=1"), text_to_cell("x;=1")
     ("'=1+1", "Li's", "''=1", "x;'=1")
     """
-    return _TO_CELL.sub(r"\1'\2", text)
+    return re.sub(TO_CELL, r"\1'\2", text)
 
 
 def text_of_cell(cell: str) -> str:
@@ -54,7 +53,7 @@ def text_of_cell(cell: str) -> str:
     >>> text_of_cell("'=1+1"), text_of_cell("'quoted'")
     ('=1+1', "'quoted'")
     """
-    return _OF_CELL.sub(r"\1\2", cell)
+    return re.sub(OF_CELL, r"\1\2", cell)
 
 
 class Unreadable(InvalidValue):
@@ -130,18 +129,8 @@ def toml_of(data: bytes) -> dict[str, Any]:
 
 def refuse_deep(value: Any) -> None:
     """Refuse objects and lists that nest deeper than DEPTH_MAX, which nothing could write again. raises: Unreadable"""
-    level = [value]
-    for _ in range(DEPTH_MAX):
-        level = [inner for outer in level for inner in _entries(outer)]
-        if not level:
-            return
-    raise Unreadable.that("nests objects and lists more than {most} deep", most=DEPTH_MAX)
-
-
-def _entries(value: Any) -> list[Any]:
-    """The objects and lists in an object or a list."""
-    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
-    return [one for one in inner if isinstance(one, (dict, list))]
+    if is_deeper(value, DEPTH_MAX):
+        raise Unreadable.that("nests objects and lists more than {most} deep", most=DEPTH_MAX)
 
 
 @contextmanager

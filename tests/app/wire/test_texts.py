@@ -85,6 +85,7 @@ def test_short_names_and_shallow_lists_are_read() -> None:
         ("x\t@SUM(1)", "x\t'@SUM(1)"),
         ("\uff1d1+1", "'\uff1d1+1"),
         ("\u200b=1", "'\u200b=1"),
+        ("\u3000=1", "'\u3000=1"),
         ("x, -1", "x, -1"),
         ("Li's", "Li's"),
     ],
