@@ -76,7 +76,13 @@ from .performance.encounter import first_encounter
 from .performance.performance import Part, Performance, PerformanceEnd
 from .performance.safe_delay import SafeDelays, safe_delay
 from .performance.tolerance import PerformanceExhibit, PerformanceTolerance, performance_tolerance
-from .performance.verdict import PerformanceFailure, PerformanceReport, performance_check, performance_trajectory
+from .performance.verdict import (
+    PerformanceFailure,
+    PerformanceReport,
+    performance_check,
+    performance_envelope,
+    performance_trajectory,
+)
 from .proposal.answer import Near, Objective, Proposal, Proposals, Reason, ReasonKind
 from .proposal.figures import Figure
 from .proposal.gates import Gate
@@ -240,6 +246,7 @@ __all__ = [
     "overlaps",
     "performance_check",
     "performance_clearance",
+    "performance_envelope",
     "performance_least_clearance",
     "performance_tolerance",
     "performance_trajectory",

@@ -34,6 +34,8 @@ DELAY_MAX = 1e6
 # Largest number of parts, and of the benches of all together [1].
 PARTS_MAX = 200
 BENCHES_MAX = 1_000_000
+# Length of the stretch of its dance that stands for a dragon which stands during a whole interval [s].
+STANDING = 1e-3
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,6 +74,16 @@ class Part(Readable):
     def own_time(self, time: float) -> float:
         """Time of its own dance at a time of the performance, at which it is at its place [s]."""
         return min(max(time - self.delay, self.dance.begin), self.dance.end.time)
+
+    def own_span(self, begin: float, until: float) -> tuple[float, float]:
+        """The stretch of its own dance between two times of the performance [s]; of a dragon that stands, STANDING at
+        its place."""
+        least, most = self.dance.begin, self.dance.end.time
+        first = least if begin <= self.begin else self.own_time(begin)
+        last = most if until >= self.end else self.own_time(until)
+        if last - first < STANDING:
+            return max(least, last - STANDING), min(most, first + STANDING)
+        return first, last
 
 
 @dataclass(frozen=True, slots=True, repr=False)

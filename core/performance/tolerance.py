@@ -21,14 +21,13 @@ from core.dance import EndReason
 from core.display import Readable, WithArrays, display
 from core.dragon import Dragon
 from core.errors import question_about
-from core.judgement import MOMENT
 from core.kernels import Budget, Ended
 from core.motion.trajectory import trajectory
 from core.performance.answer import EncounterEvidence
 from core.performance.clearance import looks, refined, resampled, sampled_least
 from core.performance.encounter import encounter_claim, first_encounter, marched
 from core.performance.march import Dip, Met
-from core.performance.performance import Part, Performance
+from core.performance.performance import Performance
 from core.performance.stage import Stage
 from core.shapes.reach import gains
 from core.shapes.rectangles import frames, frames_separation
@@ -73,7 +72,7 @@ class PerformanceTolerance(Readable):
         second one None for the venue; area: its name. None if nothing limits it
     exhibit: poses in which these two overlap, with strays up to the second end of the bracket
     own: the tolerance of each dragon by itself in the venue, on the clock of its own dance; one that stands has that of
-        the first or the last MOMENT of its dance
+        the first or the last STANDING of its dance
     certificate: evidence that no two dragons touch with the stray; None for one dragon, or without a safe stray
     start, stop: the interval of time [s]
     """
@@ -127,7 +126,11 @@ def performance_tolerance(
     """
     budget = budget or Budget()
     begin, until = span = performance.span(start, stop)
-    own = tuple(_own(performance, part, span, budget) for part in performance.parts)
+    own = tuple(
+        tolerance(part.dance, performance.venue, start=first, stop=last, budget=budget)
+        for part in performance.parts
+        for first, last in [part.own_span(*span)]
+    )
     k = min(range(len(own)), key=lambda k: own[k].stray)
     between = _safe_between(performance, own[k].stray, span, budget)
     rest = (own, between.evidence, begin, until, performance)
@@ -145,16 +148,6 @@ def performance_tolerance(
     return PerformanceTolerance(
         alone.stray, alone.stray_bracket, alone.limited_by, limits, time, alone.benches, alone.area, pose, *rest
     )
-
-
-def _own(performance: Performance, part: Part, span: tuple[float, float], budget: Budget) -> Tolerance:
-    """The tolerance of a dragon by itself; of one that stands, over a moment at that place."""
-    begin, until = part.dance.begin, part.dance.end.time
-    first = begin if span[0] <= part.begin else part.own_time(span[0])
-    last = until if span[1] >= part.end else part.own_time(span[1])
-    if last - first < MOMENT:
-        first, last = max(begin, last - MOMENT), min(until, first + MOMENT)
-    return tolerance(part.dance, performance.venue, start=first, stop=last, budget=budget)
 
 
 def _alone(pose: Exhibit, k: int, delay: float) -> PerformanceExhibit:

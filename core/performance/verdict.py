@@ -13,6 +13,7 @@ from core.display import Readable
 from core.dragon import Stray
 from core.errors import question_about
 from core.failures import Failure, FailureKind, approach_words
+from core.ground.envelope import Envelope, envelope
 from core.judgement import Judgement, Report, check, quick_check, summary
 from core.kernels import Budget
 from core.motion.trajectory import Trajectory, trajectory
@@ -172,6 +173,29 @@ def performance_trajectory(
     raises: InvalidValue (times); TooMuchWork
     """
     return tuple(_trajectory_of(part, times, budget) for part in performance.parts)
+
+
+@question_about("performance", Performance)
+def performance_envelope(
+    performance: Performance,
+    *,
+    start: float | None = None,
+    stop: float | None = None,
+    excess: float = 1e-3,
+    budget: Budget | None = None,
+) -> tuple[Envelope, ...]:
+    """The ground that the benches of each dragon sweep, an Envelope for each, on the clock of its own dance.
+
+    start, stop: of the performance [s], None for the beginning and the end; excess: see envelope()
+    The ground of a dragon that stands is that of the first or the last STANDING of its dance.
+    raises: InvalidValue; OutsideRun; TooMuchWork
+    """
+    begin, until = performance.span(start, stop)
+    spans = [part.own_span(begin, until) for part in performance.parts]
+    return tuple(
+        envelope(part.dance, start=first, stop=last, excess=excess, budget=budget)
+        for part, (first, last) in zip(performance.parts, spans, strict=True)
+    )
 
 
 def _trajectory_of(part: Part, times: ArrayLike, budget: Budget | None) -> Trajectory:

@@ -60,6 +60,7 @@ CALLS: dict[Callable[..., Any], dict[str, Any]] = {
     },
     core.performance_check: {"performance": PERFORMANCE, "margin": 0.0, "stray": 0.0, "speed_limit": 0.9, "stop": 9.0},
     core.performance_clearance: {"performance": PERFORMANCE, "times": [0.0, 9.0]},
+    core.performance_envelope: {"performance": PERFORMANCE, "start": 1.0, "stop": 9.0, "excess": 0.01},
     core.performance_least_clearance: {"performance": PERFORMANCE, "stray": 0.0, "start": 1.0, "stop": 9.0},
     core.performance_tolerance: {"performance": NEAR, "start": 1.0, "stop": 9.0},
     core.performance_trajectory: {"performance": PERFORMANCE, "times": [0.0]},

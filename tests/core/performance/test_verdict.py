@@ -20,9 +20,12 @@ from core import (
     Route,
     Spiral,
     Venue,
+    bench_outlines,
     check,
+    envelope,
     first_encounter,
     performance_check,
+    performance_envelope,
     performance_least_clearance,
     performance_trajectory,
     quick_check,
@@ -114,6 +117,19 @@ def test_everyone_is_where_its_own_dance_puts_it_and_stands_before_and_after() -
     assert (same.velocity == alone.velocity).all()
     assert same.dance == CROSSING.parts[0].dance
     assert performance_trajectory(CROSSING, 30.0)[0].position.shape == (6, 2)
+
+
+def test_the_ground_of_each_dragon_is_that_of_its_dance_and_of_the_place_where_it_stands() -> None:
+    late = replace(CROSSING.parts[1], delay=20.0)
+    first, second = performance_envelope(Performance([CROSSING.parts[0], late]), stop=30.0, excess=0.01)
+    assert first == envelope(CROSSING.parts[0].dance, stop=30.0, excess=0.01)
+    assert second == envelope(late.dance, stop=late.own_time(30.0), excess=0.01)
+    standing = replace(CROSSING.parts[1], delay=500.0)
+    _, still = performance_envelope(Performance([CROSSING.parts[0], standing]), stop=30.0, excess=0.01)
+    assert still.stop - still.start == pytest.approx(1e-3)
+    outlines = bench_outlines(late.dance.dragon, trajectory(late.dance, late.dance.begin).position)
+    width, height = (float(np.ptp(outlines[..., axis])) for axis in (0, 1))  # its benches overlap in a row
+    assert width * height <= still.area <= (width + 0.021) * (height + 0.021)
 
 
 @pytest.mark.parametrize("times", ["now", [np.nan], [np.inf], [True], [[1.0]]])
