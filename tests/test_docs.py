@@ -16,7 +16,7 @@ from urllib.parse import urlsplit
 import pytest
 
 import core
-from app.command.main import ROOMS
+from app.command.main import MODULE_OF
 from app.questions.registry import QUESTIONS
 from app.settings import Settings
 from tests.support.command import PATIENCE, bin_folder
@@ -99,7 +99,7 @@ def test_the_house_is_drawn_as_it_stands() -> None:
 def test_every_call_command_and_function_stands_on_its_page() -> None:
     calls = {question.path.partition(".")[0] for question in QUESTIONS.values()}
     assert {call for call in calls if call not in PAGES["docs/http.md"]} == set()
-    assert {command for command in ROOMS if f"| `{command}" not in PAGES["docs/command.md"]} == set()
+    assert {command for command in MODULE_OF if f"| `{command}" not in PAGES["docs/command.md"]} == set()
     functions = {name for name in core.__all__ if inspect.isfunction(getattr(core, name))}
     assert {name for name in functions if f"`{name}" not in PAGES["docs/library.md"]} == set()
 

@@ -23,8 +23,8 @@ from app.command.usage import Commands, Misuse, explain_values, message_of
 from core.errors import BenchDragonError
 from core.kernels import COMPILED
 
-# The commands in the order of the help, each with its module. A module is imported when its command is called.
-ROOMS = {
+# Module of each command, in the order of the help. It is imported when its command is called, or the help lists it.
+MODULE_OF = {
     "trajectory": "trajectory",
     "figures": "figures",
     "envelope": "envelope",
@@ -62,7 +62,7 @@ ROOMS = {
 
 
 @contextmanager
-def _one_line() -> Iterator[None]:
+def _errors_in_one_line() -> Iterator[None]:
     """Context that turns errors that a user can correct into one line on standard error and exit code 2."""
     try:
         yield
@@ -71,7 +71,7 @@ def _one_line() -> Iterator[None]:
         message = error.message
     except Misuse as error:
         message = message_of(error)
-    except BrokenPipeError:
+    except BrokenPipeError:  # The reader has what it wanted: typer ends the command without a word.
         raise
     except OSError as error:
         message = output_fault(error)
@@ -83,24 +83,25 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 
 class _Commands(Commands):
-    """The commands; every mistake in their use is one line."""
+    """The commands, imported one by one; each mistake in their use is reported in one line."""
 
     def make_context(self, info_name: Any, args: list[str], *further: Any, **extra: Any) -> Any:
         # Without any argument the parser prints the help and raises an error, although the user made no mistake.
-        with _one_line() if args else nullcontext():
+        with _errors_in_one_line() if args else nullcontext():
             return super().make_context(info_name, args, *further, **extra)
 
     def list_commands(self, ctx: Any) -> list[str]:
-        return list(ROOMS)
+        return list(MODULE_OF)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        if cmd_name not in ROOMS:
+        if cmd_name not in MODULE_OF:
             return None
-        entry = getattr(import_module(f"app.command.{ROOMS[cmd_name]}"), cmd_name.replace("-", "_"))
+        entry = getattr(import_module(f"app.command.{MODULE_OF[cmd_name]}"), cmd_name.replace("-", "_"))
         if not isinstance(entry, typer.Typer):
-            alone = typer.Typer(context_settings=HELP, add_completion=False)
-            alone.command(cmd_name)(entry)
-            entry = alone
+            # typer makes a command only of an app: this one has no other command.
+            app_of_one = typer.Typer(context_settings=HELP, add_completion=False)
+            app_of_one.command(cmd_name)(entry)
+            entry = app_of_one
         command = typer.main.get_command(entry)
         command.name = cmd_name
         for one in (command, *getattr(command, "commands", {}).values()):
@@ -111,7 +112,7 @@ class _Commands(Commands):
         return command
 
     def invoke(self, ctx: Any) -> Any:
-        with _one_line():
+        with _errors_in_one_line():
             result = super().invoke(ctx)
             sys.stdout.flush()
             return result

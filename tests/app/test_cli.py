@@ -28,7 +28,7 @@ import pytest
 import typer
 
 import core
-from app.command.main import ROOMS, app
+from app.command.main import MODULE_OF, app
 from app.command.show import print_answer
 from app.questions.maximum_head_speed import MaximumHeadSpeed
 from app.questions.registry import QUESTIONS
@@ -642,12 +642,13 @@ def test_help_prints_every_description_with_its_unit(words: tuple[str, ...]) -> 
 
 
 def test_help_names_every_command_and_unit() -> None:
-    assert {*ROOMS} <= {*answer_of("--help", COLUMNS="100").split()}
+    assert {*MODULE_OF} <= {*answer_of("--help", COLUMNS="100").split()}
     assert "Radial advance of the spiral per full turn [m]" in answer_of("collision-time", "--help", COLUMNS="120")
 
 
 def test_every_question_has_its_command() -> None:
-    without = {name for name in QUESTIONS if not name.endswith("_figure")} - {name.replace("-", "_") for name in ROOMS}
+    commands = {name.replace("-", "_") for name in MODULE_OF}
+    without = {name for name in QUESTIONS if not name.endswith("_figure")} - commands
     assert without == OTHERWISE, "app/command/main.py needs a line of it"
 
 
