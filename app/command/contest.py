@@ -1,4 +1,4 @@
-"""The command bench-dragon contest: every answer and every file that a student hands in."""
+"""The command bench-dragon contest: prints every answer, and writes every file that a student hands in."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The commands on strays: tolerance, its curve over the pitch, and the probability of a contact."""
+"""The commands about people who stray: tolerance, its curve over the pitch, and the probability of a contact."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from app.questions.tolerance_curve import ToleranceCurveQuery, ToleranceCurveReq
 from app.wire.question import Terms
 from core.errors import format_number
 
-# The reason why strays in a FILE do not count.
-LARGEST = "the answer is the largest stray, by people and by the play of pins together"
+# Why a question that looks for the largest stray ignores strays in a FILE: the end of a note to the user.
+FILE_STRAYS_IGNORED = "the answer is the largest stray, by people and by the play of pins together"
 
 
-@asks(ToleranceQuery, ToleranceRequest, LARGEST)
+@asks(ToleranceQuery, ToleranceRequest, FILE_STRAYS_IGNORED)
 def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) -> None:
     """Largest proven stray without contact, and a pose that touches with a slightly larger one.
 
@@ -31,7 +31,7 @@ def tolerance(request: ToleranceQuery | ToleranceRequest, json: Json = False) ->
     show.print_answer("Tolerance to strays", answer, json)
 
 
-@asks(ToleranceCurveQuery, ToleranceCurveRequest, LARGEST)
+@asks(ToleranceCurveQuery, ToleranceCurveRequest, FILE_STRAYS_IGNORED)
 def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, json: Json = False) -> None:
     """Tolerance against the pitch: largest proven stray, and stray that is shown to touch."""
     with show.waiting("tolerance curve") as progress:
@@ -51,6 +51,7 @@ def contact_probability(request: ContactProbabilityQuery | ContactProbabilityReq
 
 
 def _curve_parts(columns: dict[str, Any]) -> Iterator[show.Part]:
+    """One row for each pitch."""
     table = show.new_table("Tolerance to strays", "pitch [m]", "stray [m]", "shown to touch [m]", "limited by")
     for pitch, stray, touching, limit in zip(*columns.values(), strict=True):
         table.add_row(

@@ -17,13 +17,17 @@ from app.files.workbooks import rounded_away
 from core import Dance
 from core.values import Floats
 
-# A table with more columns is set smaller in LaTeX, so that it fits on a page.
-WIDE, NARROW = 4, "\\footnotesize\\setlength{\\tabcolsep}{3pt}"
+# Most columns of a LaTeX table in normal type; a table with more fits on the page with these commands.
+COLUMNS_MOST, SMALLER = 4, "\\footnotesize\\setlength{\\tabcolsep}{3pt}"
 
 
 @dataclass(frozen=True)
 class PaperTable:
-    """name: of its files; caption; corner: over the names of the rows; columns, rows: names; numbers: (R, C)"""
+    """A table of numbers with named rows and columns.
+
+    name: of its files; caption: a sentence; corner: head of the column with the names of the rows
+    columns, rows: their names; numbers: (R, C), in the units that the names give
+    """
 
     name: str
     caption: str
@@ -33,7 +37,7 @@ class PaperTable:
     numbers: Floats
 
     def lines(self) -> list[list[str]]:
-        """The heads; below them name and numbers of every row, in the contest's format."""
+        """The line of heads, then a line for each row: its name and its numbers, in the contest's format."""
         rows = zip(self.rows, rounded_away(self.numbers, XLSX_DECIMALS).tolist(), strict=True)
         numbered = [[name, *(f"{value:.{XLSX_DECIMALS}f}" for value in row)] for name, row in rows]
         return [[self.corner, *self.columns], *numbered]
@@ -49,66 +53,68 @@ class PaperTable:
 
     def to_latex(self) -> str:
         """A table for the packages booktabs and, in Chinese, ctex. Negative numbers have a minus sign, not a hyphen."""
-        head, *lines = (
+        heads, *lines = (
             " & ".join(f"$-${cell[1:]}" if cell.startswith("-") else cell for cell in line) for line in self.lines()
         )
         body = "".join(f"    {line} \\\\\n" for line in lines)
         return (
-            f"\\begin{{table}}[htbp]\n  \\centering{NARROW if len(self.columns) > WIDE else ''}\n"
+            f"\\begin{{table}}[htbp]\n  \\centering{SMALLER if len(self.columns) > COLUMNS_MOST else ''}\n"
             f"  \\caption{{{self.caption}}}\n  \\label{{tab:{self.name}}}\n"
             f"  \\begin{{tabular}}{{l{'r' * len(self.columns)}}}\n    \\toprule\n"
-            f"    {head} \\\\\n    \\midrule\n{body}"
+            f"    {heads} \\\\\n    \\midrule\n{body}"
             "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n"
         )
 
 
 def in_markdown(lines: Iterable[Sequence[str]]) -> str:
-    """A table in Markdown: its head, the rule below it ("---" in each column), its rows."""
+    """A table in Markdown. lines: its heads, the rule below them ("---" in each column), its rows"""
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def paper_tables(solved: Solved, say: Say) -> list[PaperTable]:
-    """Positions and speeds of questions 1 and 4 at the instants that the contest requires, and those of question 2."""
-    first, turning = ("", say("Question 1", "问题 1")), ("turn-", say("Question 4", "问题 4"))
-    tables = [*_over_time(solved, solved.spiral, solved.table_times, first, say), _at_contact(solved, say)]
+    """Tables of questions 1 and 4 at the instants that the contest requires, and of question 2 at first contact."""
+    question_1, question_4 = ("", say("Question 1", "问题 1")), ("turn-", say("Question 4", "问题 4"))
+    tables = [*_over_time(solved, solved.spiral, solved.table_times, question_1, say), _at_contact(solved, say)]
     if solved.turned:
-        tables += _over_time(solved, solved.turned.dance, solved.turn_times, turning, say)
+        tables += _over_time(solved, solved.turned.dance, solved.turn_times, question_4, say)
     return tables
 
 
 def _names(solved: Solved, say: Say) -> list[str]:
+    """The names of the handles in the tables."""
     names = handle_names(solved.dragon.benches, say.language)
     return [names[k] for k in solved.handles]
 
 
-def _over_time(solved: Solved, dance: Dance, times: Floats, about: tuple[str, str], say: Say) -> list[PaperTable]:
-    """Tables of positions and of speeds. about: beginning of their names, and of their captions"""
-    name, question = about
+def _over_time(solved: Solved, dance: Dance, times: Floats, begin: tuple[str, str], say: Say) -> list[PaperTable]:
+    """Tables of positions and of speeds at times [s]. begin: first part of their names, and of their captions"""
+    prefix, question = begin
     motion = core.trajectory(dance, times)
     handles, gap = _names(solved, say), say(" ", "")
     columns = [f"{time:g} s" for time in times.tolist()]
     axes = [f"{handle}{gap}{axis} (m)" for handle in handles for axis in "xy"]
     places = motion.position[:, solved.handles].transpose(1, 2, 0).reshape(len(axes), times.size)
     speeds = [f"{handle} (m/s)" for handle in handles]
-    positions, rates = say("positions", "位置"), say("speeds", "速度")
-    corner, colon, late = say("handle", "把手"), say(": ", "："), ""
+    corner, colon, note = say("handle", "把手"), say(": ", "："), ""
     touch = solved.contact.time
     if dance is solved.spiral and touch is not None and touch < times[-1]:
-        late = say(f" (benches have touched at {touch:.6f} s)", f"（板凳已于 {touch:.6f} s 相碰）")
-    positions, rates = f"{question}{colon}{positions}{late}", f"{question}{colon}{rates}{late}"
+        note = say(f" (benches have touched at {touch:.6f} s)", f"（板凳已于 {touch:.6f} s 相碰）")
+    of_places = f"{question}{colon}{say('positions', '位置')}{note}"
+    of_speeds = f"{question}{colon}{say('speeds', '速度')}{note}"
     return [
-        PaperTable(f"{name}positions", positions, corner, columns, axes, places),
-        PaperTable(f"{name}speeds", rates, corner, columns, speeds, motion.speed[:, solved.handles].T),
+        PaperTable(f"{prefix}positions", of_places, corner, columns, axes, places),
+        PaperTable(f"{prefix}speeds", of_speeds, corner, columns, speeds, motion.speed[:, solved.handles].T),
     ]
 
 
 def _at_contact(solved: Solved, say: Say) -> PaperTable:
+    """The table of question 2: at first contact, or at the end of a run without one."""
     numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
     columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
-    met = solved.contact.time is not None
-    what = "" if met else say(" (no contact, end of the run)", "（无碰撞，运动结束时）")
+    touched = solved.contact.time is not None
+    note = "" if touched else say(" (no contact, end of the run)", "（无碰撞，运动结束时）")
     caption = say(
-        f"Question 2: positions and speeds at {solved.met_at:.6f} s{what}",
-        f"问题 2：{solved.met_at:.6f} s 时的位置和速度{what}",
+        f"Question 2: positions and speeds at {solved.met_at:.6f} s{note}",
+        f"问题 2：{solved.met_at:.6f} s 时的位置和速度{note}",
     )
     return PaperTable("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)
