@@ -1,10 +1,10 @@
 """The service in several processes on one port, so that the Python code around each answer runs on several cores.
 
 Threads of one process do not achieve this: only the search itself, a third of an answer, runs without Python's lock,
-and passing the lock between threads costs what the second core gains. Compared with one process on one core, two cores
-give 1.0x the requests per second with one process and 1.7x with two, with the client on the same cores (2026-11-21; in
-one process, sys.setswitchinterval from 0.05 to 100 ms, 2, 3 or 40 threads, and asyncio's loop or uvloop bring no
-improvement). `make bench` measures it again.
+and passing the lock between threads costs what the second core gains. With two cores in place of one, one process
+answers 1.0x the requests per second and two processes 1.7x, with the client on the same cores (2026-11-21). One process
+is no faster with sys.setswitchinterval from 0.05 to 100 ms, with 2, 3 or 40 threads, or with uvloop. `make bench`
+measures it again.
 """
 
 from __future__ import annotations
@@ -41,21 +41,21 @@ if TYPE_CHECKING:  # The first of several processes answers nothing and does not
 
 logger = logging.getLogger("uvicorn.error")
 
-# h11 serves, although httptools would save a fifteenth of the time: httptools answers an unknown method itself, with
-# 400 and without problem details.
+# A parser by h11. httptools would save a fifteenth of the time, but answers an unknown method itself, with 400 and
+# without problem details.
 PARSER = "app.service.protocol:Protocol"
-# The files of the counts of one process, by their names in prometheus_client, the size of each [bytes], and the room
-# that there must be for a process [bytes].
+# Each process counts in files: their names in prometheus_client, and the size of each [bytes].
 COUNTS, COUNTS_FILE = ("counter", "histogram", "gauge_livesum"), 1 << 20
+# Free room that the service wants for the counts of each process, one file more than they have [bytes].
 COUNTS_BYTES = 4 * COUNTS_FILE
-# Longest silence of a process before it is replaced [s]: while it starts, which takes ten seconds on a busy machine,
-# and once it has answered, which took at most 0.4 s under all attacks of `make soak` at once (2026-11-23).
+# A process that is silent for longer is replaced [s]. It starts in up to ten seconds on a busy machine; once it serves,
+# it answers within 0.4 s, also under all attacks of `make soak` at once (2026-11-23).
 START_SECONDS, SILENT_SECONDS = 60, 10
 BACKLOG = 2048  # Connections that may wait to be accepted; uvicorn's default.
 
 
 def process_count(count: int | None, platform: str = sys.platform) -> int:
-    """Number of processes of the service: as asked, otherwise one for each core.
+    """Number of processes of the service: the given count, otherwise one for each core up to WORKERS_MAX.
 
     platform: Python's name for the system
     raises: InvalidValue for several on Windows, which has no signals to end them and lets two services share one port
@@ -92,15 +92,16 @@ def listen(host: str, port: int) -> socket.socket:
 class _Supervisor(Multiprocess):
     """uvicorn's supervisor, whose processes ignore Ctrl-C while they start, and leave no metrics behind when they die.
 
-    It asks each process in turn whether it is alive and waits for the answer. This process closes its own copy of the
-    other end of that pipe: the pipe then ends with a process that is killed, and the next one is started at once.
+    It asks each process in turn through a pipe whether it is alive, and waits for the answer. It closes its own copy of
+    the end that the process holds. A pipe then ends when its process is killed, and a new process starts at once.
     """
 
     def __init__(self, config: uvicorn.Config, shared: socket.socket, counts: str | None) -> None:
         super().__init__(config, [shared])
         self.counts = counts
-        self.known: set[int | None] = set()
-        self.counted: set[int | None] = set()
+        # Processes that have answered, and all of them, at the end of the last round of questions, by their ids.
+        self.answered: set[int | None] = set()
+        self.running: set[int | None] = set()
 
     def init_processes(self) -> None:
         # A terminal sends Ctrl-C to all processes, and one that still imports modules would end with a traceback. So
@@ -108,34 +109,34 @@ class _Supervisor(Multiprocess):
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
         super().init_processes()
         signal.signal(signal.SIGINT, handler)
-        self._close_their_ends()
+        self._close_child_ends()
 
     def terminate_all(self) -> None:
-        # Otherwise connections would wait at this socket for processes that accept none, and be reset in the end. A
-        # client whose connection is refused can ask another service.
+        # An open socket would let connections wait for processes that accept none, and be reset in the end. A client
+        # whose connection is refused can ask another service.
         for shared in self.sockets:
             shared.close()
         super().terminate_all()
 
-    def _close_their_ends(self) -> None:
+    def _close_child_ends(self) -> None:
         for process in self.processes:
             process.child_conn.close()
 
     def keep_subprocess_alive(self) -> None:
-        # Known ones have answered; uvicorn has one time limit for all.
+        # uvicorn has one time limit for all processes: the long one as long as any of them has not answered.
         before = {process.pid for process in self.processes}
-        self.config.timeout_worker_healthcheck = SILENT_SECONDS if before <= self.known else START_SECONDS
+        self.config.timeout_worker_healthcheck = SILENT_SECONDS if before <= self.answered else START_SECONDS
         super().keep_subprocess_alive()
         self.config.timeout_worker_healthcheck = START_SECONDS
-        self._close_their_ends()
+        self._close_child_ends()
         after = {process.pid for process in self.processes}
-        if self.counts and (gone := self.counted - after):
+        if self.counts and (gone := self.running - after):
             # Imported late, because a new process decides at the import whether its counts are shared.
             from prometheus_client.multiprocess import mark_process_dead
 
             for process in gone:
                 mark_process_dead(process, self.counts)  # type: ignore[no-untyped-call]
-        self.known, self.counted = before & after, after
+        self.answered, self.running = before & after, after
 
 
 @contextmanager
@@ -160,6 +161,7 @@ def _counts_folder(workers: int) -> Iterator[str | None]:
 
 
 def _warn_of_counts(error: OSError) -> None:
+    """Log that each process counts for itself."""
     logger.warning(
         "The folder for temporary files cannot be used (%s): /metrics shows one process alone. "
         "Free some space there, or set TMPDIR to another folder.",
@@ -167,11 +169,11 @@ def _warn_of_counts(error: OSError) -> None:
     )
 
 
-def _take_room() -> None:
-    """Fill the files of this process's counts with zeros, before they are mapped into memory.
+def _reserve_counts() -> None:
+    """Fill the files of this process's counts with zeros before they are mapped into memory.
 
-    A mapped file without room on the disk would end the process at a count. Without room, or if somebody removed the
-    folder, this process counts for itself.
+    Otherwise a full disk would end the process at its first count in a new part of a file. If the files cannot be
+    written, because there is no room or somebody removed the folder, this process counts for itself.
     """
     folder = os.environ.get(SHARED_COUNTS)
     if folder is None:
@@ -190,7 +192,7 @@ def _take_room() -> None:
 
 def create_child_app() -> FastAPI:
     """create_app() in a process that ends when its parent ends, also when the parent is killed."""
-    _take_room()
+    _reserve_counts()
     with importing():
         from app.service.main import create_app
 
@@ -198,11 +200,11 @@ def create_child_app() -> FastAPI:
     parent = multiprocessing.parent_process()
     assert parent is not None
 
-    def follow() -> None:
+    def end_with_parent() -> None:
         parent.join()
         os.kill(os.getpid(), signal.SIGTERM)
 
-    Thread(target=follow, daemon=True).start()
+    Thread(target=end_with_parent, daemon=True).start()
     return create_app()
 
 
@@ -238,7 +240,7 @@ def serve(host: str, port: int, workers: int) -> None:
         stack.enter_context(kept_list())
         if settings.data is None:
             os.environ[DATA] = stack.enter_context(scratch())
-        if counts:  # The folder in which processes add up the counts of /metrics; prometheus_client reads the variable.
+        if counts:  # prometheus_client reads this variable in each process: there /metrics adds up the counts of all.
             os.environ[SHARED_COUNTS] = counts
         host_in_url = f"[{host}]" if ":" in host else host
         at = f"http://{host_in_url}:{shared.getsockname()[1]}"
