@@ -24,27 +24,27 @@ from core.people.cards import Card
 from core.plots import BLUE, VERMILION
 from core.values import Floats
 
-# Fonts as outlines of TrueType, so that every machine and every printer draws them alike.
+# Type 42 puts the outlines of TrueType fonts into the file, so that every machine and printer draws them alike.
 FONTS: dict[Any, Any] = {"pdf.fonttype": 42, "hatch.linewidth": 0.4}
-# Cards beside and above one another on a sheet, and the space between a card's edge and its content [mm].
+# Cards side by side and one below the other on a sheet, and the space between a card's edge and its content [mm].
 ACROSS, DOWN, PAD = 2, 2, 7.0
 # Length of a mark where to cut [mm].
 CUT = 6.0
-# Types: bench, its place and its time, sentences, its neighbours, and small print [pt].
+# Sizes of type: of the bench's number, of where it stands, of times, sentences, neighbours and small print [pt].
 BENCH_TYPE, STAND_TYPE, TIME_TYPE, WORDS_TYPE, NEAR_TYPE, SMALL_TYPE = 26.0, 11.0, 10.0, 9.0, 9.5, 5.5
-# Height of a line of a sentence and the space between two cues [mm], and where sentences begin [mm from the left].
+# Height of a line of a sentence, space between two cues, and distance of sentences from the left edge [mm].
 LINE, BETWEEN, INDENT = 4.0, 1.4, 22.0
-# Least height of the picture, and its space to the frame [mm].
+# Least height of the picture, and the space between the picture and its frame [mm].
 PICTURE, INSIDE = 24.0, 4.0
-# Radius of a numbered moment [mm], and the distances from its place at which it may stand.
-MOMENT, AWAY = 1.9, (0.0, 4.0, 6.5, 9.0)
+# Radius of the circle with the number of a moment, and distances from its place that are tried for it, in order [mm].
+MOMENT, AWAY = 1.9, (4.0, 6.5, 9.0)
 
 
 @dataclass(frozen=True, slots=True)
 class CardSheets:
     """The content of a file of cards.
 
-    title: of the dance; verdict: of its check; family: fonts
+    title: of the dance; verdict: of its check; family: names of the fonts
     """
 
     dance: Dance
@@ -58,7 +58,7 @@ class CardSheets:
 
 
 def cards_pdf(sheets: CardSheets, progress: Callable[[float], None] = lambda share: None) -> bytes:
-    """The bytes of the file. raises: Halted once the budget is stopped"""
+    """The bytes of the PDF. raises: Halted once the budget is stopped"""
     sink, on_sheet = io.BytesIO(), ACROSS * DOWN
 
     def drawn() -> bytes:
@@ -74,6 +74,7 @@ def cards_pdf(sheets: CardSheets, progress: Callable[[float], None] = lambda sha
 
 
 def _sheet(sheets: CardSheets, cards: Sequence[Card]) -> Sheet:
+    """One sheet with up to ACROSS x DOWN cards. The marks where to cut stand at the corners of all cards."""
     paper = Paper("A4", *PAPERS["A4"])
     sheet = Sheet(paper, sheets.words.say, sheets.family, sheets.budget)
     wide, high = paper.width / ACROSS, paper.height / DOWN
@@ -90,11 +91,11 @@ def _sheet(sheets: CardSheets, cards: Sequence[Card]) -> Sheet:
 def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
     left, bottom, right, top = box
     words, say, bench = sheets.words, sheets.words.say, card.bench
-    number, own = str(bench.bench), words.names[bench.bench] if words.names else ""
-    own = own or (say("head", "龙头") if bench.bench == 0 else "")
+    number, name = str(bench.bench), words.names[bench.bench] if words.names else ""
+    name = name or (say("head", "龙头") if bench.bench == 0 else "")
     sheet.words(left, top - 8.5, number, BENCH_TYPE, fontweight="bold")
     beside = left + sheet.width(number, BENCH_TYPE, bold=True) + 3.0
-    sheet.words(beside, top - 8.5, own, 16.0, within=right - beside - 1.0, fontweight="bold")
+    sheet.words(beside, top - 8.5, name, 16.0, within=right - beside - 1.0, fontweight="bold")
     sheet.words(right, top - 1.5, sheets.title, 6.5, within=0.6 * (right - left), ha="right", color="#555555")
     y = top - 15.5
     stand = bench.start
@@ -120,9 +121,9 @@ def _draw_card(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
 
 
 def _draw_cues(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> float:
-    """Write the cues below one another; returns where the picture may begin [mm].
+    """Write the cues one below the other; returns the height at which the picture may begin [mm].
 
-    Where they would leave too little room for the picture, all are written smaller.
+    If they leave too little room for the picture, all of them are written smaller.
     """
     left, bottom, right, top = box
     words, room = sheets.words, top - bottom - PICTURE - 7.0
@@ -138,16 +139,16 @@ def _draw_cues(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> float:
         shrink -= 0.05
         lines = [_wrapped(sheet, one, size * shrink, right - left - INDENT) for one in sentences]
     y = top
-    for number, (cue, some) in enumerate(zip(card.cues, lines, strict=True), start=1):
+    for number, (cue, own_lines) in enumerate(zip(card.cues, lines, strict=True), start=1):
         y -= BETWEEN * shrink
         base = y - 0.78 * LINE * shrink
         _draw_number(sheet, number, (left + 2.0, base + 1.1), shrink)
         time = counts[number - 1] or words.clock.clock(cue.time)
         sheet.words(left + 5.0, base, time, TIME_TYPE * shrink, within=INDENT - 6.0, fontweight="bold")
-        for one in some:
-            sheet.entry(left + INDENT, base, one, size * shrink)
+        for line in own_lines:
+            sheet.entry(left + INDENT, base, line, size * shrink)
             base -= LINE * shrink
-        y -= LINE * shrink * len(some)
+        y -= LINE * shrink * len(own_lines)
     return y - BETWEEN
 
 
@@ -160,12 +161,12 @@ def _draw_number(sheet: Sheet, number: int, at: tuple[float, float], shrink: flo
 
 
 def _wrapped(sheet: Sheet, sentence: str, size: float, wide: float) -> list[str]:
-    """Lines of a sentence, broken at blanks and between Chinese characters."""
+    """Lines of a sentence no wider than `wide` [mm], broken at blanks and between Chinese characters."""
     pieces = [""]
     for character in sentence:
-        apart = character == " " or character > "\u2e80" or (pieces[-1] and pieces[-1][-1] > "\u2e80")
-        # A line does not begin with a closing mark.
-        if apart and character not in "，。；：）、":
+        # A line may break before a blank, before and after a Chinese character, and never before a closing mark.
+        may_break = character == " " or character > "\u2e80" or (pieces[-1] and pieces[-1][-1] > "\u2e80")
+        if may_break and character not in "，。；：）、":
             pieces.append(character)
         else:
             pieces[-1] += character
@@ -219,9 +220,9 @@ def _draw_track(sheet: Sheet, sheets: CardSheets, card: Card, box: Box) -> None:
 
 
 def _free(at: Floats, taken: Sequence[Floats], box: Box) -> Floats:
-    """A place near a point where a number covers no other one, inside the box."""
+    """A place in the box and near a point for a number that covers no other one; the point itself if there is none."""
     low, high = np.array(box[:2]) + MOMENT, np.array(box[2:]) - MOMENT
-    for away in AWAY[1:]:
+    for away in AWAY:
         for angle in np.linspace(0.25 * np.pi, 2.25 * np.pi, 16, endpoint=False):
             place: Floats = at + away * np.array([np.cos(angle), np.sin(angle)])
             inside = bool((place >= low).all() and (place <= high).all())

@@ -1,12 +1,12 @@
 """Cues: what happens to the carriers of each bench, and when.
 
-Everything is said of one bench: where its front handle stands at the start, when and in which direction it begins to
-walk, which benches come abreast of it, where it is fastest, when the dragon pauses, and when and where it is done.
+The cues of a bench say where its front handle stands at the start, when and in which direction it begins to walk, which
+benches come abreast of it, where it is fastest, when the dragon pauses, and when and where it is done.
 
-How each number is known: places, directions and speeds are those of trajectory() at the moment named, good to 1e-11 m
-and 1e-11 m/s; begin, pauses and end are those of the dance's clock; for meetings see core/people/meetings.py. The
-fastest moment is the highest of the rows, STEP apart, narrowed to FASTEST_WIDTH between its two neighbours: no row is
-faster, and the speed named is really reached.
+How each number is known: places, directions and speeds are those of trajectory() at that moment, good to 1e-11 m and
+1e-11 m/s; begin, pauses and end are those of the dance's clock; for meetings see core/people/meetings.py. For the
+fastest moment the dance is sampled at travels of the head (travels_between()); the moment is then narrowed to
+FASTEST_WIDTH between the two neighbours of the fastest sample. So no sample is faster, and the speed is really reached.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ from core.people.meetings import Meetings, instants_at_once, meetings_between, s
 from core.shapes.rectangles import bench_poses
 from core.values import Floats
 
-# Largest gap at which a bench that comes abreast is met, if no other is given [m], and the largest that may be [m].
+# Largest gap at which a bench that comes abreast is met: by default, and at most [m].
 REACH, REACH_MAX = 8.0, 1_000.0
-# Most benches of one question.
+# Largest number of benches in one question.
 FOLLOWED_MAX = 1_000
 # Width to which a fastest moment is narrowed [m of head travel], and the golden section that narrows it [1].
 FASTEST_WIDTH = 1e-7
@@ -47,8 +47,11 @@ class Side(StrEnum):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Stand(Readable):
-    """A bench at one moment: time [s]; x, y [m] and place s along the path [m] of its front handle; heading of the
-    bench, from its rear to its front handle [rad]."""
+    """A bench at one moment.
+
+    time: [s]; x, y: of its front handle [m]; s: place of that handle along the path [m]
+    heading: of the bench, from its rear to its front handle [rad]
+    """
 
     time: float
     x: float
@@ -60,10 +63,10 @@ class Stand(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Meeting(Readable):
-    """Another bench comes abreast: its middle is straight to one side of the own middle.
+    """Another bench comes abreast: its middle is straight to the left or to the right of the middle of this bench.
 
-    time: [s]; bench: the other one; side: on which it is; gap: of the two benches, edge to edge [m], below zero if they
-    overlap; oncoming: True if it points the other way; x, y: own middle [m]
+    time: [s]; bench: the other one; side: on which it is; gap: between the two benches, edge to edge [m], below zero if
+    they overlap; oncoming: True if the other one points the other way; x, y: middle of this bench [m]
     """
 
     time: float
@@ -77,8 +80,10 @@ class Meeting(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class FastestMoment(Readable):
-    """The highest speed of the two handles of a bench [m/s]: time [s], the handle, its place x, y [m], and the speed of
-    the head at that moment [m/s]."""
+    """The moment at which one of the two handles of a bench is fastest.
+
+    time: [s]; speed: of that handle [m/s]; head_speed: of the head at that moment [m/s]; x, y: of the handle [m]
+    """
 
     time: float
     speed: float
@@ -90,7 +95,7 @@ class FastestMoment(Readable):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Pause(Readable):
-    """A time in which nobody walks: from begin to end [s], with the own front handle at x, y [m]."""
+    """A time in which nobody walks: from begin to end [s], with the front handle of this bench at x, y [m]."""
 
     begin: float
     end: float
@@ -103,9 +108,9 @@ class Pause(Readable):
 class BenchCues(Readable):
     """What the carriers of a bench have to know.
 
-    start: where it stands when the dance starts; begin: the moment at which it begins to walk, and from where;
-    direction: in which its front handle walks then [rad]; head_speed: of the head then [m/s]
-    ahead, behind: its neighbours, None at an end
+    start: where it stands when the dance starts; begin: when and from where it begins to walk
+    direction: in which its front handle then walks [rad]; head_speed: at which the head then walks [m/s]
+    ahead, behind: its neighbours, None at an end of the dragon
     meetings, pauses: in order of time; done: when and where it stops for good
     """
 
@@ -140,12 +145,12 @@ def bench_cues(
     stop: float | None = None,
     budget: Budget | None = None,
 ) -> tuple[BenchCues, ...]:
-    """The cues of some benches, in the order given; None: of all.
+    """The cues of some benches, in the order of the list.
 
-    benches: at most FOLLOWED_MAX numbers, 0 for the head; reach: largest gap of a meeting [m]
+    benches: at most FOLLOWED_MAX numbers, 0 for the head; None: all benches; reach: largest gap of a meeting [m]
     start, stop: of the dance [s], see Dance.span()
-    raises: InvalidValue, also for a dance up to a fold, where speeds grow without bound, and for one that stands still;
-        OutsideRun; TooMuchWork
+    raises: InvalidValue, also for a dance up to a fold, where speeds grow without bound, and for one in which the head
+        never walks; OutsideRun; TooMuchWork
 
     >>> from core import Arc, Dragon, Line, Route
     >>> there = Line((0.0, 0.0), (40.0, 0.0))
@@ -168,23 +173,24 @@ def bench_cues(
     met = meetings_between(steady, followed, travels_between(walks[0].first, last), reach, budget)
     fastest = _fastest(steady, followed, walks, budget)
     rests = [(a.end, b.begin) for a, b in pairwise(walks) if b.begin > a.end]
-    stands = _stands(dance, followed, [begin, walks[0].begin, walks[-1].end, *(end for end, _ in rests)], budget)
+    # In the order in which the loop below takes them: start, begin, done, and each pause.
+    moments = [begin, walks[0].begin, walks[-1].end, *(end for end, _ in rests)]
+    stands = _stands(dance, followed, moments, budget)
     middles, meetings = _middles(steady, met, budget), dict[int, list[Meeting]]()
     for k, bench in enumerate(met.own.tolist()):
         side = Side.LEFT if met.left[k] > 0.0 else Side.RIGHT
         when = dance.clock.time(float(met.travel[k]))
         one = Meeting(when, int(met.other[k]), side, float(met.gap[k]), bool(met.cosine[k] < 0.0), *middles[k])
         meetings.setdefault(bench, []).append(one)
-    ahead = _directions(steady, followed, walks[0].first, budget)
+    directions = _directions(steady, followed, walks[0].first, budget)
     cues = []
     for k, bench in enumerate(followed):
-        at = stands[k]
-        pauses = tuple(Pause(*rest, one.x, one.y) for rest, one in zip(rests, at[3:], strict=True))
+        at_start, at_begin, at_end, *at_rests = stands[k]
+        pauses = tuple(Pause(*rest, at.x, at.y) for rest, at in zip(rests, at_rests, strict=True))
         neighbours = bench - 1 if bench else None, bench + 1 if bench + 1 < dance.dragon.benches else None
+        first = (at_start, at_begin, directions[k], walks[0].speed)
         own = tuple(meetings.get(bench, ()))
-        cues.append(
-            BenchCues(bench, at[0], at[1], ahead[k], walks[0].speed, *neighbours, own, fastest[k], pauses, at[2])
-        )
+        cues.append(BenchCues(bench, *first, *neighbours, own, fastest[k], pauses, at_end))
     return tuple(cues)
 
 
@@ -217,7 +223,7 @@ def _span(dance: Dance, start: float | None, stop: float | None) -> tuple[float,
 
 
 def _stands(dance: Dance, benches: list[int], times: list[float], budget: Budget) -> list[list[Stand]]:
-    """The stands of each bench at all times."""
+    """For each of the benches, where it stands at each of the times [s]."""
     position = trajectory(dance, times, budget=budget).position
     places, headings = handle_places(dance, times, budget=budget), bench_poses(position)[..., 2]
     return [
@@ -243,7 +249,7 @@ def _directions(steady: Dance, benches: list[int], travel: float, budget: Budget
 
 
 def _middles(steady: Dance, met: Meetings, budget: Budget) -> list[tuple[float, float]]:
-    """Own middle x, y at each meeting [m]."""
+    """Middle x, y of the followed bench at each meeting [m]."""
     middles = np.empty((met.travel.size, 2))
     at_once = instants_at_once(steady)
     for first in range(0, met.travel.size, at_once):
@@ -255,7 +261,7 @@ def _middles(steady: Dance, met: Meetings, budget: Budget) -> list[tuple[float, 
 
 
 def _rates(steady: Dance, benches: list[int], travels: Floats, budget: Budget) -> Floats:
-    """Higher speed of the two handles of each bench, for 1 m/s of the head (R, B) [1]."""
+    """Speed of the faster handle of each bench at each travel, per m/s of the head (R, B) [1]."""
     speed = trajectory(steady, travels, budget=budget).speed
     front = np.array(benches)
     rates: Floats = np.maximum(speed[:, front], speed[:, front + 1])
@@ -263,15 +269,15 @@ def _rates(steady: Dance, benches: list[int], travels: Floats, budget: Budget) -
 
 
 def _fastest(steady: Dance, benches: list[int], walks: list[Period], budget: Budget) -> list[FastestMoment]:
-    """The fastest moment of each bench."""
+    """The fastest moment of each bench. walks: periods in which the head walks, each with one speed"""
     best, count = np.full(len(benches), -np.inf), len(benches)
     low, high, walk = np.empty(count), np.empty(count), np.zeros(count, dtype=np.intp)
     at_once = max(3, instants_at_once(steady))
-    for number, one in enumerate(walks):
-        travels = travels_between(one.first, min(one.last, steady.end.time))
+    for number, period in enumerate(walks):
+        travels = travels_between(period.first, min(period.last, steady.end.time))
         for first in range(0, len(travels), at_once):
             some = travels[first : first + at_once]
-            speed = one.speed * _rates(steady, benches, some, budget)
+            speed = period.speed * _rates(steady, benches, some, budget)
             row, most = speed.argmax(axis=0), speed.max(axis=0)
             better = most > best
             best[better], walk[better] = most[better], number
@@ -280,16 +286,17 @@ def _fastest(steady: Dance, benches: list[int], walks: list[Period], budget: Bud
     travel = _peaks(steady, benches, low, high, budget)
     speeds, moments = np.diagonal(_rates(steady, benches, travel, budget)), []
     for k, bench in enumerate(benches):
-        one, at = walks[walk[k]], trajectory(steady, [travel[k]])
+        period, at = walks[walk[k]], trajectory(steady, [travel[k]])
         handle = bench + int(at.speed[0, bench + 1] > at.speed[0, bench])
         place = at.position[0, handle].tolist()
         moments.append(
-            FastestMoment(one.time(float(travel[k])), float(speeds[k] * one.speed), one.speed, handle, *place)
+            FastestMoment(period.time(float(travel[k])), float(speeds[k] * period.speed), period.speed, handle, *place)
         )
     return moments
 
 
-# The highest of both ends and of all places tried, so that a kink or a second peak between two rows does no harm.
+# A golden section finds a peak surely only if it is the only one and smooth. So the answer is the best of all travels
+# tried, both ends among them.
 def _peaks(steady: Dance, benches: list[int], low: Floats, high: Floats, budget: Budget) -> Floats:
     """Travel at which each bench is fastest between two travels (B,) [m]."""
 
