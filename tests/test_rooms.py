@@ -56,7 +56,7 @@ TOGETHER = {
     "sweeps/test_run.py": "sweeps/engines sweeps/processes",
     "sweeps/test_shards.py": "sweeps/questions",
     "test_answers.py": "wire/answers",
-    "test_any_path.py": "questions/check questions/turn wire/dances wire/paths",
+    "test_any_path.py": "questions/turn wire/dances wire/paths",
     "test_api.py": "service/main service/queries service/routes service/version",
     "test_api_limits.py": "settings",
     "test_api_reference.py": "questions/collision_time questions/minimum_pitch questions/trajectory",

@@ -1,10 +1,10 @@
-"""The command check: a verdict on one dance in its venue."""
+"""The command check: a verdict on one dance in its venue, or on several on one clock."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, TypeAlias
 
 import typer
 from rich.text import Text
@@ -19,9 +19,10 @@ from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
 from app.maps.dances import read_dance
 from app.questions import check as checks
 from app.questions import figures
-from app.questions.check import CheckRequest, LeastClearance, Nearest, Report
+from app.questions.check import CheckRequest, DragonsClearance, LeastClearance, Nearest, PerformanceReport, Report
 from app.questions.figures import Format, TrajectoryFigureRequest
 from app.settings import Settings
+from app.wire.answers import Pair
 from app.wire.dances import PlacedDance, TimeRange, clock_of
 from app.wire.messages import checked
 from app.wire.question import Terms
@@ -33,7 +34,7 @@ from core.errors import format_bound, format_number
 def check(
     file: Annotated[
         Path,
-        path_argument("FILE", "Dragon, path, venue and limits as for POST /check, as a .toml or .json file."),
+        path_argument("FILE", "Dragon and path, or dances; venue and limits, as for POST /check, as .toml or .json."),
     ],
     figure: Annotated[Path | None, typer.Option(help="Draw the dance into a .svg or .png file.")] = None,
     time: Annotated[
@@ -52,7 +53,7 @@ def check(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Verdict on a dance: contacts, limits and venue. The exit code is 0, also for a dance that fails."""
+    """Verdict on a dance, or several: contacts, limits and venue. The exit code is 0, also for a dance that fails."""
     if time is not None and figure is None:
         words = "--time is the instant that --figure draws: give --figure too, or leave --time out"
         raise InvalidValue.in_words("time", words)
@@ -60,20 +61,23 @@ def check(
         require("figures", "figure", "--figure")
     ending = checked_output("figure", figure, (".svg", ".png")) if figure else ""
     suffix = checked_output("output", output, TABLE_ENDINGS) if output else ""
-    dance = read_dance(file)
+    dance = read_dance(file, several=True)
     if cross_check is not None:
         dance["cross_check"] = cross_check
     request = checked(CheckRequest, dance, object_words(file))
+    if request.dances is not None and output:
+        words = "cannot write several dances: leave it out, or give a FILE with dragon and path in place of dances"
+        raise InvalidValue.in_words("output", f"--output {words}")
     with refusing(request), show.waiting("check"):
         answer = checks.check(request, Terms())
-        drawn = _drawn_check(request, answer, Format(ending[1:]), time) if figure else b""
+        drawn = _drawn(request, answer, Format(ending[1:]), time) if figure else b""
         write = trajectory_writer(suffix, None, Language.ENGLISH, _clock(request)) if suffix else None
         table = write(_danced(request, answer)) if write else b""
     if figure:
         show.write(figure, drawn)
     if output:
         show.write(output, table)
-    show.print_result(answer, json, _report_parts(answer, request.margin, request.benches))
+    show.print_result(answer, json, _report_parts(answer, request))
 
 
 def _clock(request: CheckRequest) -> str | None:
@@ -81,7 +85,7 @@ def _clock(request: CheckRequest) -> str | None:
     return clock_of(request, request.to_dance(Settings().checked_benches_max))
 
 
-def _danced(request: CheckRequest, answer: Report) -> core.Trajectory:
+def _danced(request: CheckRequest, answer: Report | PerformanceReport) -> core.Trajectory:
     """Positions and speeds at every second of the judged interval, within the run."""
     settings = Settings()
     dance = request.to_dance(settings.checked_benches_max)
@@ -90,7 +94,24 @@ def _danced(request: CheckRequest, answer: Report) -> core.Trajectory:
     return core.trajectory(dance, steps.times_of(dance, settings.cells_max))
 
 
-def _drawn_check(request: CheckRequest, answer: Report, format: Format, time: float | None) -> bytes:
+def _drawn_performance(request: CheckRequest, answer: PerformanceReport, format: Format, time: float | None) -> bytes:
+    """All dragons at a time, or at their encounter, else at the first failure or where two are nearest."""
+    from app.files.performances import encounter_figure  # matplotlib takes a second to import
+
+    performance, _ = request.to_placed(Settings())
+    met = None
+    if time is None and answer.encounter.dragons is not None:
+        limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray()}
+        met = core.first_encounter(performance, start=request.start, stop=request.stop, **limits)
+    elif time is None:
+        closest = answer.least_clearance.time if answer.least_clearance else answer.start
+        time = answer.failures[0].time if answer.failures else closest
+    return encounter_figure(performance, met, time=time, format=format.value)
+
+
+def _drawn(request: CheckRequest, answer: Report | PerformanceReport, format: Format, time: float | None) -> bytes:
+    if isinstance(answer, PerformanceReport):
+        return _drawn_performance(request, answer, format, time)
     if time is None:
         closest = answer.least_clearance.time if answer.least_clearance else answer.start
         time = answer.failures[0].time if answer.failures else closest
@@ -101,6 +122,8 @@ def _drawn_check(request: CheckRequest, answer: Report, format: Format, time: fl
         return figures.trajectory_figure(picture, Terms(), format.media_type)
 
 
+# What is measured, its value, its time [s], and whose it is.
+Row: TypeAlias = tuple[str, str, float | None, str]
 VERDICTS = {
     Judgement.PASSES: "Passes. Nothing fails.",
     Judgement.FAILS: "Fails. Failures in order of time:",
@@ -108,35 +131,70 @@ VERDICTS = {
 }
 
 
-def _report_parts(report: Report, margin: float, benches: int) -> Iterator[show.Part]:
-    """The verdict, the failures in order of time, and the measured values. margin: [m]; benches: of the dragon"""
+def _report_parts(report: Report | PerformanceReport, request: CheckRequest) -> Iterator[show.Part]:
+    """The verdict, the failures in order of time, and the measured values."""
     yield Text(VERDICTS[report.verdict], style="bold")
     yield from (f"  {one.clock + '  ' if one.clock else ''}{one.message}" for one in report.failures)
     if report.begins:
         yield f"Starts {report.begins}, ends {report.ends}."
     yield ""
     facts = show.new_table(f"From {report.start:.3f} to {report.stop:.3f} s", "what", "value", "at", "who")
-    for name, value, time, who in _measured(report, margin, benches):
+    rows = (
+        _measured(report, request.margin, request.benches)
+        if isinstance(report, Report)
+        else _measured_together(report, request)
+    )
+    for name, value, time, who in rows:
         facts.add_row(name, value, "" if time is None else f"{time:.6f} s", who)
     yield facts
     if at := report.origin:
         yield f"x = y = 0 is longitude {at.longitude:.6f}, latitude {at.latitude:.6f}: the middle of the square."
 
 
-def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str, str, float | None, str]]:
+def _measured_together(report: PerformanceReport, request: CheckRequest) -> Iterator[Row]:
+    """Rows of any two dragons, then those of each by itself."""
+    met, dances = report.encounter, request.dances or []
+    names = [name or f"dragon {k}" for k, name in enumerate(report.names)]
+
+    def pair(dragons: Pair | None, benches: Pair | None) -> str:
+        both = zip(dragons or (), benches or (), strict=True)
+        return " and ".join(f"bench {bench} of {names[k]}" for k, bench in both)
+
+    what = f"two dragons first within {format_number(met.margin)} m" if met.margin else "first encounter"
+    who = pair(met.dragons, met.benches)
+    yield _with_strays(what, met.stray), show.near(met.outcome.value, met.margin), met.time, who
+    if check := met.cross_check:
+        yield "cross-check", f"engines {'agree' if check.agree else 'DISAGREE'}", None, ""
+    if least := report.least_clearance:
+        yield "least clearance of two dragons", _least(least), least.time, pair(least.dragons, least.benches)
+    for name, dance, own in zip(names, dances, report.reports, strict=True):
+        if own is None:
+            yield f"{name}: stands", "", None, ""
+            continue
+        for what, value, time, who in _measured(own, request.margin, dance.benches):
+            yield f"{name}: {what}", value, None if time is None else time + dance.delay, who
+
+
+def _with_strays(what: str, stray: float | None) -> str:
+    return f"{what} with strays up to {format_number(stray)} m" if stray else what
+
+
+def _least(least: LeastClearance | DragonsClearance) -> str:
+    overlap = show.separation(least.distance, " m", show.DISPLAY_DECIMALS) if least.distance < 0.0 else ""
+    return overlap or _distance(least)
+
+
+def _measured(report: Report, margin: float, benches: int) -> Iterator[Row]:
     """Rows of quantity, value, time and benches."""
     contact = report.first_contact
     pair = f"benches {show.value_text(contact.benches)}" if contact.benches else ""
     what = f"first within {format_number(margin)} m" if margin else "first contact"
-    if contact.stray:
-        what += f" with strays up to {format_number(contact.stray)} m"
-    yield what, show.near(contact.outcome.value, margin), contact.time, pair
+    yield _with_strays(what, contact.stray), show.near(contact.outcome.value, margin), contact.time, pair
     if check := contact.cross_check:
         engines = f"engines {'agree' if check.agree else 'DISAGREE'}"
         yield "cross-check", engines, None, show.judged_words(check.judged, benches)
     if least := report.least_clearance:
-        overlap = show.separation(least.distance, " m", show.DISPLAY_DECIMALS) if least.distance < 0.0 else ""
-        yield "least clearance", overlap or _distance(least), least.time, f"benches {show.value_text(least.benches)}"
+        yield "least clearance", _least(least), least.time, f"benches {show.value_text(least.benches)}"
     for area in report.venue.areas if report.venue else ():
         if near := area.nearest:
             yield f"nearest to {area.name}", _distance(near), near.time, f"bench {near.bench}"
@@ -149,7 +207,7 @@ def _measured(report: Report, margin: float, benches: int) -> Iterator[tuple[str
         yield "sharpest bend", f"{bend.angle:.6f} rad", bend.time, f"benches {show.value_text(bend.benches)}"
 
 
-def _distance(nearest: LeastClearance | Nearest) -> str:
+def _distance(nearest: LeastClearance | DragonsClearance | Nearest) -> str:
     least = nearest.at_least
     proven = "not proven" if least is None else f"proven: at least {format_bound(least, show.DISPLAY_DECIMALS)} m"
     return f"{nearest.distance:.6f} m, {proven}"

@@ -20,6 +20,7 @@ from app.maps.dances import read_dance
 from app.settings import Settings
 from app.wire.dances import DanceFields, PathFields, SpanFields, TimeRange
 from app.wire.messages import checked
+from app.wire.performances import BESIDE_SEVERAL
 from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
@@ -70,7 +71,7 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
     own = body.model_fields.keys()
     described = [name for name in DanceQuery.model_fields if "path" in own or name not in own]
     unused(context, described, "cannot be combined with FILE, which describes the dance")
-    held = read_dance(file)
+    held = read_dance(file, several="dances" in own)
     _refuse_other(file, held, own)
     if instead and (strays := [name for name in Strays.model_fields if held.get(name) and name not in own]):
         print(f"{file}: ignored: {', '.join(strays)}, because {instead}.", file=sys.stderr)
@@ -86,20 +87,15 @@ def of_file(file: Path, body: type[Model], context: typer.Context, instead: str 
 
 
 def _refuse_other(file: Path, held: dict[str, Any], own: Collection[str]) -> None:
-    """Refuse a file of several dragons to a question about one, and a file of one to a question about several.
+    """Refuse a file of one dragon to a question about several, and one dance beside several.
 
     own: fields of the question
     """
-    if "dances" in held and "dances" not in own:
-        why = "ask encounter about it, or give a file with dragon and path"
-        words = "{file} holds the dances of several dragons, and this question is about one"
-        raise InvalidValue.in_words("dances", words, reason=why, file=display_name(file))
-    if "dances" in own and "dances" not in held:
+    if "dances" in own and "path" not in own and "dances" not in held:
         words = "{file} must hold dances, each with a dragon and a path"
         raise InvalidValue.in_words("dances", words, file=display_name(file))
     if "dances" in held and (beside := [name for name in PathFields.model_fields if name in held]):
-        words = "must stand in each of the dances, got it beside them"
-        raise InvalidValue(beside[0], words)
+        raise InvalidValue(beside[0], BESIDE_SEVERAL)
 
 
 def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) -> dict[str, Any]:

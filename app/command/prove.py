@@ -26,7 +26,7 @@ from app.command.options import asks
 from app.command.usage import path_argument
 from app.files.disk import checked_output, write_whole
 from app.maps.dances import read_dance
-from app.questions.check import CheckRequest
+from app.questions.check import DanceCheck
 from app.questions.tolerance import CircleQuery
 from app.settings import Settings
 from app.wire.messages import checked
@@ -247,7 +247,7 @@ def dance(
 ) -> None:
     """Prove that a dance, on any path but waypoints, is clear from start to stop or end, or prove its first contact."""
     checked_output("output", output, (".json",))
-    request = checked(CheckRequest, read_dance(file))
+    request = checked(DanceCheck, read_dance(file))
     whole = request.to_dance(Settings().checked_benches_max)
     for name in ("venue", "speed_limit"):
         if getattr(request, name) is not None:

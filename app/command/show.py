@@ -177,8 +177,8 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield from ((f"{label}: {word}", text) for word, text in _check_words(value, benches))
         elif isinstance(value, answers.Polygon | answers.MultiPolygon):
             yield label, _polygon_words(value)
-        elif isinstance(value, list) and len(value) > LISTED_MOST:
-            yield label, f"{len(value)}, listed by --json"
+        elif isinstance(value, list) and (count := sum(map(_entries, value))) > LISTED_MOST:
+            yield label, f"{count}, listed by --json"
         elif isinstance(value, answers.DragonPair):
             yield label, _pair_text(value)
         elif isinstance(value, BaseModel):
@@ -195,6 +195,11 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield label, words
         elif name in MEANING_OF_NULL:
             yield label, MEANING_OF_NULL[name]
+
+
+def _entries(value: Any) -> int:
+    """Number of the entries of a list in a list; 1 for anything else."""
+    return len(value) if isinstance(value, list) else 1
 
 
 def _digits(value: float | tuple[float | None, ...], unit: str) -> str:

@@ -19,8 +19,8 @@ from core.errors import Parameter
 DANCE_ENDINGS = (".toml", ".json")
 
 
-def read_dance(file: Path) -> dict[str, Any]:
-    """Content of a file that describes a dance.
+def read_dance(file: Path, *, several: bool = False) -> dict[str, Any]:
+    """Content of a file that describes a dance, or if the question takes several, the dances of several dragons.
 
     A venue or a path given as text names a map beside the file, and a dragon given as text names a table: CSV or .xlsx.
 
@@ -40,6 +40,10 @@ def read_dance(file: Path) -> dict[str, Any]:
                 request = toml_of(piped or file.read_bytes())
         except Unreadable as error:
             raise error.of("file", display_name(file)) from error
+    if "dances" in request and not several:
+        why = "give a file with dragon and path, or ask about several, as check and encounter do"
+        words = "{file} holds the dances of several dragons, and this question is about one"
+        raise InvalidValue.in_words("dances", words, reason=why, file=display_name(file))
     if not request:
         print(f"{display_name(file)} is empty: the answer is for the contest's dance.", file=sys.stderr)
     seen: dict[Path, Any] = {}

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any, Self
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import Field
 
 import core
 from app.questions.collision_time import CollisionTime, Contact
-from app.wire.answers import Head, Pair, Point
-from app.wire.clocks import time_of_day
+from app.questions.encounter import Encounter
+from app.wire.answers import DragonPair, Head, Pair, Point
+from app.wire.clocks import clock_at_zero, time_of_day
 from app.wire.dances import PlacedDance, SpanFields, clock_of
+from app.wire.performances import SeveralFields
 from app.wire.question import UNKNOWN_COST, Answer, Question, SpeedLimit, Terms, measure
-from core import Dance, Outcome, Venue
+from core import Dance, Outcome, Performance, Venue
+
+if TYPE_CHECKING:
+    from app.wire.degrees import Place
 
 
-class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
-    """Verdict on a dance: dragon, path, venue and limits."""
+class DanceCheck(Contact, SpanFields, PlacedDance, strict=True):
+    """One dance, its venue and limits."""
 
     speed_limit: SpeedLimit | None = measure(
         "m/s", "Highest speed allowed for any handle, to a millionth of it; default: no limit", None
@@ -26,6 +32,14 @@ class CheckRequest(Contact, SpanFields, PlacedDance, strict=True):
         description="false: the verdict and the failures alone, in a tenth of the time; least clearance, highest speed "
         "and sharpest bend are then null where no failure needs them",
     )
+
+
+class CheckRequest(SeveralFields, DanceCheck, strict=True):
+    """Verdict on a dance: dragon, path, venue and limits; or on several dances on one clock."""
+
+    @property
+    def benches(self) -> int:
+        return super().benches if self.dances is None else sum(part.benches for part in self.dances)
 
 
 class LeastClearance(Answer):
@@ -186,23 +200,141 @@ class Report(Answer):
         description="Place of x = y = 0; null unless the venue was given in degrees or states it"
     )
 
+    @classmethod
+    def of(cls, result: core.Report, request: CheckRequest, terms: Terms, place: Place, clock: str | None) -> Self:
+        dragon = result.first_contact.dance.dragon
+        contact = CollisionTime.of(result.first_contact, request, terms)
+        failures = [Failure.of(failure, dragon, clock) for failure in result.failures]
+        venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
+        begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
+        own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
+        return cls.from_result(result, begins=begins, ends=ends, **own)
 
-def check(request: CheckRequest, terms: Terms) -> Report:
+
+class DragonFailure(Failure):
+    """One failed or undecided condition of a dragon, or of two together; times are those of the performance."""
+
+    dragons: list[int] = Field(
+        description="The dragon at fault, or the two that come within the margin, in the order of the dances; empty if "
+        "it is undecided which"
+    )
+    dragon_names: list[str | None] = Field(description="Their names; null for a dragon without one")
+
+    @classmethod
+    def in_performance(cls, result: core.PerformanceFailure, performance: Performance, clock: str | None) -> Self:
+        parts, one = [performance.parts[k] for k in result.dragons], result.failure
+        named = [part.name for part in parts]
+        if one is not None:
+            dragon, delay = parts[0].dance.dragon, parts[0].delay
+            peak_time = None if one.peak_time is None else one.peak_time + delay
+            own = Failure.of(replace(one, time=result.time, peak_time=peak_time), dragon, clock).model_dump()
+            own |= {"message": result.message, "time_bracket": result.time_bracket}
+            return cls(**own, dragons=result.dragons, dragon_names=named)
+        households = [
+            part.dance.dragon.names[bench] if part.dance.dragon.names else ""
+            for part, bench in zip(parts, result.benches, strict=True)
+        ]
+        return cls.from_result(
+            result,
+            area=None,
+            names=households if any(households) else [],
+            clock=None if clock is None else time_of_day(result.time, clock),
+            head=None,
+            peak_speed=None,
+            peak_time=None,
+            dragon_names=named,
+        )
+
+
+class DragonsClearance(DragonPair):
+    """The least clearance between two dragons over the performance."""
+
+    distance: float = measure(
+        "m",
+        "Smallest distance found; 0 at the first touch, or at a later one if it is undecided which is the first; if "
+        "two dragons overlap at the start, minus the depth",
+    )
+    at_least: float | None = measure(
+        "m", "Proven lower bound; null: the search gave up before proving one, or the distance is below zero"
+    )
+    time: float = measure("s", "Time of the smallest distance")
+
+
+class PerformanceReport(Answer):
+    """Verdict on several dances on one clock."""
+
+    verdict: core.Judgement = Field(
+        description="passes: nothing fails; fails: at least one condition certainly fails; undecided: neither is proven"
+    )
+    passed: bool = Field(description="True if the verdict is passes")
+    failures: list[DragonFailure] = Field(
+        description="Failed and undecided conditions of each dragon by itself, and the first encounter of two, in "
+        "order of time"
+    )
+    start: float = measure("s", "Start of the time checked")
+    stop: float = measure("s", "End of the time checked")
+    names: list[str | None] = Field(
+        description="Names of the dragons, null for one without, in the order of the dances"
+    )
+    encounter: Encounter = Field(
+        description="First time that benches of two dragons come within the margin, or touch if it is 0"
+    )
+    least_clearance: DragonsClearance | None = Field(
+        description="Least clearance between two dragons; null for a single one, or without details"
+    )
+    reports: list[Report | None] = Field(
+        description="Verdict on each dragon by itself in the venue, on the clock of its own dance, which is 0 at its "
+        "delay; null for one that stands during the whole time checked"
+    )
+    begins: str | None = Field(description="Time of day at start, if start_clock or begin_clock is given")
+    ends: str | None = Field(description="Time of day at stop, if start_clock or begin_clock is given")
+    origin: Origin | None = Field(
+        description="Place of x = y = 0; null unless the venue was given in degrees or states it"
+    )
+
+    @classmethod
+    def of(cls, result: core.PerformanceReport, request: CheckRequest, terms: Terms, place: Place) -> Self:
+        performance = result.performance
+        clock = clock_of(request, performance)
+        least, parts = result.least_clearance, performance.parts
+        own: list[Report | None] = []
+        for report, part in zip(result.reports, parts, strict=True):
+            zero = None if clock is None else clock_at_zero(clock, -part.delay)
+            own.append(None if report is None else Report.of(report, request, terms, place, zero))
+        begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
+        return cls.from_result(
+            result,
+            failures=[DragonFailure.in_performance(failure, performance, clock) for failure in result.failures],
+            names=[part.name for part in parts],
+            encounter=Encounter.of(result.encounter, request, terms),
+            least_clearance=None if least is None else DragonsClearance.from_result(least),
+            reports=own,
+            begins=begins,
+            ends=ends,
+            origin=place.origin,
+        )
+
+
+def check(request: CheckRequest, terms: Terms) -> Report | PerformanceReport:
     """Verdict on a dance in its venue: first contact, least clearance, venue, speed, sharpest bend."""
+    if request.dances is not None:
+        performance, place = request.to_placed(terms.settings)
+        return PerformanceReport.of(verdict_together(request, performance, terms), request, terms, place)
     dance = request.to_dance(terms.settings.checked_benches_max)
     place = request.to_place(dance.dragon)
     result = verdict_of(request, dance, place.venue, request.start, terms, details=request.details)
-    contact = CollisionTime.of(result.first_contact, request, terms)
-    clock = clock_of(request, dance)
-    failures = [Failure.of(failure, dance.dragon, clock) for failure in result.failures]
-    venue = None if result.venue is None else VenueClearance.from_result(result.venue, stray=result.venue.misplaced)
-    own = {"failures": failures, "first_contact": contact, "venue": venue, "origin": place.origin}
-    begins, ends = (None if clock is None else time_of_day(time, clock) for time in (result.start, result.stop))
-    return Report.from_result(result, begins=begins, ends=ends, **own)
+    return Report.of(result, request, terms, place, clock_of(request, dance))
+
+
+def verdict_together(request: CheckRequest, performance: Performance, terms: Terms) -> core.PerformanceReport:
+    """The verdict on several dances as an object of core. raises: InvalidValue"""
+    limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
+    span: dict[str, Any] = {"start": request.start, "stop": request.stop, "details": request.details}
+    return core.performance_check(performance, budget=terms.budget, **limits, **span)
 
 
 def verdict_of(
-    request: CheckRequest, dance: Dance, venue: Venue | None, start: float | None, terms: Terms, *, details: bool = True
+    request: DanceCheck, dance: Dance, venue: Venue | None, start: float | None, terms: Terms, *, details: bool = True
 ) -> core.Report:
     """The verdict as an object of core. start: of the time checked [s]; raises: InvalidValue"""
     limits: dict[str, Any] = {"margin": request.margin, "stray": request.to_stray(), "speed_limit": request.speed_limit}
@@ -212,9 +344,9 @@ def verdict_of(
 
 def _cost(request: CheckRequest) -> float:
     """A drawn dance of 60 benches through 20 waypoints takes 0.011 s, with four areas 0.016 s (measured 2026-11-22)."""
-    if request.details or request.path.kind != "waypoints":
+    if request.details or request.dances is not None or request.path.kind != "waypoints":
         return UNKNOWN_COST
     return 0.02 + 4e-4 * request.benches + 5e-4 * len(request.path.points)
 
 
-QUESTION = Question(check, Report, body=CheckRequest, cost=_cost)
+QUESTION = Question(check, Report, body=CheckRequest, cost=_cost, several=PerformanceReport)

@@ -7,7 +7,7 @@ from pydantic import Field
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.maps import dxf, geojson, kml
 from app.maps.marks import drawing_of, in_degrees, marks_of, on_grid
-from app.questions.check import CheckRequest
+from app.questions.check import DanceCheck
 from app.wire import degrees
 from app.wire.question import FileFormat, Question, Terms, Wire, measure
 from core import InvalidValue
@@ -35,7 +35,7 @@ class OriginFields(Wire, strict=True):
     latitude: float = measure("degrees", "Latitude, north positive", ge=-90, le=90)
 
 
-class Marked(CheckRequest, strict=True):
+class Marked(DanceCheck, strict=True):
     """A dance, as for /check, and the marks along its path."""
 
     spacing: float = measure("m", "Distance between the chalk marks along the path", 5.0, ge=0.5, le=1_000)

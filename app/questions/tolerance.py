@@ -7,9 +7,11 @@ from typing import Annotated
 from pydantic import Field
 
 import core
+from app.questions.encounter import EncounterCertificate
 from app.wire.answers import Point
 from app.wire.claims import StrayClaim
 from app.wire.dances import PlacedDance, SpanFields
+from app.wire.performances import SeveralFields
 from app.wire.question import Answer, DanceQuery, Question, Terms, TurningDiameter, Wire, measure
 from core import InvalidValue, Limit
 from core.errors import Quantity
@@ -46,8 +48,8 @@ class SpanOrCircle(SpanFields):
     )
 
 
-class ToleranceRequest(SizeErrors, SpanOrCircle, PlacedDance, strict=True):
-    """Largest proven stray in any dance, for contacts of benches and with a venue."""
+class ToleranceRequest(SeveralFields, SizeErrors, SpanOrCircle, PlacedDance, strict=True):
+    """Largest proven stray in any dance, or in several on one clock, for contacts of benches and with a venue."""
 
 
 class Shown(Answer):
@@ -98,8 +100,52 @@ class Tolerance(Answer):
     certificate: StrayProof = Field(description="Proof of the safe stray")
 
 
-def tolerance(request: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance:
+class ShownTogether(Answer):
+    """Poses of one or two whole dragons with unchanged chords, in which the benches that limit the stray overlap."""
+
+    handles: list[list[Point]] = measure("m", "Places of the handles of each of these dragons, x and y, head first")
+    depth: float = measure("m", "Depth of the overlap")
+    stray: float = measure("m", "Largest distance of a handle from its place")
+
+
+class PerformanceTolerance(Answer):
+    """Largest distance of every hole of several dragons from its place, at any time, without any contact."""
+
+    stray: float = measure(
+        "m",
+        "Proven safe: while no hole is further from its place, nothing touches, neither benches of one dragon nor of "
+        "two nor the venue; 0: no stray is known to be safe",
+    )
+    stray_bracket: tuple[float, float | None] = measure(
+        "m", "Proven safe; shown to touch, null where no such poses were found"
+    )
+    limited_by: Limit = Field(
+        description="Effect of a larger stray. benches: two benches touch; venue: a bench and an edge of the venue; "
+        "chord: no contact up to half of the shortest chord"
+    )
+    dragons: list[int] = Field(
+        description="The dragon whose benches limit the stray, or the two with one each, in the order of the dances; "
+        "empty if nothing limits it"
+    )
+    names: list[str | None] = Field(description="Their names; null for a dragon without one")
+    time: float | None = measure("s", "Time at which these are nearest to touching; null if nothing limits the stray")
+    benches: tuple[int, int | None] | None = Field(
+        description="The pair, the second null for an edge of the venue; null if nothing limits the stray"
+    )
+    area: str | None = Field(description="Name of the square or of the obstacle; null if none limits the stray")
+    exhibit: ShownTogether | None = Field(description="Poses in which they overlap; null where none were found")
+    own: list[float] = measure("m", "Safe stray of each dragon by itself in the venue")
+    start: float = measure("s", "Start of the time asked about")
+    stop: float = measure("s", "End of the time asked about")
+    certificate: EncounterCertificate | None = Field(
+        description="Proof that no two dragons touch with the stray; null for one dragon, or without a safe stray"
+    )
+
+
+def tolerance(request: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance | PerformanceTolerance:
     """Largest proven stray of people without a contact, and a pose that touches with a slightly larger one."""
+    if isinstance(request, ToleranceRequest) and request.dances is not None:
+        return _together(request, terms)
     dance, budget = request.to_dance(terms.settings.checked_benches_max), terms.budget
     venue = request.to_place(dance.dragon).venue if isinstance(request, ToleranceRequest) else None
     start, stop = span_of(request, dance)
@@ -109,6 +155,22 @@ def tolerance(request: ToleranceQuery | ToleranceRequest, terms: Terms) -> Toler
         None if result.exhibit is None else Shown.from_result(result.exhibit, handles=result.exhibit.handles.tolist())
     )
     return Tolerance.from_result(result, exhibit=pose, stray_with_errors=with_errors)
+
+
+def _together(request: ToleranceRequest, terms: Terms) -> PerformanceTolerance:
+    """The tolerance of several dances on one clock. raises: TooLarge, InvalidValue"""
+    performance, _ = request.to_placed(terms.settings)
+    for name in ("turning_diameter", *SizeErrors.model_fields):
+        if value := getattr(request, name):
+            raise InvalidValue(name, "must be left out beside dances", got=Quantity(value, "m"))
+    result = core.performance_tolerance(performance, start=request.start, stop=request.stop, budget=terms.budget)
+    pose = None
+    if result.exhibit is not None:
+        handles = [own.tolist() for own in result.exhibit.handles]
+        pose = ShownTogether.from_result(result.exhibit, handles=handles)
+    names = [performance.parts[k].name for k in result.dragons]
+    own = [one.stray for one in result.own]
+    return PerformanceTolerance.from_result(result, exhibit=pose, names=names, own=own)
 
 
 def span_of(request: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[float | None, float | None]:
@@ -141,4 +203,4 @@ def _with_errors(
     return core.uncertain_tolerance(dance.dragon, spiral.pitch, **errors, turning_radius=radius, budget=budget)
 
 
-QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest)
+QUESTION = Question(tolerance, Tolerance, flat=ToleranceQuery, body=ToleranceRequest, several=PerformanceTolerance)

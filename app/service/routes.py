@@ -61,7 +61,10 @@ def add_calls(router: APIRouter, calls: Iterable[Call] = CALLS.values()) -> None
         content = {form: SCHEMAS.get(form, FILE) for form in question.forms}
         if question.model is None and not SCHEMAS.keys().isdisjoint(content):
             content = ANY_FILE | content
-        answer = {"description": "The answer", "content": content, "model": question.model}
+        model: Any = question.model
+        if question.several and method == "POST":
+            model = model | question.several
+        answer = {"description": "The answer", "content": content, "model": model}
         title = question.name.replace("_", " ").capitalize()
         router.add_api_route(
             question.path,

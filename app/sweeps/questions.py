@@ -66,8 +66,17 @@ def _ways(name: str, seconds: float, column: str, *left_out: str, **own: Any) ->
     question = replace(KNOWN[name], **own)
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
+    if question.several:
+        ask = partial(_about_one, ask)
     shared = (question.model, ask, seconds, column, frozenset(left_out))
     return tuple(SweepQuestion(question.name, request, *shared) for request in requests if request)
+
+
+def _about_one(ask: Callable[[Any], BaseModel], request: Any) -> BaseModel:
+    """The answer about one dance, whose columns the rows have. raises: InvalidValue for the dances of several"""
+    if getattr(request, "dances", None) is not None:
+        raise InvalidValue("dances", "must be left out, for a row is about one dance: sweep encounter for several")
+    return ask(request)
 
 
 def _words(place: str) -> tuple[str, str]:

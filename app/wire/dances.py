@@ -31,7 +31,7 @@ from app.wire.question import (
     measure,
     shallow,
 )
-from core import Dance, Dragon, InvalidValue
+from core import Dance, Dragon, InvalidValue, Performance
 from core.errors import Given, Parameter, quantities
 from core.passages import PASSAGES_MAX, Passage
 from core.people.beats import Music
@@ -212,8 +212,8 @@ class DanceFields(PathFields, strict=True):
     begin_clock: BeginClock = None
 
 
-def clock_of(request: DanceFields, dance: Dance) -> str | None:
-    """The time of day at time 0 of a dance; None if the request gives none.
+def clock_of(request: DanceFields, dance: Dance | Performance) -> str | None:
+    """The time of day at time 0 of a dance, or of several on one clock; None if the request gives none.
 
     raises: InvalidValue if it gives it twice
     """

@@ -145,6 +145,8 @@ def _rule(error: Mapping[str, Any], unit: str, thing: str) -> tuple[str, dict[st
             return "must have at most {most} names: see /docs for all names", values
         case "rule":
             return error["msg"], values
+        case "beside":
+            return error["msg"], {}
     return "is not valid: {why}", values | {"why": f"{error['msg'][:1].lower()}{error['msg'][1:]}"}
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import Field
+from pydantic import Field, ValidationError, model_validator
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from app.settings import Settings
 from app.wire.dances import PathFields, VenueFields
@@ -17,6 +18,8 @@ from core.performance.performance import DELAY_MAX, PARTS_MAX
 if TYPE_CHECKING:
     from app.wire.degrees import Place
 
+# The rule for a field of one dance beside the dances of several.
+BESIDE_SEVERAL = "must stand in each of the dances, got it beside them"
 # A time of a performance [s]: of a dance, and its delay.
 Moment = Annotated[float, Field(ge=-2 * DELAY_MAX, le=2 * DELAY_MAX)]
 
@@ -72,6 +75,36 @@ class PlacedPerformance(VenueFields, PerformanceFields, strict=True):
         dragons = [part.dance.dragon for part in performance.parts]
         place = self.to_place(max(dragons, key=lambda dragon: float(dragon.lengths.max())))
         return replace(performance, venue=place.venue), place
+
+
+class SeveralFields(VenueFields):
+    """Several dances, where a request may hold them in place of one."""
+
+    dances: Annotated[list[PartBody], Field(min_length=1, max_length=PARTS_MAX, fail_fast=True)] | None = Field(
+        None,
+        description="Several dances on one clock, in place of dragon, path, head_speed, passages and beats, which each "
+        "of them has; null: one dance",
+    )
+
+    @model_validator(mode="after")
+    def _refuse_one_beside_several(self) -> Self:
+        # A later look at the values would miss a field with its default: answers are kept by values.
+        if self.dances is None:
+            return self
+        beside = PydanticCustomError("beside", BESIDE_SEVERAL)
+        errors: list[InitErrorDetails] = [
+            {"type": beside, "loc": (name,), "input": getattr(self, name)}
+            for name in PathFields.model_fields
+            if name in self.model_fields_set
+        ]
+        if errors:
+            raise ValidationError.from_exception_data(type(self).__name__, errors)
+        return self
+
+    def to_placed(self, settings: Settings) -> tuple[Performance, Place]:
+        """The performance in its venue, and the place of this. raises: TooLarge, InvalidValue"""
+        fields: dict[str, Any] = {"dances": self.dances, "venue": self.venue, "coordinates": self.coordinates}
+        return PlacedPerformance.model_construct(**fields).to_placed(settings)
 
 
 class PerformanceSpan(Wire):

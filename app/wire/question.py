@@ -308,6 +308,7 @@ class Question:
     flat, body: the request as parameters of a query, and as a JSON object with a dragon and a path
     forms: media types of the answer; the first is the default
     at: path of its address if that does not follow from its name
+    several: type of the answer's JSON where the request holds the dances of several dragons; None if none may
     formats: endings of its address, one for each form, if the address names the form of the answer
     cost: estimated time of the answer [s], from a request and a form, before anything is computed
     """
@@ -320,6 +321,7 @@ class Question:
     cost: Callable[..., float] = lambda request, *form: UNKNOWN_COST
     at: str = ""
     formats: type[FileFormat] | None = None
+    several: type[Answer] | None = None
 
     @property
     def name(self) -> str:

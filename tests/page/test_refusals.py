@@ -113,6 +113,24 @@ FILES = (
     b'{"path":{"kind":"waypoints","points":[[0,0]]}}',
 )
 
+EAST = {"dragon": {"benches": 9}, "path": {"kind": "waypoints", "points": [[0, 0], [60, 0]]}}
+SPIRAL = {"dragon": {"benches": 9}, "path": {"kind": "spiral"}}
+# Wrong performances of several dragons.
+DANCES: tuple[dict[str, Any], ...] = (
+    {"dances": []},
+    {"dances": [EAST], "head_speed": 1.0},
+    {"dances": [EAST], "path": EAST["path"]},
+    {"dances": [EAST, {"dragon": {"benches": 0}}]},
+    {"dances": [EAST, EAST | {"delay": 1e9}]},
+    {"dances": [EAST | {"name": "east"}, EAST | {"name": "east"}]},
+    {"dances": [SPIRAL, SPIRAL | {"delay": 9000}]},
+    {"dances": [EAST], "start": -5},
+    {"dances": [EAST], "stop": 500},
+    {"dances": [EAST], "start": 500},
+    {"dances": [SPIRAL], "stop": 5000},
+    {"dances": [{"dragon": {"benches": 90_000}}]},
+)
+
 
 def feature(name: str, kind: str, coordinates: Any, **properties: Any) -> dict[str, Any]:
     geometry = {"type": kind, "coordinates": coordinates}
@@ -160,6 +178,8 @@ def refusals(server: str) -> list[dict[str, Any]]:
         bodies += [{"dragon": {"csv": one}} for one in TABLES]
         bodies += [few | {"path": path, "start_clock": "7pm"}, {"dragon": {"benches": 400}, "path": path}]
         answers += [client.post("/check", json=body) for body in bodies]
+        answers += [client.post("/check", json=one) for one in DANCES]
+        answers.append(client.post("/tolerance", json={"dances": [EAST], "turning_diameter": 9}))
         answers.append(client.post("/maps.kml", json=few | {"path": path}))
         answers += [client.post("/places", content=data, headers=octets) for data in FILES]
         answers += [client.get("/jobs/" + 48 * "0"), late()]

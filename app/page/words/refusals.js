@@ -20,6 +20,12 @@ export const PLACES = {
   "path.points.#.#": ["A coordinate of point # of the path", "路径第 # 点的坐标"],
   "dragon.names.#": ["The name of bench #", "第 # 节板凳的名称"],
   passages: ["“Slower, faster, pauses”", "“变速与停顿”"],
+  dances: ["The list of dragons", "龙队列表"],
+  "dances.#": ["Dragon #", "第 # 条龙"],
+  "dances.#.dragon": ["The benches of dragon #", "第 # 条龙的板凳"],
+  "dances.#.path": ["The path of dragon #", "第 # 条龙的路径"],
+  "dances.#.name": ["The name of dragon #", "第 # 条龙的名称"],
+  "dances.#.delay": ["The delay of dragon #", "第 # 条龙的延迟"],
 };
 
 /** What a field must do: [English, Chinese]; without English, that of the service stands. */
@@ -73,6 +79,10 @@ export const RULES = {
   "be 0, to mark time, or at least {least}": [undefined, "应为 0（原地踏步），或至少为 {least}"],
   "be during the dance, from {first} to {last}": [undefined, "应在舞龙期间（{first} 至 {last}）"],
   "be 0, for a pause, or at least {least}": [undefined, "应为 0（停顿），或至少为 {least}"],
+  "stand in each of the dances, got it beside them": ["stand with each of the dragons, not beside them", "应在每条龙中分别给出，不能放在龙队列表之外"],
+  "be left out beside dances": ["be left out where there are several dragons", "在有多条龙时不能给出"],
+  "differ from {other}": ["differ from the names of the others", "应与其他名称不同"],
+  "let {part} begin, which is at {begin}, before bench {bench} of {other} folds at {end}": ["let it begin, which is at {begin}, before a bench of another one folds at {end}", "应使其在另一条龙折叠之前开始（开始于 {begin}，折叠于 {end}）"],
 };
 
 const CHORD = ": the chord of bench {between} between them is {chord}, their overhangs {front} and {rear}";
@@ -160,6 +170,10 @@ export const WHOLE = {
   "benches must be at most {most} here": ["“Benches” must be at most {most}; it is {got}. Shorten the dragon", "“板凳节数”最多为 {most}，现为 {got}（请缩短队伍）"],
   "{field} must be at least {least}, when the whole dragon is on the path": ["The whole dragon is on the path only from {least} on, which is later than {got}", "整条队伍自 {least} 起才都在路径上，{got} 早于该时刻"],
   ...Object.fromEntries(OUTSIDE),
+  "{field} must be at most {end}, when {why}": ["The performance ends at {end}, when {why}: there is no {got}", "表演在 {end} 结束，没有 {got}"],
+  "{field} must be before {end}, when {why}": ["The performance ends at {end}, when {why}: there is no {got}", "表演在 {end} 结束，没有 {got}"],
+  "{field} must be at least {least}, when the first dragon is on its path": ["The first dragon is on its path only from {least} on, which is later than {got}", "第一条龙从 {least} 起才全部在路径上，晚于 {got}"],
+  "benches of all dragons must be at most {most} here": ["All dragons together may have {most} benches; they have {got}. Take fewer or shorter dragons", "所有龙最多共有 {most} 节板凳，现为 {got} 节：请减少龙或缩短龙"],
   "{field} must be after start ({start})": ["The end, {got}, must be after the beginning, {start}", "终点时刻 {got} 应晚于起点时刻 {start}"],
   "{field} must not be before {start} ({begin})": ["The end, {got}, must be after the beginning, {begin}", "终点时刻 {got} 应晚于起点时刻 {begin}"],
   "{field} must be at least 2 points": TWO_POINTS,
@@ -246,6 +260,7 @@ export const WHOLE = {
   "overhang must be less than half of the length, {length}": ["The overhang must be less than half of the length, {length}; it is {got}", "孔心距板头应小于板长的一半（{length}），现为 {got}"],
   "{field} must end at until_s [m] or at until_time [s]": ["A passage ends at a place or at a time", "每段应以位置或时刻之一结束"],
   "designs must be at most {most} here": ["A sweep may have at most {most} designs here, and this one has {got}", "一次最多计算 {most} 个方案，现为 {got} 个"],
+  "{field} must have at least {least} entry (dances)": ["There must be at least one dragon", "至少应有一条龙"],
   "{field} must have at least {least} entry (over)": ["Choose a parameter", "请选择一个参数"],
   "{field} is unknown here": [undefined, "“{field}”不可识别"],
   "HTTP {status}": ["The service answered with HTTP {status} and gave no reason", "服务的回答为 HTTP {status}，没有说明原因"],

@@ -30,6 +30,8 @@ PNG = b"\x89PNG"
 PATIENCE = 120.0  # [s]
 TOKEN = "a token of this test"
 
+LANE = {"kind": "waypoints", "points": [[30, -30], [30, 30]]}
+
 Calls = Callable[[Client], Awaitable[Any]]
 
 
@@ -93,6 +95,10 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
         route = {"kind": "route", "pieces": [{"kind": "line", "start": [0, 0], "end": [60, 0]}]}
         places = await door.call_tool("trajectory", {"dragon": {"benches": 3}, "path": route, "times": [20]})
         assert len(places.structured_content["x"][0]) == 4
+        crossing = {"dances": [{"dragon": {"benches": 3}, "path": path} for path in (route, LANE)]}
+        verdict = await door.call_tool("check", crossing)
+        assert verdict.structured_content == client.post("/check", json=crossing).json()
+        assert verdict.structured_content["failures"][0]["dragons"] == [0, 1]
 
         by_name = await door.call_tool("grade", {"file": "mine.xlsx", "language": "en"})
         by_content = await door.call_tool(
@@ -106,6 +112,8 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
         assert (picture.type, picture.mime_type) == ("image", "image/png")
         assert base64.b64decode(picture.data).startswith(PNG)
 
+        beside = problem_of(await door.call_tool("check", crossing | {"head_speed": 1}))
+        assert beside["detail"] == "head_speed must stand in each of the dances, got it beside them"
         centimetres = problem_of(await door.call_tool("collision_time", {"pitch": 55}))
         assert "must be at most 10 m, got 55 m" in centimetres["detail"]
         many = problem_of(await door.call_tool("collision_time", {"benches": 10**9}))

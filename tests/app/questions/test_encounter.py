@@ -280,7 +280,7 @@ def test_the_benches_and_the_path_of_each_dance_may_be_files(tmp_path: Path) -> 
     assert run("encounter", str(file)).stderr.startswith(f"Error: dances[0].path of {file}: ")
 
 
-ABOUT_ONE = "{file} holds the dances of several dragons, and this question is about one: ask encounter"
+ABOUT_ONE = "{file} holds the dances of several dragons, and this question is about one: give a file with"
 
 
 @pytest.mark.parametrize(("command", "held", "words"), [
@@ -290,8 +290,11 @@ ABOUT_ONE = "{file} holds the dances of several dragons, and this question is ab
     ("collision-time", TWO, ABOUT_ONE),
     ("envelope", TWO, ABOUT_ONE),
     ("film", TWO, ABOUT_ONE),
-    ("maps", TWO, "dances is unknown here"),
-    ("check", TWO, "dances is unknown here"),
+    ("maps", TWO, ABOUT_ONE),
+    ("plan", TWO, ABOUT_ONE),
+    ("cues", TWO, ABOUT_ONE),
+    ("propose", TWO, ABOUT_ONE),
+    ("check", TWO | {"head_speed": 2}, "head_speed must stand in each of the dances, got it beside them"),
 ])  # fmt: skip
 def test_a_file_of_several_dragons_is_no_file_of_one(
     tmp_path: Path, command: str, held: dict[str, Any], words: str

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import httpx
 import numpy as np
 import pytest
 
+from app.questions.tolerance import ToleranceRequest
+from app.settings import Settings
 from core import (
     Dance,
     Dragon,
@@ -17,6 +20,7 @@ from core import (
     first_contact,
     minimum_pitch,
     overlaps,
+    performance_tolerance,
     tolerance,
     tolerance_curve,
     uncertain_tolerance,
@@ -188,3 +192,64 @@ def test_the_command_prints_the_json_of_the_service(client: httpx.Client) -> Non
         json.loads(run("tolerance", *options, "--json").stdout)
         == client.get("/tolerance", params=SMALL | {"pitch": 0.6}).json()
     )
+
+
+# -- several dances ------------------------------------------------------------------------------------------
+
+LANES = [{"kind": "waypoints", "points": points} for points in ([[0, 0], [30, 0]], [[30, 0.8], [0, 0.8]])]
+SEVERAL: dict[str, Any] = {
+    "dances": [
+        {"name": name, "dragon": {"benches": 4}, "path": path} for name, path in zip(("a", "b"), LANES, strict=True)
+    ]
+}
+
+
+def test_several_dances_have_the_tolerance_of_core(client: httpx.Client) -> None:
+    got = client.post("/tolerance", json=SEVERAL).raise_for_status().json()
+    performance, _ = ToleranceRequest.model_validate(SEVERAL).to_placed(Settings())
+    result = performance_tolerance(performance)
+    assert (got["stray"], tuple(got["stray_bracket"])) == (result.stray, result.stray_bracket)
+    assert (got["dragons"], got["names"], got["limited_by"]) == ([0, 1], ["a", "b"], "benches")
+    assert (got["time"], tuple(got["benches"])) == (result.time, result.benches)
+    assert got["own"] == [one.stray for one in result.own]
+    assert result.exhibit is not None
+    assert got["exhibit"]["handles"] == [own.tolist() for own in result.exhibit.handles]
+    assert got["certificate"]["claim"]["stray"] == got["stray"]
+    clear = client.post("/encounter", json=SEVERAL | {"stray": got["stray"]}).raise_for_status().json()
+    assert clear["outcome"] == "clear"
+
+
+def test_a_wall_may_limit_several_dances(client: httpx.Client) -> None:
+    square = [[-10, -0.3], [40, -0.3], [40, 9], [-10, 9], [-10, -0.3]]
+    venue = {"type": "Polygon", "coordinates": [square]}
+    got = client.post("/tolerance", json=SEVERAL | {"venue": venue}).raise_for_status().json()
+    alone = {"dragon": {"benches": 4}, "path": LANES[0], "venue": venue}
+    assert got["stray"] == client.post("/tolerance", json=alone).raise_for_status().json()["stray"]
+    assert (got["limited_by"], got["dragons"], got["benches"][1]) == ("venue", [0], None)
+
+
+@pytest.mark.parametrize(
+    ("change", "pointer"),
+    [
+        ({"turning_diameter": 9}, "/turning_diameter"),
+        ({"length_error": 0.01}, "/length_error"),
+        ({"path": LANES[0]}, "/path"),
+        ({"start": -9}, "/start"),
+    ],
+)
+def test_what_is_for_one_dance_is_refused_beside_several(
+    client: httpx.Client, change: dict[str, Any], pointer: str
+) -> None:
+    refused = client.post("/tolerance", json=SEVERAL | change)
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["pointer"] == pointer
+
+
+def test_the_command_takes_a_file_of_several(client: httpx.Client, tmp_path: Path) -> None:
+    file = tmp_path / "lanes.json"
+    file.write_text(json.dumps(SEVERAL))
+    known = client.post("/tolerance", json=SEVERAL).raise_for_status()
+    assert run("tolerance", str(file), "--json").stdout.encode() == known.content + b"\n"
+    shown = run("tolerance", str(file))
+    assert (shown.returncode, shown.stderr) == (0, "")
+    assert "a, b" in shown.stdout
