@@ -48,6 +48,7 @@ LEFT_OUT = pytest.StashKey[dict[str, int]]()
 NO_DISK = "they mount a small disk, which only root may do: run make test as root"
 UNCOMPILED = "they would take hours with uncompiled loops: apt install gcc python3-dev, then make clean test"
 NO_CURL = "they run the commands of the documentation as they stand: apt install curl"
+NO_NGINX = "they restart services behind a proxy: apt install nginx-light"
 NO_FONT = "they draw Chinese words, and there is no font for them: apt install fonts-wqy-microhei"
 NO_INDEX = "they ask the package index, which does not answer"
 NO_ENGINE = "they compare an engine that cannot be had for this machine and its Python: {}"
@@ -88,11 +89,18 @@ def _why_left_out(item: pytest.Item) -> str:
         return NO_DISK
     if item.get_closest_marker("curl") and not shutil.which("curl"):
         return NO_CURL
+    if item.get_closest_marker("nginx") and not nginx_path():
+        return NO_NGINX
     if item.get_closest_marker("index") and not lock.index_answers(OUTER):
         return NO_INDEX
     if (mark := item.get_closest_marker("engine")) and (missing := [name for name in mark.args if not find_spec(name)]):
         return NO_ENGINE.format(", ".join(missing))
     return "" if kernels.COMPILED or item.get_closest_marker("uncompiled") else UNCOMPILED
+
+
+def nginx_path() -> str | None:
+    """Path of nginx, which Debian installs where an ordinary user does not look."""
+    return shutil.which("nginx", path=f"{os.environ['PATH']}{os.pathsep}/usr/sbin")
 
 
 @cache

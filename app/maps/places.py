@@ -6,6 +6,7 @@ import codecs
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
+from math import isfinite
 from pathlib import Path
 from typing import Any, Self
 
@@ -24,7 +25,7 @@ from app.maps.tracks import CHORD
 from app.processes.limits import reading
 from app.wire.degrees import Place, place_of
 from app.wire.question import Answer, Coordinates
-from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, refuse_deep, toml_of
+from app.wire.texts import CHINESE, OLD_WORKBOOK, Unreadable, is_workbook, refuse_deep, toml_of, values_in
 from core import BenchDragonError, Budget, Dragon, InvalidValue
 from core.errors import Given, Parameter
 
@@ -151,6 +152,8 @@ def _of_text(start: bytes, units: Coordinates | None, say: Say) -> DanceParts:
         why = error.of("file", "it")
         rule = f"must be GeoJSON, KML, KMZ, DXF, or a dance as TOML or JSON: {why.template}: {why.reason}"
         raise InvalidValue("file", rule.removesuffix(": "), got="none of these", **why.values) from error
+    if wild := next((one for one in values_in(content) if isinstance(one, float) and not isfinite(one)), None):
+        raise InvalidValue("file", "must have finite numbers", got=Given(wild))
     return _of_dance(content, say)
 
 

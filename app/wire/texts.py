@@ -32,6 +32,9 @@ LONG_NAME = re.compile(
     rf"""(?<![\w-])(?:(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){{{NAME_PARTS_MAX}}}"""
 )
 
+# Longest whole number of TOML 1.0, which Python reads without a limit if it is in hexadecimal digits.
+INTEGER_BITS = 64
+
 # What a spreadsheet takes for the beginning of a formula (OWASP, CSV injection), perhaps behind blanks and our own
 # mark: at the beginning of a text, and behind what separates the entries of a line elsewhere.
 FORMULA = "(['\\s\u00a0\u200b\u3000\ufeff]*[=+\\-@\t\r\uff1d\uff0b\uff0d\uff20])"
@@ -124,6 +127,8 @@ def toml_of(data: bytes) -> dict[str, Any]:
     with _refusing():
         value = tomllib.loads(text)
     refuse_deep(value)
+    if any(isinstance(one, int) and one.bit_length() > INTEGER_BITS for one in values_in(value)):
+        raise Unreadable.that("has a whole number of more than {most} bits", most=INTEGER_BITS)
     return value
 
 
@@ -159,7 +164,8 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return entries
 
 
-def _refuse_no_text(value: Any) -> None:
+def values_in(value: Any) -> Iterator[Any]:
+    """Names, texts, numbers and other single values in objects and lists."""
     left = [value]
     while left:
         one = left.pop()
@@ -167,5 +173,11 @@ def _refuse_no_text(value: Any) -> None:
             left += [*one, *one.values()]
         elif isinstance(one, list):
             left += one
-        elif isinstance(one, str) and NO_TEXT.search(one):
+        else:
+            yield one
+
+
+def _refuse_no_text(value: Any) -> None:
+    for one in values_in(value):
+        if isinstance(one, str) and NO_TEXT.search(one):
             raise Unfit.that("has a text with NUL or half of a character, near {near}", near=f"{one[:40]!a}")

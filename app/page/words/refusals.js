@@ -35,6 +35,7 @@ export const RULES = {
   "be a number [{unit}] in digits, such as 0.4503": ["be a number of {units} in digits, such as 0.4503", "应为数字（单位 {unit}），例如 0.4503"],
   "be a number": [undefined, "应为数字"],
   "be a finite number": [undefined, "应为数字"],
+  "have finite numbers": [undefined, "只能含有限数"],
   "be a whole number": ["be a whole number, such as {example}", "应为整数"],
   "be a number in metres": [undefined, "应为数字（单位 m）"],
   "be at least {least}": [undefined, "至少应为 {least}"],

@@ -429,6 +429,8 @@ BOMB = '<!DOCTYPE k [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a
         (b"0\nSECTION\nnonsense", "file must be DXF"),
         (b"\x00\xff\xfe", "got none of these"),
         (b"", "got nothing"),
+        (b"margin = 0x" + b"f" * 9000, "has a whole number of more than 64 bits"),
+        (b"dragon = {names = [{a = -inf}]}", "file must have finite numbers, got -inf"),
         (b"venue = 5", "a venue that is GeoJSON or the name of a file"),
         (b'{"type": "Point", "coordinates": [1e400, 2]}', "file"),
         (b'{"type": "Polygon", "coordinates": [[[0, 0], [9, 9], [9, 0], [0, 9], [0, 0]]]}', "self-intersection"),

@@ -40,6 +40,7 @@ def test_utf_16_is_known_by_its_mark_in_either_order() -> None:
         (toml_of, b"a." * 20 + b"a = 1", "has a name of more than 20 parts"),
         (toml_of, b"['a' . " + b'"\\"b" .c.' * 10 + b"d]", "has a name of more than 20 parts"),
         (toml_of, b"a = " + b"9" * 5000, "has a whole number of more than 4300 digits"),
+        (toml_of, b"a = [{b = 0x" + b"f" * 17 + b"}]", "has a whole number of more than 64 bits"),
         (toml_of, b"a = '\xff'", "is not text in UTF-8: byte 0xff at position 5"),
     ],
 )
