@@ -86,8 +86,8 @@ def test_first_contact_within(benchmark: BenchmarkFixture, kept: str) -> None:
 @pytest.mark.parametrize("kept", ["margin", "stray"])
 def test_minimum_pitch_within(benchmark: BenchmarkFixture, kept: str) -> None:
     benchmark.group = "minimum pitch within 2 cm"
-    found = benchmark(lambda: core.minimum_pitch(DRAGON, **{kept: 0.02}))
-    assert found.limited_by is core.LimitedBy.GRAZE
+    result = benchmark(lambda: core.minimum_pitch(DRAGON, **{kept: 0.02}))
+    assert result.limited_by is core.LimitedBy.GRAZE
 
 
 def test_minimum_pitch_baseline(benchmark: BenchmarkFixture) -> None:
@@ -151,8 +151,8 @@ def long_dragon() -> tuple[core.Dragon, Floats]:
 def test_overlaps(benchmark: BenchmarkFixture, long_dragon: tuple[core.Dragon, Floats]) -> None:
     dragon, handles = long_dragon
     benchmark.group = "overlaps"
-    found = benchmark(core.overlaps, core.bench_poses(handles), dragon.lengths, dragon.widths)
-    assert found.pairs.tolist() == [[0, 8]]
+    result = benchmark(core.overlaps, core.bench_poses(handles), dragon.lengths, dragon.widths)
+    assert result.pairs.tolist() == [[0, 8]]
 
 
 def test_overlaps_baseline(benchmark: BenchmarkFixture, long_dragon: tuple[core.Dragon, Floats]) -> None:

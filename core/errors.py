@@ -179,7 +179,7 @@ class BenchDragonError(Exception):
         error._compose(field, template, str(reason), got, values)
         return error
 
-    def named(self, field: str, got: Value | None = None) -> Self:
+    def with_field(self, field: str, got: Value | None = None) -> Self:
         """The same error under another parameter name, and with another value if `got` is given.
 
         For a caller that computes the parameters of core from others, such as times from a range, or a radius from a
@@ -310,11 +310,11 @@ def question_about(name: str, kind: type, missing: str = "") -> Callable[[Callab
                 if not missing or spent is None:
                     raise
             arguments = signature(question).bind(*args, **kwargs).arguments
-            shown = arguments.get("contact") or arguments.get("encounter")
-            if performance := arguments.get("performance") or getattr(shown, "performance", None):
+            result = arguments.get("contact") or arguments.get("encounter")
+            if performance := arguments.get("performance") or getattr(result, "performance", None):
                 rule = "must be fewer, or the time asked about shorter"
                 raise too_much(spent, "parts", f"{rule}: {missing} {{then}}", len(performance.parts))
-            dance = arguments.get("dance") or getattr(shown, "dance", None)
+            dance = arguments.get("dance") or getattr(result, "dance", None)
             if dragon := arguments.get("dragon") or (dance and dance.dragon):
                 rule = "must be fewer" + (", or the time asked about shorter" if dance else "")
                 raise too_much(spent, "dragon.benches", f"{rule}: {missing} {{then}}", dragon.benches)

@@ -29,7 +29,7 @@ ENLARGED_WIDTHS = 1.5
 ENLARGED_MARGINS = 1.5
 
 
-class Named(Protocol):
+class BenchFeature(Protocol):
     """A corner or an edge of a bench."""
 
     @property
@@ -103,7 +103,7 @@ def mark_pair(axes: Axes, outlines: Floats, benches: Sequence[int]) -> None:
 
 def draw_enlarged(
     axes: Axes, outlines: Floats, benches: Sequence[int], point: Sequence[float], half: float,
-    corner: Named | None, edge: Named | None, centre: tuple[float, float],
+    corner: BenchFeature | None, edge: BenchFeature | None, centre: tuple[float, float],
 ) -> None:  # fmt: skip
     """Draw the surroundings of a contact: both benches, corner, edge, point; two corners or two edges may meet too.
 

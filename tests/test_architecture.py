@@ -127,9 +127,9 @@ def test_no_modules_import_one_another_in_a_circle() -> None:
 
 def test_no_scripts_of_the_page_import_one_another_in_a_circle() -> None:
     page = ROOT / "app" / "page"
-    named = re.compile(r"""(?:from|import|import\() ?"(\.{1,2}/[\w./-]+\.js)\"""")
+    pattern = re.compile(r"""(?:from|import|import\() ?"(\.{1,2}/[\w./-]+\.js)\"""")
     scripts = {path: path.read_text(encoding="utf-8") for path in page.rglob("*.js")}
-    used = {path: {(path.parent / name).resolve() for name in named.findall(text)} for path, text in scripts.items()}
+    used = {path: {(path.parent / name).resolve() for name in pattern.findall(text)} for path, text in scripts.items()}
     assert {one for names in used.values() for one in names} <= set(scripts)
     assert sum(map(len, used.values())) > len(scripts)
     TopologicalSorter(used).prepare()
@@ -152,8 +152,8 @@ def without_name(index: ast.expr) -> bool:
     if not isinstance(index, ast.Tuple):
         return False
     first, last = index.elts[0], index.elts[-1]
-    named = isinstance(last, ast.Name) and last.id.isupper()
-    return numbered(index) or (isinstance(first, ast.Constant) and not named)
+    has_column_name = isinstance(last, ast.Name) and last.id.isupper()
+    return numbered(index) or (isinstance(first, ast.Constant) and not has_column_name)
 
 
 def test_columns_have_names() -> None:
@@ -183,8 +183,8 @@ def test_only_one_benchmark_imports_other_engines() -> None:
     for path in paths:
         nodes = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Import)]
         entries[module_name(path)] = {alias.name.partition(".")[0] for node in nodes for alias in node.names}
-    assert {name for name, named in entries.items() if named & OTHER_ENGINES} == {"benchmarks.ccd.engines"}
-    assert {name for name, named in entries.items() if "fcl" in named} == {
+    assert {name for name, imported in entries.items() if imported & OTHER_ENGINES} == {"benchmarks.ccd.engines"}
+    assert {name for name, imported in entries.items() if "fcl" in imported} == {
         "benchmarks.ccd.engines",
         "core.shapes.engines",
     }

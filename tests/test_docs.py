@@ -32,7 +32,7 @@ WIDTH = "120"  # of the terminal for which the outputs are shown [characters]
 # clearance is flat there: by up to 1e-8 s; all other numbers change less [s, m, rad, m/s].
 ROUNDING = 1e-8
 
-NAMED = re.findall(r"\[(test_\w+)\]\(([\w/.]+)\)", PAGES["docs/claims.md"])
+LINKED_TESTS = re.findall(r"\[(test_\w+)\]\(([\w/.]+)\)", PAGES["docs/claims.md"])
 LINKS = sorted(
     {
         (page, link)
@@ -111,8 +111,8 @@ def test_each_claim_names_a_test() -> None:
 
 
 def test_every_test_that_a_claim_names_exists() -> None:
-    texts = {file: (DOCS / file).read_text(encoding="utf-8") for _, file in NAMED}
-    assert [test for test, file in NAMED if not re.search(rf"^def {test}\(", texts[file], re.MULTILINE)] == []
+    texts = {file: (DOCS / file).read_text(encoding="utf-8") for _, file in LINKED_TESTS}
+    assert [test for test, file in LINKED_TESTS if not re.search(rf"^def {test}\(", texts[file], re.MULTILINE)] == []
 
 
 def test_every_link_leads_to_a_file() -> None:

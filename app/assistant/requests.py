@@ -11,7 +11,7 @@ from urllib.parse import urlencode
 import httpx2
 from mcp import types
 
-from app.assistant.tools import Call, filled_path
+from app.assistant.tools import Call, path_of
 from app.wire.problem import PROBLEM_TYPE, Problem, problem_of
 from app.wire.question import BYTES, JSON, short_json
 
@@ -83,7 +83,7 @@ async def answer(
     settings = app.state.settings
     try:
         rest = dict(arguments)
-        path = filled_path(call, rest)
+        path = path_of(call, rest)
         for name in [name for name in rest if f"{{{name}}}" in call.path]:
             del rest[name]
         content = None
@@ -94,7 +94,7 @@ async def answer(
             body = {name: value for name, value in rest.items() if name not in call.query}
             rest = {name: value for name, value in rest.items() if name in call.query}
             content, headers = json.dumps(body).encode(), headers | {"Content-Type": JSON}
-        query = urlencode({name: _plain(value) for name, value in rest.items() if value is not None}, doseq=True)
+        query = urlencode({name: _query_value(value) for name, value in rest.items() if value is not None}, doseq=True)
         transport = httpx2.ASGITransport(app=app, client=client, raise_app_exceptions=False)
         host = settings.hosts.split(",")[0] or "127.0.0.1"
         async with httpx2.AsyncClient(transport=transport, base_url=f"http://{host}", timeout=HANGS) as service:
@@ -106,7 +106,7 @@ async def answer(
         return _problem(json.loads(refused.problem.to_json()))
 
 
-def _plain(value: Any) -> Any:
+def _query_value(value: Any) -> Any:
     return json.dumps(value) if isinstance(value, bool | dict) else value
 
 

@@ -84,8 +84,8 @@ def _call_of(path: str, method: str, operation: dict[str, Any], schemas: dict[st
     schema: dict[str, Any] = {"type": "object", "properties": properties, "additionalProperties": False}
     if required:
         schema["required"] = required
-    if named := _named_in(properties, schemas):
-        schema["$defs"] = named
+    if definitions := _definitions_in(properties, schemas):
+        schema["$defs"] = definitions
     return Call(
         operation["operationId"],
         operation["summary"],
@@ -124,14 +124,14 @@ def _names_in(schema: Any) -> Iterator[str]:
             yield from _names_in(value)
 
 
-def _named_in(schema: Any, schemas: dict[str, Any]) -> dict[str, Any]:
+def _definitions_in(schema: Any, schemas: dict[str, Any]) -> dict[str, Any]:
     """Every named schema that this one needs, directly or by another."""
-    waiting, named = list(_names_in(schema)), {}
+    waiting, definitions = list(_names_in(schema)), {}
     while waiting:
-        if (name := waiting.pop()) not in named:
-            named[name] = schemas[name]
+        if (name := waiting.pop()) not in definitions:
+            definitions[name] = schemas[name]
             waiting += _names_in(schemas[name])
-    return dict(sorted(named.items()))
+    return dict(sorted(definitions.items()))
 
 
 def _with_local_names(schema: Any) -> Any:
@@ -148,7 +148,7 @@ def _with_local_names(schema: Any) -> Any:
     return [_with_local_names(value) for value in schema] if isinstance(schema, list) else schema
 
 
-def filled_path(call: Call, arguments: dict[str, Any]) -> str:
+def path_of(call: Call, arguments: dict[str, Any]) -> str:
     """The path of the request. Arguments in it that are left out take their default."""
 
     def value(match: re.Match[str]) -> str:

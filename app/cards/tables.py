@@ -46,9 +46,9 @@ def _lines(card: Card, words: CardWords) -> Iterator[dict[str, object]]:
     yield own | {"number": 0, "kind": "stand", "words": words.at_mark(stand)} | at | place
     for number, cue in enumerate(card.cues, start=1):
         at = {"time": cue.time, "x": cue.x, "y": cue.y, "since": cue.since, "until": cue.until}
-        told = {"number": number, "kind": cue.kind.value, "words": words.sentence(card, cue)}
-        told[COUNT] = words.clock.count(cue.time)
-        yield own | told | at | _clock("clock", cue.time, words) | _more(card, cue, words)
+        about = {"number": number, "kind": cue.kind.value, "words": words.sentence(card, cue)}
+        about[COUNT] = words.clock.count(cue.time)
+        yield own | about | at | _clock("clock", cue.time, words) | _more(card, cue, words)
 
 
 def _clock(name: str, time: float, words: CardWords) -> dict[str, object]:

@@ -27,7 +27,7 @@ from app.wire.refusals import refusing
 from core import InvalidValue
 
 
-class FigureOptions(drawn.InstantQuery, ScanFields, drawn.Worded):
+class FigureOptions(drawn.InstantQuery, ScanFields, drawn.WithLanguage):
     """The fields of all three GET /figures requests."""
 
 

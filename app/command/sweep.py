@@ -91,7 +91,7 @@ def show(
     from app.sweeps.table import Sweep
 
     sweep = Sweep.open(folder)
-    column = value or sweep.spec.asks.shown
+    column = value or sweep.spec.asks.map_column
     if output:
         from app.files.drawing import file_bytes
         from app.sweeps.maps import value_map

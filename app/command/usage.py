@@ -93,4 +93,4 @@ def _unfit(parameter: Any, value: str) -> str:
     if hasattr(kind, "min") and re.fullmatch(r"[-+]?\d+", value):
         return f"{name} must be from {kind.min} to {kind.max}, got {value}"
     wrong = {"type": "int_parsing" if "int" in kind.name else "float_parsing", "input": value}
-    return fault_of({**wrong, "loc": ("query", parameter.name)}, None).named(name).message
+    return fault_of({**wrong, "loc": ("query", parameter.name)}, None).with_field(name).message

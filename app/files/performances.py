@@ -18,7 +18,7 @@ from core.values import Floats
 # Colours of the dragons in turn (Okabe and Ito).
 COLOURS = (BLUE, VERMILION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 # Most dragons whose names stand in the legend [1].
-NAMED_MOST = 12
+LEGEND_MOST = 12
 # Time before the end of a performance at which it is drawn if no dragons meet [s].
 BEFORE_END = 1e-3
 
@@ -63,7 +63,7 @@ def _refuse(performance: Performance, time: float) -> None:
     try:
         performance.span(stop=time)
     except OutsideRun as error:
-        raise error.named("time") from error
+        raise error.with_field("time") from error
 
 
 def _time_of(performance: Performance, encounter: FirstEncounter | None) -> float:
@@ -90,7 +90,7 @@ def _draw(axes: Axes, performance: Performance, handles: list[Floats], outlines:
         )  # fmt: skip
     draw_venue(axes, performance.venue)
     axes.autoscale_view()
-    if 1 < len(performance.parts) <= NAMED_MOST:
+    if 1 < len(performance.parts) <= LEGEND_MOST:
         legend = axes.legend(loc="upper right", fontsize=9, framealpha=0.95)
         for text in legend.get_texts():
             text.set_parse_math(False)

@@ -67,8 +67,8 @@ def own_names(result: Trajectory, language: Language = Language.ENGLISH) -> list
     names = handle_names(result.speed.shape[-1] - 1, language)
     own = result.dance.dragon.names if result.dance else ()
     rear = "（后）" if language is Language.CHINESE else " (rear)"
-    named = [*own, f"{own[-1]}{rear}" if own and own[-1] else ""]
-    return [name or known for name, known in zip(named, names, strict=True)] if own else names
+    own_of_handles = [*own, f"{own[-1]}{rear}" if own and own[-1] else ""]
+    return [name or known for name, known in zip(own_of_handles, names, strict=True)] if own else names
 
 
 def _rounded(column: Floats, decimals: int | None) -> Floats:
@@ -108,9 +108,9 @@ def trajectory_csv(result: Trajectory, decimals: int | None = None, start_clock:
 def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> Iterator[bytes]:
     """The same CSV in blocks of lines, each made on demand."""
     instants, handles = result.speed.shape
-    named = bool(result.dance and result.dance.dragon.names)
-    names = [_quoted(name) for name in own_names(result)] if named else []
-    added = [column for column, known in ((NAME, named), (CLOCK, start_clock)) if known]
+    has_names = bool(result.dance and result.dance.dragon.names)
+    names = [_quoted(name) for name in own_names(result)] if has_names else []
+    added = [column for column, known in ((NAME, has_names), (CLOCK, start_clock)) if known]
     yield ",".join([*COLUMNS, *added]).encode() + b"\n"
     rows = max(CSV_BLOCK // handles, 1)
     for first in range(0, instants, rows):
@@ -119,7 +119,7 @@ def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str
             for column in _columns(result, slice(first, first + rows), decimals).values()
         ]
         times = result.time[first : first + rows].tolist()
-        if named:
+        if has_names:
             columns.append(names * len(times))
         if start_clock:
             columns.append([word for time in times for word in [time_of_day(time, start_clock).encode()] * handles])

@@ -76,8 +76,8 @@ def wide_table(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | 
     first = next(k for k, label in enumerate(labels[aside]) if label and label.handle is not None)
     heads = cells[max(0, first - MARGIN) : first]
     lines = _lines(labels[aside])
-    named = {k: label.component for k, label in _head_labels(heads, aside).items()}
-    if {X, Y} <= set(named.values()) and len(named) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
+    components = {k: label.component for k, label in _head_labels(heads, aside).items()}
+    if {X, Y} <= set(components.values()) and len(components) <= len(COMPONENTS[TableKind.CONTACT]) + 1:
         return _contact(grid, cells, lines, _head_labels(heads, aside), turned)
     return _over_time(
         grid, cells, lines, _times(heads, cells, aside), _names_speeds(grid, heads, cells, turned), turned
@@ -101,8 +101,8 @@ def holds_angles(grid: Grid, cells: list[list[Cell]]) -> bool:
     """True if a sheet says that it holds angles, and names neither a place nor a speed."""
     texts = [grid.title, *(cell for row in cells for cell in row[:MARGIN] if isinstance(cell, str))]
     texts += [cell for row in cells[:MARGIN] for cell in row if isinstance(cell, str)]
-    named = {label.component for text in texts if (label := label_of(text))}
-    return ANGLE in named and not named & {X, Y, SPEED}
+    components = {label.component for text in texts if (label := label_of(text))}
+    return ANGLE in components and not components & {X, Y, SPEED}
 
 
 def _head_labels(heads: list[list[Cell]], aside: int) -> dict[int, Label]:
@@ -145,10 +145,10 @@ def _times(heads: list[list[Cell]], cells: list[list[Cell]], aside: int) -> dict
 
 def _numbered(lines: list[tuple[int, Label]]) -> tuple[Ints, Ints]:
     """Handle of every line, by its label and by its order. The tail follows the last body bench with a label."""
-    named = [label.handle for _, label in lines if label.handle is not None]
-    assert len(named) == len(lines)
-    last = max([BENCHES - 2, *named])
-    by_label = [handle if handle >= 0 else last - handle for handle in named]
+    handles = [label.handle for _, label in lines if label.handle is not None]
+    assert len(handles) == len(lines)
+    last = max([BENCHES - 2, *handles])
+    by_label = [handle if handle >= 0 else last - handle for handle in handles]
     order = {handle: n for n, handle in enumerate(dict.fromkeys(by_label))}
     return np.array(by_label), np.array([order[handle] for handle in by_label])
 

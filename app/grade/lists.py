@@ -77,10 +77,10 @@ def _is_numbered(rows: list[list[Cell]], k: int) -> bool:
     return 2 * len(numbers) > len(rows) and len(set(numbers)) == len(numbers)
 
 
-def _numbered(named: list[int]) -> tuple[Ints, Ints]:
+def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
     """The handles in their order, and the place of each line among them; the tail follows the last body bench."""
-    last = max([BENCHES - 2, *named])
-    handles, places = np.unique([one if one >= 0 else last - one for one in named], return_inverse=True)
+    last = max([BENCHES - 2, *labels])
+    handles, places = np.unique([one if one >= 0 else last - one for one in labels], return_inverse=True)
     return handles, places
 
 

@@ -31,7 +31,7 @@ from core.kernels import Halted
 # Endings of workbook files.
 WORKBOOK_ENDINGS = (".xlsx", ".xlsm")
 # Name of a workbook in the name of a file.
-NAMED = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
+NAME_OF_WORKBOOK = re.compile(r"result\s*_?([124])(?!\d)", re.IGNORECASE)
 VALUE = "in m for x and y, in m/s for a speed"
 
 
@@ -170,8 +170,8 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     grids, notes = grids_of(data, budget)
     tables = [table for grid in grids for table in tables_of(grid)]
     if not tables:
-        is_named_so = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
-        raise UnreadableTable(note("no_workbook" if is_named_so and not data.startswith(ZIP) else "no_table"))
+        has_workbook_ending = PurePath(name).suffix.lower() in WORKBOOK_ENDINGS
+        raise UnreadableTable(note("no_workbook" if has_workbook_ending and not data.startswith(ZIP) else "no_table"))
     workbook = workbook_of(tables, PurePath(name).stem)
     decimals = max(decimals_of(table.values) for table in tables)
     judgements = [judged(table, workbook, decimals) for table in tables]
@@ -183,8 +183,8 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
         sheets += [_lacking(kind, cells_of(workbook, kind), language) for kind in lacking]
     rubric = rubric_of(judgements, certain)
     notes += [one for grid in grids for one in grid.notes]
-    if (named := NAMED.search(PurePath(name).stem)) and named[1] != workbook.value[-1]:
-        notes.append(note("named_otherwise", named=f"result{named[1]}", workbook=workbook.value))
+    if (match := NAME_OF_WORKBOOK.search(PurePath(name).stem)) and match[1] != workbook.value[-1]:
+        notes.append(note("named_otherwise", match=f"result{match[1]}", workbook=workbook.value))
     return FileAnswer(
         file=name,
         workbook=workbook.value,

@@ -83,7 +83,7 @@ def _drawing(document: Any, fixes: Iterable[str]) -> Drawing:
     for fix in fixes:
         if deleted := DELETED.search(fix):
             entities.collector.leave_out(f"damaged {deleted[1]}")
-    features, collector = tuple(entities.named()), entities.collector
+    features, collector = tuple(entities.features()), entities.collector
     if code not in UNITS:
         _refuse_wide(collector.features)
     path = record.get("path")

@@ -169,7 +169,7 @@ class Entities:
     def _place(self, point: Any) -> Point:
         return float(point[0]) * self.factor, float(point[1]) * self.factor
 
-    def named(self) -> Iterator[MapFeature]:
+    def features(self) -> Iterator[MapFeature]:
         """The features, with holes in their polygons; each thing is named by the text in it or beside it."""
         # Before any of them is compared with the others.
         refuse_many_edges_of(one for one in self.collector.features if one.shape == "polygon")

@@ -49,8 +49,8 @@ def names_of(features: Sequence[MapFeature], labels: Sequence[MapText]) -> dict[
         around = [k for k, one in enumerate(features) if _is_in(one, label.places[0])]
         own = min(around, key=lambda k: area_of(features[k]), default=None)
         near = _nearest(features, label, own)
-        if (named := own if near is None else near) is not None:
-            names.setdefault(named, label.text)
+        if (owner := own if near is None else near) is not None:
+            names.setdefault(owner, label.text)
     return names
 
 

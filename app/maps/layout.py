@@ -28,7 +28,7 @@ from core.venue import refuse_many_edges
 # Radius of a point, and half of the width of a line, without a radius [m].
 POINT_RADIUS, LINE_RADIUS = 0.5, 0.1
 # Largest number of things that a note names; a list of more ends in dots.
-NAMED = 5
+LISTED_MOST = 5
 # Reason of a refusal of numbers that were taken for degrees.
 GUESSED = "its numbers look like degrees; if they are metres, give the units metres"
 # Free ground around everything drawn, if no polygon is the square [m].
@@ -78,7 +78,7 @@ def refuse_many_edges_of(things: Iterable[MapFeature]) -> None:
     try:
         refuse_many_edges(ring for one in things for ring in one.rings)
     except InvalidValue as error:
-        raise error.named("file") from error
+        raise error.with_field("file") from error
 
 
 def _checked(things: list[MapFeature]) -> Venue:
@@ -88,7 +88,7 @@ def _checked(things: list[MapFeature]) -> Venue:
     try:
         return venue_of(outlined(read_things(collection)))
     except InvalidValue as error:
-        raise error.named("file") from error
+        raise error.with_field("file") from error
 
 
 # State:  `drawing`, in degrees or metres; from it `features`, in metres and without marks, and `origin`.
@@ -119,8 +119,8 @@ class Reading:
         square = self._square()
         tracks = [one for one in lines if one.times is not None]
         # A track that was walked is a path; the longest one is danced, unless a line is called path.
-        named = [one for one in lines if one.role == PATH]
-        paths = [*named, *sorted((one for one in tracks if one.role != PATH), key=length_of, reverse=True)]
+        path_lines = [one for one in lines if one.role == PATH]
+        paths = [*path_lines, *sorted((one for one in tracks if one.role != PATH), key=length_of, reverse=True)]
         # If no line has the role of the path, it is the longest line without a width.
         free = [one for one in lines if one.role is None and one.radius is None]
         danced = paths[:1] or ([max(free, key=length_of)] if free and not self._walls(free) else [])
@@ -128,10 +128,10 @@ class Reading:
         if more := paths[1:]:
             self._note(
                 f"{len(paths)} lines are called path; the first is the path, and the others are left out."
-                if len(named) == len(paths)
+                if len(path_lines) == len(paths)
                 else f"{len(paths)} lines are paths or tracks; one of them is the path: {danced[0].name or 'track'}.",
                 f"有 {len(paths)} 条线名为路径：取第一条，其余未读取。"
-                if len(named) == len(paths)
+                if len(path_lines) == len(paths)
                 else f"有 {len(paths)} 条路径或轨迹，取其中之一为路径：{danced[0].name or '轨迹'}。",
             )
         taken = [*danced, *more]
@@ -248,12 +248,12 @@ class Reading:
     def _square(self) -> MapFeature | None:
         """The square: the polygon with that role, else the one that holds a part of everything else."""
         polygons = [one for one in self.features if one.shape == "polygon"]
-        named = [one for one in polygons if one.role == SQUARE]
-        first = next(iter(named), None)
-        if len(named) > 1:
+        squares = [one for one in polygons if one.role == SQUARE]
+        first = next(iter(squares), None)
+        if len(squares) > 1:
             self._note(
-                f"{len(named)} areas are called square; the first is the square, and the others are obstacles.",
-                f"有 {len(named)} 个区域名为广场：取第一个，其余作为障碍。",
+                f"{len(squares)} areas are called square; the first is the square, and the others are obstacles.",
+                f"有 {len(squares)} 个区域名为广场：取第一个，其余作为障碍。",
             )
         free = [one for one in polygons if one.role is None]
         if first or not free:
@@ -267,7 +267,7 @@ class Reading:
         """The square and the obstacles."""
         obstacles = [self._obstacle(one) for one in others]
         for radius, without in self.assumed.items():
-            listed = ", ".join(without[:NAMED]) + (", …" if len(without) > NAMED else "")
+            listed = ", ".join(without[:LISTED_MOST]) + (", …" if len(without) > LISTED_MOST else "")
             english = f"{format_count(len(without), 'thing')} without a radius; {radius:g} m is assumed: {listed}."
             self._note(english, f"{len(without)} 个图形没有给出半径，取 {radius:g} m：{listed}。")
         if square is None:
@@ -283,8 +283,8 @@ class Reading:
             )
         names = _Names()
         square = replace(square, name=names.new(square.name or "square"), radius=None)
-        named = (replace(one, name=names.new(one.name or f"obstacle {k}")) for k, one in enumerate(obstacles, start=1))
-        return [square, *named]
+        things = (replace(one, name=names.new(one.name or f"obstacle {k}")) for k, one in enumerate(obstacles, start=1))
+        return [square, *things]
 
     def _obstacle(self, one: MapFeature) -> MapFeature:
         """An obstacle, with a radius if it is a point or a line."""

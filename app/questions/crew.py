@@ -224,7 +224,7 @@ def _planned(request: CrewRequest, dance: Dance, needed: list[int], rules: Relie
         return facts.crew(dance, needed, rules, start=request.start, stop=request.stop, budget=terms.budget)
     except core.BenchDragonError as error:
         if error.field.startswith("relief."):
-            raise error.named(error.field.removeprefix("relief.")) from error
+            raise error.with_field(error.field.removeprefix("relief.")) from error
         raise
 
 

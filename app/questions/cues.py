@@ -65,7 +65,7 @@ class CuesRequest(Marked, strict=True):
                 if getattr(self, name) is not None:
                     rule, other = "must be left out beside {other}", Parameter("cards")
                     raise InvalidValue(name, rule, got=getattr(self, name), other=other)
-            return [_bench_named(f"cards.{k}", one, dragon) for k, one in enumerate(self.cards)]
+            return [_bench_of(f"cards.{k}", one, dragon) for k, one in enumerate(self.cards)]
         first = 0 if self.first_bench is None else self.first_bench
         last = count - 1 if self.last_bench is None else self.last_bench
         for name, bench in (("first_bench", first), ("last_bench", last)):
@@ -79,7 +79,7 @@ class CuesRequest(Marked, strict=True):
         return range(first, last + 1)
 
 
-def _bench_named(field: str, word: int | str, dragon: core.Dragon) -> int:
+def _bench_of(field: str, word: int | str, dragon: core.Dragon) -> int:
     """The bench with that name, or else that number. raises: InvalidValue"""
     if isinstance(word, str):
         if word and word in dragon.names:
@@ -193,7 +193,7 @@ def _clock(time: float, words: CardWords) -> str | None:
     return None if start is None else time_of_day(time, start)
 
 
-def _named(bench: int | None, words: CardWords) -> Neighbour | None:
+def _neighbour(bench: int | None, words: CardWords) -> Neighbour | None:
     return None if bench is None else Neighbour(bench=bench, name=words.names[bench] if words.names else "")
 
 
@@ -222,8 +222,8 @@ def _card(card: Card, words: CardWords) -> CueCard:
     return CueCard(
         bench=bench.bench,
         name=words.names[bench.bench] if words.names else "",
-        ahead=_named(bench.ahead, words),
-        behind=_named(bench.behind, words),
+        ahead=_neighbour(bench.ahead, words),
+        behind=_neighbour(bench.behind, words),
         start=_stand(bench.start, words),
         begin=_stand(bench.begin, words),
         direction=bench.direction,
@@ -242,8 +242,10 @@ def cues(request: CuesRequest, terms: Terms, form: str = JSON) -> Cues | bytes:
     benches = request.benches_of(dance.dragon)
     _refuse_equal_names(dance.dragon)
     place = request.to_place(dance.dragon)
-    found = bench_cues(dance, benches, reach=request.reach, start=request.start, stop=request.stop, budget=terms.budget)
-    cards, words = [card_of(one) for one in found], _words(request, dance, place, terms)
+    own_cues = bench_cues(
+        dance, benches, reach=request.reach, start=request.start, stop=request.stop, budget=terms.budget
+    )
+    cards, words = [card_of(one) for one in own_cues], _words(request, dance, place, terms)
     if form == JSON:
         return Cues.of(cards, words)
     return cards_csv(cards, words) if form == CSV_TYPE else _paper(request, dance, place, (cards, words), terms)

@@ -26,7 +26,7 @@ FORMATS = {one.media_type: one.value for one in Format}
 FORMS = tuple(FORMATS)
 
 
-class Worded(Wire):
+class WithLanguage(Wire):
     """The words of a figure."""
 
     language: Language = Field(Language.ENGLISH, description="Language of the words in the picture", strict=False)
@@ -38,11 +38,11 @@ class TimeQuery(DanceQuery):
     time: Instant = measure("s", "Instant of the poses", 300.0)
 
 
-class TrajectoryFigureQuery(TimeQuery, Worded):
+class TrajectoryFigureQuery(TimeQuery, WithLanguage):
     """Every handle at one instant, drawn."""
 
 
-class TrajectoryFigureRequest(PlacedDance, Worded):
+class TrajectoryFigureRequest(PlacedDance, WithLanguage):
     """Every handle at one instant, drawn on any path."""
 
     time: Instant | None = measure(
@@ -60,11 +60,11 @@ class InstantQuery(TimeQuery, ContactQuery):
     """The dance at one instant, and what counts as a contact."""
 
 
-class ContactFigureQuery(ContactQuery, Worded):
+class ContactFigureQuery(ContactQuery, WithLanguage):
     """The dance at first contact, drawn."""
 
 
-class ContactFigureRequest(PlacedDance, Worded):
+class ContactFigureRequest(PlacedDance, WithLanguage):
     """The dance at first contact, drawn on any path."""
 
     margin: Margin = 0.0
@@ -83,11 +83,11 @@ class EncounterFigureRequest(PerformanceSpan, PlacedPerformance, strict=True):
     )
 
 
-class StaircaseQuery(ScanFields, UniformDragon, Worded):
+class StaircaseQuery(ScanFields, UniformDragon, WithLanguage):
     """First contact against the pitch, drawn."""
 
 
-class StaircaseRequest(ScanFields, DragonFields, Worded, strict=True):
+class StaircaseRequest(ScanFields, DragonFields, WithLanguage, strict=True):
     """First contact against the pitch, of any dragon, drawn."""
 
 

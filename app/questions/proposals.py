@@ -145,7 +145,7 @@ def proposed(request: ProposalsRequest, terms: Terms) -> tuple[core.Proposals, P
         gates=gates,
         figures=request.figures,
         budget=terms.budget,
-        found=lambda one: terms.part(Proposal.of(one, body_of(request, one, place.origin))),
+        on_proposal=lambda one: terms.part(Proposal.of(one, body_of(request, one, place.origin))),
         **wish,
         **limits,
     )

@@ -75,7 +75,7 @@ def tolerance_curve(request: ToleranceCurveQuery | ToleranceCurveRequest, terms:
             budget=terms.budget,
         )
     except TooMuchWork as error:
-        raise error.named("samples") if error.field == "pitches" else error from error
+        raise error.with_field("samples") if error.field == "pitches" else error from error
     ends = {"touching": [one.stray_bracket[1] for one in curve.tolerances]}
     limits = {"limited_by": [one.limited_by for one in curve.tolerances]}
     return Columns({"pitch": curve.pitch, "stray": curve.stray} | ends | limits)

@@ -52,11 +52,11 @@ class BodyRoute(WatchedRoute):
     def unwatched(self) -> Handler:
         answer = super().unwatched()
 
-        async def small(plain: Request) -> Response:
-            refuse_type(plain)
-            if not (body := await plain.body()):
-                return await answer(plain)
-            request = JsonRequest(plain, body)
+        async def small(original: Request) -> Response:
+            refuse_type(original)
+            if not (body := await original.body()):
+                return await answer(original)
+            request = JsonRequest(original, body)
             try:
                 await request.json()
             except Unreadable as error:

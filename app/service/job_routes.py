@@ -207,7 +207,7 @@ def job_of(request: Request, job_id: JobId) -> Job:
 
 
 KeptKeeper = Annotated[Keeper, Depends(keeper_of)]
-NamedJob = Annotated[Job, Depends(job_of)]
+RequestedJob = Annotated[Job, Depends(job_of)]
 no_query = Depends(refuse_query)
 
 
@@ -285,7 +285,7 @@ def list_jobs(request: Request, keeper: KeptKeeper) -> Response:
 
 
 @router.get("/{job_id}", dependencies=[no_query], **description_of("job_status", 404, 422, 500, 503, model=JobStatus))
-def job_status(request: Request, job: NamedJob) -> Response:
+def job_status(request: Request, job: RequestedJob) -> Response:
     """Status and progress of a job."""
     return Response(status(job, request.scope.get("root_path", "")), headers=NOT_KEPT, media_type=JSON)
 
@@ -295,7 +295,7 @@ def job_status(request: Request, job: NamedJob) -> Response:
     dependencies=[no_query],
     **description_of("dismiss_job", 404, 422, 500, 503, 507, model=JobStatus, empty=REMOVED),
 )
-def dismiss(request: Request, keeper: KeptKeeper, job: NamedJob) -> Response:
+def dismiss(request: Request, keeper: KeptKeeper, job: RequestedJob) -> Response:
     """Dismisses an unfinished job, or removes a finished one with all its data (204)."""
     if keeper.store.dismiss(job.id):
         return job_status(request, keeper.store.get(job.id) or job)
@@ -308,7 +308,7 @@ def dismiss(request: Request, keeper: KeptKeeper, job: NamedJob) -> Response:
     dependencies=[no_query],
     **description_of("job_result", 404, 409, 410, 413, 422, 500, 503, content=RESULT),
 )
-def result(request: Request, keeper: KeptKeeper, job: NamedJob) -> Response:
+def result(request: Request, keeper: KeptKeeper, job: RequestedJob) -> Response:
     """The answer of the call, with the same bytes as a direct answer; for a failed job its problem.
 
     The table of a sweep that is kept as Parquet is also there in the other forms of a sweep, by the header Accept.
@@ -356,7 +356,7 @@ def _rows_as(form: str, file: FilePath) -> bytes:
 )
 async def events(
     keeper: KeptKeeper,
-    job: NamedJob,
+    job: RequestedJob,
     last_event_id: Annotated[str, Header(description="Number of the last event that the client has")] = "0",
 ) -> Response:
     """The status of a job at every change, as server-sent events, until it is finished."""

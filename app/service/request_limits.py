@@ -30,7 +30,7 @@ class RequestLimits(Layer):
     async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         read, most = 0, self.files_max.get(scope["path"], self.bytes_max)
 
-        async def receive_counted() -> Message:
+        async def receive_limited() -> Message:
             nonlocal read
             message = await receive()
             more = len(message.get("body", b""))
@@ -44,7 +44,7 @@ class RequestLimits(Layer):
         if refused := self._refused_head(Headers(scope=scope), scope["query_string"], most):
             return await self.refuse(refused, scope, receive, send)
         try:
-            return await self.app(scope, receive_counted, send)
+            return await self.app(scope, receive_limited, send)
         finally:
             self.held -= read
 

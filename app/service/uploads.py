@@ -166,7 +166,7 @@ def grade(
         except Halted:
             raise too_long(data, budget) from None
         except BenchDragonError as error:
-            raise error.named("name") from error
+            raise error.with_field("name") from error
     return reply_of(GradeAnswer(files=files, answers=answers))
 
 

@@ -39,7 +39,7 @@ class SweepQuestion:
     name: the operation id; request, answer: models of the input and of the output
     ask: function from a request to its answer
     seconds: estimated cost of a design [s]; it fixes the number of designs in a shard, equal on every machine
-    shown: the default column of a map
+    map_column: the default column of a map
     left_out: fields that no table needs, with all that is in them
     """
 
@@ -48,7 +48,7 @@ class SweepQuestion:
     answer: type[BaseModel]
     ask: Callable[[Any], BaseModel]
     seconds: float
-    shown: str
+    map_column: str
     left_out: frozenset[str] = frozenset()
 
     def answer_to(self, values: dict[str, Any]) -> BaseModel:

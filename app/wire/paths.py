@@ -120,7 +120,7 @@ class TurnFields(TurnCircle):
         try:
             return self.to_turn()
         except InvalidValue as error:
-            raise error.named(f"path.{error.field}") from error
+            raise error.with_field(f"path.{error.field}") from error
 
 
 class SpiralPath(SpiralFields):

@@ -51,7 +51,7 @@ def reworded(error: BenchDragonError, request: BaseModel) -> BenchDragonError:
     if last == "turning_radius":
         got = error.got
         got = Quantity(2.0 * got.value, got.unit) if isinstance(got, Quantity) else got
-        error = error.named(".".join([*outer, "turning_diameter"]), got)
+        error = error.with_field(".".join([*outer, "turning_diameter"]), got)
     if error.field == "path" and isinstance(getattr(request, "path", request), TurnFields):
         error = _of_a_turn(error, request)
     if "dances" in names:
@@ -65,7 +65,7 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
     """The error for one instant; of a range it names the start or the stop, of two the one at fault."""
     names = type(request).model_fields
     if "time" in names:
-        return error.named("time")
+        return error.with_field("time")
     times = getattr(request, "times", None)
     if times is None:
         times = request if "stop" in names else TimeSteps()
@@ -73,7 +73,7 @@ def _of_instants(error: BenchDragonError, request: Any, index: int) -> BenchDrag
         return error
     stop_alone = times.model_fields_set & {"start", "stop"} == {"stop"}
     end = "stop" if index or stop_alone else "start"
-    return error.named(f"times.{end}", Quantity(getattr(times, end), "s"))
+    return error.with_field(f"times.{end}", Quantity(getattr(times, end), "s"))
 
 
 def _of_a_turn(error: BenchDragonError, request: Any) -> BenchDragonError:

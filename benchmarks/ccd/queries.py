@@ -137,14 +137,14 @@ def _passes(stage: Stage, start: float, pair: tuple[int, int]) -> Floats:
     """Travels in the next SCAN at which some corner of one bench is nearest to an edge of the other beside it [m]."""
     travels = start + np.linspace(0.0, SCAN, SCANNED)
     rows = np.stack([stage.lay(float(stage.search.place - travel), max(pair) + 1).copy() for travel in travels])
-    found = []
+    passes = []
     for order in (pair, pair[::-1]):
         along, out = beside(rows, stage.sizes, *order)
         halves = stage.sizes[order[1], [HALF_WIDTH, HALF_LENGTH, HALF_WIDTH, HALF_LENGTH]]
         usable = (np.abs(along) < halves - BESIDE) & (out > MARGINS[0]) & (out < MARGINS[1])
         least = (out[1:-1] < out[:-2]) & (out[1:-1] <= out[2:]) & usable[1:-1]
-        found.append(travels[1:-1][least.any(axis=(1, 2))])
-    return np.concatenate(found)
+        passes.append(travels[1:-1][least.any(axis=(1, 2))])
+    return np.concatenate(passes)
 
 
 def _candidates(

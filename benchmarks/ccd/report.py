@@ -109,8 +109,8 @@ def errors(results: Results, name: str) -> NDArray[np.float64]:
     """Delay of an engine's contact after the certified one [s], 0 within the bracket; not a number without contact."""
     answers, columns = results.answers[name], results.queries.columns
     travel = np.where(answers["touches"] == 1, answers["travel"], np.nan)
-    found: NDArray[np.float64] = np.maximum(travel - columns["high"], 0.0) + np.minimum(travel - columns["low"], 0.0)
-    return found
+    delay: NDArray[np.float64] = np.maximum(travel - columns["high"], 0.0) + np.minimum(travel - columns["low"], 0.0)
+    return delay
 
 
 def score(results: Results, name: str, rows: NDArray[np.bool_]) -> Score:
@@ -139,17 +139,17 @@ def table(results: Results, rows: NDArray[np.bool_]) -> list[str]:
         f"|{'---|' * len(HEADINGS)}",
     ]
     for name in results.answers:
-        found = score(results, name, rows)
-        other = " / ".join(map(str, found.other))
-        times = f"{found.microseconds[0]:,.0f} ({found.microseconds[1]:,.0f})"
+        scores = score(results, name, rows)
+        other = " / ".join(map(str, scores.other))
+        times = f"{scores.microseconds[0]:,.0f} ({scores.microseconds[1]:,.0f})"
         cells = (
             name,
-            f"{found.missed:,}",
-            f"{found.invented:,}",
+            f"{scores.missed:,}",
+            f"{scores.invented:,}",
             other,
-            *map(format_error, (found.late, found.early, found.median)),
+            *map(format_error, (scores.late, scores.early, scores.median)),
         )
-        lines.append(f"| {' | '.join(cells)} | {times} | {found.evaluations:,.0f} |")
+        lines.append(f"| {' | '.join(cells)} | {times} | {scores.evaluations:,.0f} |")
     return lines
 
 
@@ -168,8 +168,8 @@ def by_depth(results: Results) -> list[str]:
         f"|---|{'---|' * len(depths)}",
     ]
     for name in results.answers:
-        found = [score(results, name, decades == k) for k in depths]
-        lines.append(f"| {name} | {' | '.join(f'{each.missed} / {each.invented}' for each in found)} |")
+        scores = [score(results, name, decades == k) for k in depths]
+        lines.append(f"| {name} | {' | '.join(f'{each.missed} / {each.invented}' for each in scores)} |")
     counts = [
         f"{int(((decades == k) & results.truly).sum())} / {int(((decades == k) & ~results.truly).sum())}"
         for k in depths
@@ -247,7 +247,7 @@ def draw(results: Results, docs: Path) -> None:
     for name in results.answers:
         off = np.abs(errors(results, name))
         depths = [10.0**-k for k in range(3, 10)]
-        found = [
+        delays = [
             off[
                 (columns["kind"] == GRAZE)
                 & np.isclose(columns["depth"], -depth, rtol=1e-6, atol=0.0)
@@ -255,7 +255,9 @@ def draw(results: Results, docs: Path) -> None:
             ]
             for depth in depths
         ]
-        kept = [(depth, np.percentile(each, [50, 100])) for depth, each in zip(depths, found, strict=True) if each.size]
+        kept = [
+            (depth, np.percentile(each, [50, 100])) for depth, each in zip(depths, delays, strict=True) if each.size
+        ]
         if not kept:  # an engine that crashed or hung at every graze
             continue
         x, values = [depth for depth, _ in kept], np.maximum([pair for _, pair in kept], FLOOR)

@@ -94,7 +94,7 @@ def covered(stage: Stage, pieces: list[Piece], place: float, span: float, last: 
 
     raises: Unproven
     """
-    half, start, found = min(HALF_MOST, span / 2), 0.0, []
+    half, start, expansions = min(HALF_MOST, span / 2), 0.0, []
     while start < span:
         try:
             middle = start + half
@@ -105,9 +105,9 @@ def covered(stage: Stage, pieces: list[Piece], place: float, span: float, last: 
                 raise
             continue
         start = middle + half
-        found.append((start, expansion))
+        expansions.append((start, expansion))
         half = min(half, max((span - start) / 2, HALF_LEAST))
-    return found
+    return expansions
 
 
 def track(expansions: list[tuple[float, Expansion]], query: Query, stage: Stage) -> Track:

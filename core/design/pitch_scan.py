@@ -248,4 +248,4 @@ def scan_near_minimum(
     try:
         return pitch_scan(dragon, pitches, locate=locate, progress=progress, budget=budget, **terms), least
     except TooMuchWork as error:
-        raise error.named("samples", samples) from error
+        raise error.with_field("samples", samples) from error

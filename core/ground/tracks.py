@@ -117,14 +117,14 @@ def _behind(path: Path, low: float, high: float, chord: float, gentle: float) ->
 
     def most(sign: float, a: float, b: float, at_a: float, at_b: float) -> float:
         """Upper bound of sign g on [a, b]."""
-        plain = b + at_a if sign > 0.0 else -(a + at_b)
+        coarse = b + at_a if sign > 0.0 else -(a + at_b)
         if at_a > math.pi:
-            return plain
+            return coarse
         least, largest = _slopes(a, b, at_a, at_b)
         rise, fall = (largest, -least) if sign > 0.0 else (-least, largest)
         from_a = sign * (a + at_a) + max(rise, 0.0) * (b - a)
         from_b = sign * (b + at_b) + max(fall, 0.0) * (b - a)
-        return min(plain, from_a, from_b)
+        return min(coarse, from_a, from_b)
 
     def bound(sign: float) -> float:
         """Upper bound of sign g up to `bent`, at most the width of an interval above its largest value."""

@@ -110,8 +110,8 @@ class Turn(Route):
     def _rows(self) -> list[tuple[str, str]]:
         units = dict.fromkeys(("pitch", "turning_radius", "entry_radius", "exit_radius", "radii", "length"), "m")
         units |= {"ratio": "", "angles": "rad"} | dict.fromkeys(("centres", "entry", "tangent_point", "exit"), "m")
-        named = [(name, getattr(self, name), unit) for name, unit in units.items()]
-        return [(name.replace("_", " "), display(value, unit, TABLE_DIGITS)) for name, value, unit in named]
+        entries = [(name, getattr(self, name), unit) for name, unit in units.items()]
+        return [(name.replace("_", " "), display(value, unit, TABLE_DIGITS)) for name, value, unit in entries]
 
 
 class Arcs(NamedTuple):

@@ -241,15 +241,15 @@ def places_near(path: Path, point: Sequence[float], begin: float, end: float, wi
     def goes_away(place: float) -> bool:
         return bool((path.position(place) - at) @ path.tangent(place) >= 0.0)
 
-    samples, found = away(s), list[float]()
+    samples, places = away(s), list[float]()
     step = (end - begin) / (count - 1)
     for k in sorted(dips(samples, count).tolist()):
         if samples[k] <= within + step:
             low, high = float(s[k - 1]), float(s[k + 1])
             nearest = 0.5 * sum(bisect(goes_away, low, high, width=NARROW))
-            if float(away(nearest)) <= within and (not found or nearest > found[-1] + NARROW):
-                found.append(nearest)
-    return found
+            if float(away(nearest)) <= within and (not places or nearest > places[-1] + NARROW):
+                places.append(nearest)
+    return places
 
 
 def _checked_needed(dance: Dance, needed: Sequence[int]) -> list[int]:

@@ -352,9 +352,9 @@ def beyond(stage: Stage, met: Met, until: float) -> Met | None:
         begin = met.proven + ahead
         if begin >= until or stage.spent:
             return None
-        found = March(stage, dips=False).run(begin, until)
-        if found.touching is not None and found.ended in (Ended.TOUCHED, Ended.TOUCHED_AT_START):
-            return found
-        if found.ended is Ended.REACHED:
+        later = March(stage, dips=False).run(begin, until)
+        if later.touching is not None and later.ended in (Ended.TOUCHED, Ended.TOUCHED_AT_START):
+            return later
+        if later.ended is Ended.REACHED:
             return None
     return None

@@ -158,10 +158,10 @@ class Performance(Readable):
             if self.end.dragon is not None and part.begin >= self.end.time:
                 rule = "must let {part} begin, which is at {begin}, before bench {bench} of {other} folds at {end}"
                 other, times = Parameter(f"parts.{self.end.dragon}"), quantities("s", 9, begin=part.begin)
-                told: dict[str, Value] = {"bench": self.end.bench or 0, "end": bound(self.end.time, 9, "s")}
+                end_values: dict[str, Value] = {"bench": self.end.bench or 0, "end": bound(self.end.time, 9, "s")}
                 got = Quantity(part.delay, "s")
                 raise InvalidValue(
-                    f"parts.{k}.delay", rule, got=got, part=Parameter(f"parts.{k}"), other=other, **times, **told
+                    f"parts.{k}.delay", rule, got=got, part=Parameter(f"parts.{k}"), other=other, **times, **end_values
                 )
 
     def _line(self) -> str:

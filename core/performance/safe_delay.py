@@ -204,8 +204,8 @@ class _Search:
         parts = list(self.performance.parts)
         parts[self.k] = replace(part, delay=delay)
         span = (begin, max(until, begin + LEAST))
-        shown = Performance(parts)
-        return Stage(shown, span, self.margin, stray=self.stray, work=WORK_BUDGET, budget=self.budget)
+        delayed = Performance(parts)
+        return Stage(delayed, span, self.margin, stray=self.stray, work=WORK_BUDGET, budget=self.budget)
 
     def run(self, least: float, most: float) -> tuple[Intervals, Intervals]:
         """The safe and the undecided intervals between two delays [s]."""

@@ -136,10 +136,10 @@ def performance_tolerance(
     rest = (own, between.evidence, begin, until, performance)
     if between.dip is not None:
         dragons, benches = between.pair
-        shown = _exhibit(performance, between, between.dip.time, budget)
-        bracket = (between.stray, None if shown is None else shown.stray)
+        exhibit = _exhibit(performance, between, between.dip.time, budget)
+        bracket = (between.stray, None if exhibit is None else exhibit.stray)
         return PerformanceTolerance(
-            between.stray, bracket, Limit.BENCHES, dragons, between.dip.time, benches, None, shown, *rest
+            between.stray, bracket, Limit.BENCHES, dragons, between.dip.time, benches, None, exhibit, *rest
         )
     alone, delay = own[k], performance.parts[k].delay
     limits = () if alone.benches is None else (k,)

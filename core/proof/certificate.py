@@ -208,7 +208,7 @@ def verify(certificate: Certificate, *, progress: Progress | None = None) -> Pro
     except (InvalidValue, OutsideRun) as error:
         field = error.field if "path" in content["claim"] else error.field.removeprefix("path.")
         place = field if field.startswith("dragon.") else f"claim.{field}"
-        renamed = error.named(place)
+        renamed = error.with_field(place)
         words = f"the certificate is malformed: {renamed.template}"
         raise ProofRefused.in_words(place, words, got=renamed.got, reason=renamed.reason, **renamed.values) from error
 

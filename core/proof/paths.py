@@ -78,7 +78,7 @@ def core_path(record: Record) -> Spiral | Route:
         try:
             return Turn(**{name: record[name] for name in FREE_TURN if name in record})
         except InvalidValue as error:  # Turn does not name the path around its fields
-            raise error.named(f"path.{error.field}") from error
+            raise error.with_field(f"path.{error.field}") from error
     parts = []
     for k, piece in enumerate(record["pieces"]):
         made, names = PIECES[piece["kind"]]
@@ -86,7 +86,7 @@ def core_path(record: Record) -> Spiral | Route:
         try:
             parts.append(made(**values))
         except InvalidValue as error:  # a piece does not name the route around its fields
-            raise error.named(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
+            raise error.with_field(".".join([f"path.pieces.{k}", *error.field.split(".")[1:]])) from error
     return Route(parts, record["start"])
 
 

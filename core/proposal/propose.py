@@ -61,7 +61,7 @@ def propose(
     figures: Sequence[str] | None = None,
     count: int = 3,
     budget: Budget | None = None,
-    found: Callable[[Proposal], None] = unheard,
+    on_proposal: Callable[[Proposal], None] = unheard,
     **wishes: Unpack[Wishes],
 ) -> Proposals:
     """Dances of a dragon that fit into a square, the best one first, each certified by check().
@@ -72,7 +72,7 @@ def propose(
     stray: free for people, 0.05 m by default; margin: 0 [m]; speed_limit: of every handle, none by default [m/s]
     objective: see Objective, "tolerance" by default; for `benches` the dragon's last bench is left out or repeated
     count: of proposals
-    found: called with every proposal as soon as it is certified, in the order of the search
+    on_proposal: called with every proposal as soon as it is certified, in the order of the search
     returns: see Proposals; with a reason instead of a proposal where none of the dances that were tried passes
     raises: InvalidValue; TooMuchWork if no dance was found within the budget, by default PROPOSE_WORK
 
@@ -95,13 +95,13 @@ def propose(
     search = Search(venue, dragon, doors, wish, work)
     most = None if doors else _area_bound(search, dragon)
     if wish.objective is Objective.BENCHES:
-        return _most_benches(search, venue, kinds, int(count), most, found)
+        return _most_benches(search, venue, kinds, int(count), most, on_proposal)
     if most is not None and search.needs.least_area > search.ground.area:
         lack = Reason(ReasonKind.AREA, 0, search.ground.area, search.needs.least_area)
         return Proposals((), 0, 0, lack, most)
-    best, reason = _collected(search, kinds, int(count), found), None
+    best, reason = _collected(search, kinds, int(count), on_proposal), None
     if not best:
-        best, reason = _otherwise(search, venue, kinds, found)
+        best, reason = _otherwise(search, venue, kinds, on_proposal)
     return Proposals(best, search.tried, search.checked, reason, most)
 
 
@@ -129,26 +129,26 @@ def _figures(figures: Sequence[str] | None, gates: int) -> list[Figure]:
     """The figures to try, in ORDER. raises: InvalidValue"""
     if figures is None:
         return [figure for figure in ORDER if figure is not Figure.PARADE or gates > 1]
-    named = [
+    chosen = [
         _one(f"figures.{k}", figure, Figure)
         for k, figure in enumerate(checked_list("figures", figures, "a list of figures"))
     ]
-    if not named:
+    if not chosen:
         raise InvalidValue("figures", "must name at least one figure")
-    if Figure.PARADE in named and gates < 2:
+    if Figure.PARADE in chosen and gates < 2:
         raise InvalidValue("figures", "must have two gates for a parade, which leads from one to the other", got=gates)
-    return [figure for figure in ORDER if figure in named]
+    return [figure for figure in ORDER if figure in chosen]
 
 
 def _collected(
-    search: Search, figures: Sequence[Figure], count: int, found: Callable[[Proposal], None]
+    search: Search, figures: Sequence[Figure], count: int, on_proposal: Callable[[Proposal], None]
 ) -> tuple[Proposal, ...]:
     """The best proposals, each figure once before any twice. raises: TooMuchWork if none was found in time"""
     proposals: list[Proposal] = []
     try:
         for proposal in search.proposals(figures, count):
             proposals.append(proposal)
-            found(proposal)
+            on_proposal(proposal)
             if len(proposals) >= max(count, len(figures)):
                 break
     except (Halted, TooMuchWork):
@@ -170,7 +170,7 @@ _VALUES: dict[Objective, Callable[[Proposal], Any]] = {
 
 
 def _otherwise(
-    search: Search, venue: Venue, figures: Sequence[Figure], found: Callable[[Proposal], None]
+    search: Search, venue: Venue, figures: Sequence[Figure], on_proposal: Callable[[Proposal], None]
 ) -> tuple[tuple[Proposal, ...], Reason | None]:
     """Proposals of a second search, or why no dance was found, by the first cause that holds."""
     narrow = _too_narrow(search, figures)
@@ -179,7 +179,7 @@ def _otherwise(
     if search.wish.stray > 0.0:
         best, reason = _without_stray(search, venue, figures)
         for proposal in best:
-            found(proposal)
+            on_proposal(proposal)
         if best or reason is not None:
             return best, reason
     return (), _fewer_benches(search, venue, figures) or _failing(search)
@@ -313,7 +313,7 @@ def _most_benches(
     figures: Sequence[Figure],
     count: int,
     most: int | None,
-    found: Callable[[Proposal], None],
+    on_proposal: Callable[[Proposal], None],
 ) -> Proposals:
     """Proposals with as many benches as were found to fit, one of each figure."""
     limit = min(BENCHES_MOST, most or BENCHES_MOST)
@@ -322,8 +322,8 @@ def _most_benches(
         longest = _longest(venue, search, [figure], (min(search.dragon.benches, limit), limit))
         if longest is not None and (one := longest[0].certified(*longest[1][:2])) is not None:
             every.append(one)
-            found(one)
+            on_proposal(one)
     best, reason = tuple(sorted(every, key=_VALUES[Objective.BENCHES], reverse=True)[:count]), None
     if not best:
-        best, reason = _otherwise(search, venue, figures, found)
+        best, reason = _otherwise(search, venue, figures, on_proposal)
     return Proposals(best, search.tried, search.checked, reason, most)

@@ -182,10 +182,10 @@ def test_a_clothoid_is_a_piece(client: httpx.Client) -> None:
     one, other = (posted(client, "/trajectory", dragon=SHORT, path=path, times=[50.0, 61.5]) for path in paths)
     for name in ("x", "y", "speed"):
         assert np.array(one[name]) == pytest.approx(np.array(other[name]), rel=0, abs=SAME_PATH_TOLERANCE)
-    found = posted(client, "/trajectory", dragon=SHORT, path=route(LANE, RAMP | {"start": [60, 0]}), times=[62.0])
+    result = posted(client, "/trajectory", dragon=SHORT, path=route(LANE, RAMP | {"start": [60, 0]}), times=[62.0])
     unit = 2.0 * math.sqrt(math.pi)
     sine, cosine = fresnel(2.0 / unit)
-    assert (found["x"][0][0], found["y"][0][0]) == pytest.approx((60 + unit * cosine, unit * sine), abs=1e-11)
+    assert (result["x"][0][0], result["y"][0][0]) == pytest.approx((60 + unit * cosine, unit * sine), abs=1e-11)
 
 
 def test_waypoints_are_a_path_and_a_piece(client: httpx.Client) -> None:

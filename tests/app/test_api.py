@@ -259,14 +259,14 @@ def test_the_service_is_alive_and_ready(client: httpx.Client) -> None:
 
 
 def test_metrics_count_requests_by_path_and_status(client: httpx.Client) -> None:
-    def counted() -> float:
+    def refused_count() -> float:
         pattern = r'^bench_dragon_requests_total\{path="/clearance",status="422"\} (\S+)$'
         match = re.search(pattern, client.get("/metrics").text, re.MULTILINE)
         return float(match[1]) if match else 0.0
 
-    before = counted()
+    before = refused_count()
     client.get("/clearance?pitch=55")
-    assert counted() == before + 1
+    assert refused_count() == before + 1
 
 
 @pytest.mark.parametrize("path", ["/", "/docs"])

@@ -107,10 +107,10 @@ def test_figures_of_a_file_are_those_of_its_dance_in_its_venue(
     client: httpx.Client, file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, places: list[str], where: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    named = [file if place == "FILE" else place for place in places]
+    arguments = [file if place == "FILE" else place for place in places]
     fields = BODY | {"venue": YARD}
     done = run(
-        "figures", *named, "--time", "12", "--format", "svg", text=json.dumps(fields | {"margin": 0.2, "start": 20})
+        "figures", *arguments, "--time", "12", "--format", "svg", text=json.dumps(fields | {"margin": 0.2, "start": 20})
     )
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in (tmp_path / where).glob("*.svg")) == ["contact.svg", "trajectory.svg"]

@@ -33,8 +33,8 @@ WARNING = re.compile(r"^(?:WARNING|ERROR) parsing \S+ (\S+)", re.MULTILINE)
 CALLS = [
     (f"{question.name}_of" if question.flat and method == "POST" else question.name, method, question)
     for question in QUESTIONS.values()
-    for method, asked in (("GET", question.flat), ("POST", question.body))
-    if asked
+    for method, request in (("GET", question.flat), ("POST", question.body))
+    if request
 ]
 
 

@@ -44,7 +44,7 @@ SPENT = {
 CHECKED = [check for check in CHECKS.get_all() if check.__name__ != "positive_data_acceptance"]
 
 SCHEMA = schemathesis.openapi.from_dict(create_app(Settings()).openapi())
-CALLS = {call.label: call for call in (found.ok() for found in SCHEMA.get_all_operations())}
+CALLS = {call.label: call for call in (operation.ok() for operation in SCHEMA.get_all_operations())}
 
 
 @pytest.fixture(scope="module")
@@ -127,10 +127,10 @@ def keywords(schema: Any) -> set[str]:
     """All words with which a schema and those within it describe values."""
     if not isinstance(schema, dict):
         return set()
-    named = [one for word in ("properties", "$defs") for one in schema.get(word, {}).values()]
+    by_name = [one for word in ("properties", "$defs") for one in schema.get(word, {}).values()]
     listed = [one for word in ("allOf", "anyOf", "oneOf", "prefixItems") for one in schema.get(word, [])]
     single = [schema.get(word) for word in ("additionalProperties", "items", "not", "propertyNames")]
-    return schema.keys() | {word for one in (*named, *listed, *single) for word in keywords(one)}
+    return schema.keys() | {word for one in (*by_name, *listed, *single) for word in keywords(one)}
 
 
 def test_schemas_say_their_limits_in_words_that_programs_know(document: Any) -> None:

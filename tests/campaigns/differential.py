@@ -268,7 +268,7 @@ def hunt(seed: int, seconds: float = math.inf, cases: float = math.inf) -> tuple
 
 
 if __name__ == "__main__":
-    asked = [int(text) for text in sys.argv[1:]]
-    count, faults = hunt(asked[1] if len(asked) > 1 else 0, cases=asked[0] if asked else 100_000)
+    arguments = [int(text) for text in sys.argv[1:]]
+    count, faults = hunt(arguments[1] if len(arguments) > 1 else 0, cases=arguments[0] if arguments else 100_000)
     print(f"{count} changed certificates, {len(faults)} disagreements", *faults, sep="\n")
     sys.exit(bool(faults))

@@ -132,8 +132,8 @@ def sheet_fault(random: Random) -> str:
     findings = diagnosed(judgements, Budget())
     if not findings:
         return ""
-    named = ", ".join(change.__name__ for change in changes)
-    return f"{workbook.value}, {named or 'rounded'}, {decimals} decimals: {', '.join(one.error for one in findings)}"
+    names = ", ".join(change.__name__ for change in changes)
+    return f"{workbook.value}, {names or 'rounded'}, {decimals} decimals: {', '.join(one.error for one in findings)}"
 
 
 def table_of(kind: TableKind, times: Floats, values: Floats) -> Table:

@@ -194,12 +194,14 @@ def sweep(gaps: int, seed: int) -> Errors:
 
 
 if __name__ == "__main__":
-    found = sweep(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)
+    result = sweep(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)
     for name in ("gaps", "points", "directions", "slides"):
-        ratios = np.array(getattr(found, name))
+        ratios = np.array(getattr(result, name))
         print(
             f"{name:>10}: {ratios.size} compared, error over bound {ratios.max():.3g}, median {np.median(ratios):.3g}"
         )
-    print(f"    bounds: {min(found.bounds):.3g} to {max(found.bounds):.3g} m, median {np.median(found.bounds):.3g} m")
-    largest = max(*found.gaps, *found.points, *found.directions, *found.slides)
+    print(
+        f"    bounds: {min(result.bounds):.3g} to {max(result.bounds):.3g} m, median {np.median(result.bounds):.3g} m"
+    )
+    largest = max(*result.gaps, *result.points, *result.directions, *result.slides)
     sys.exit(int(largest > 1.0))

@@ -14,7 +14,7 @@ from core.motion.places import handle_places
 from tests.support.random_squares import box, polygon
 
 LANE = Dance(Dragon(3), Route([Line((0, 0), (30, 0))]))
-PLAIN = box("plain", -9, -9, 48, 18)
+EMPTY_SQUARE = box("plain", -9, -9, 48, 18)
 TREE = box("tree", 14, 0.2, 2, 2)
 BEND = Dance(Dragon(6), Legs([(0, 0), (12, 0), (18, 6), (12, 12), (0, 12)], [0, 3], radius=4.0))
 ROOM = Venue(box("room", -1, -1, 21.5, 14), (box("stage", 9, 4, 4, 4),))
@@ -32,7 +32,7 @@ def samples(dance: Dance) -> np.ndarray:
 
 
 def test_a_bench_beside_a_tree_marks_the_stretch_between_its_handles() -> None:
-    venue = Venue(PLAIN, (TREE,))
+    venue = Venue(EMPTY_SQUARE, (TREE,))
     assert breaches(LANE, venue) == ()
     (one,) = breaches(LANE, venue, margin=0.06)
     assert one.kind is BreachKind.MARGIN
@@ -49,7 +49,7 @@ def test_a_bench_far_outside_the_square_or_inside_a_stage_is_marked() -> None:
     far = Venue(box("far", 60, 60, 9, 9))
     (one,) = breaches(LANE, far)
     assert (one.kind, one.start < 0.5, one.end > 29.5) == (BreachKind.MARGIN, True, True)
-    wide = Venue(PLAIN, (box("stage", -4, -4, 40, 8),))
+    wide = Venue(EMPTY_SQUARE, (box("stage", -4, -4, 40, 8),))
     assert kinds(breaches(LANE, wide)) == {BreachKind.MARGIN}
 
 
@@ -98,7 +98,7 @@ def test_many_benches_and_edges_cost_few_samples() -> None:
 
 
 def test_only_the_asked_time_is_looked_at() -> None:
-    venue = Venue(PLAIN, (TREE,))
+    venue = Venue(EMPTY_SQUARE, (TREE,))
     begin, until = LANE.span()
     (one,) = breaches(LANE, venue, margin=0.06, start=0.5 * until)
     assert one.start > breaches(LANE, venue, margin=0.06)[0].start + 0.5

@@ -127,7 +127,7 @@ def test_a_stopped_question_ends_and_says_what_was_too_much(name: str) -> None:
     error = caught.value
     assert error.stopped
     assert error.message.startswith(f"{format_field(error.field)} must ")
-    assert error.named("renamed").stopped
+    assert error.with_field("renamed").stopped
 
 
 @ALL
@@ -137,7 +137,7 @@ def test_a_question_whose_work_is_spent_ends_and_says_how_much_that_was(name: st
     with pytest.raises(TooMuchWork, match=r" within 1 steps of work, each a bench placed or a pair of ben") as caught:
         QUESTIONS[name](budget)
     assert not caught.value.stopped
-    assert not caught.value.named("renamed").stopped
+    assert not caught.value.with_field("renamed").stopped
 
 
 @pytest.mark.parametrize("name", [name for name in QUESTIONS if name != "Route"])

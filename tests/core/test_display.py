@@ -147,8 +147,8 @@ def hints(kind: type) -> dict[str, Any]:
 
 
 def test_every_public_result_is_shown_here(values: list[Any]) -> None:
-    shown_kinds = set(map(type, values))
-    assert set(public()) - shown_kinds == set(), "a call in tests/support/public_calls.py must return one"
+    kinds = set(map(type, values))
+    assert set(public()) - kinds == set(), "a call in tests/support/public_calls.py must return one"
 
 
 def test_the_types_of_public_fields_are_public() -> None:
@@ -261,8 +261,8 @@ def test_zero_has_no_sign_and_an_unknown_bound_is_called_so() -> None:
 
 
 def test_a_name_in_a_table_is_escaped() -> None:
-    named = Area("<script>alert('&')</script>", SQUARE.square.rings)
-    html = Venue(named)._repr_html_()
+    area = Area("<script>alert('&')</script>", SQUARE.square.rings)
+    html = Venue(area)._repr_html_()
     assert "<script>" not in html
     assert "&lt;script&gt;alert(&#x27;&amp;&#x27;)&lt;/script&gt;" in html
 

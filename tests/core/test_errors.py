@@ -62,7 +62,7 @@ def test_an_error_is_a_template_what_was_given_and_a_reason(kind: type[BenchDrag
         Quantity(12.5, "s"),
         {"field": Parameter("times.3"), "limit": Quantity(9.0, "s")},
     )
-    other = error.named("stop", Quantity(25.0, "s"))
+    other = error.with_field("stop", Quantity(25.0, "s"))
     assert (type(other), other.field, other.got) == (kind, "stop", Quantity(25.0, "s"))
     assert other.message == "stop must be at most 9 s, got 25 s: the run ends there"
     assert error.message == "times[3] must be at most 9 s, got 12.5 s: the run ends there"
@@ -82,7 +82,7 @@ def test_an_error_about_what_no_other_process_can_have_is_told_there_all_the_sam
 
 
 def test_a_sentence_of_its_own_stays_the_same_under_another_name() -> None:
-    long = TooLarge.in_words("benches", "the dragon has {benches} benches", benches=9).named("dragon")
+    long = TooLarge.in_words("benches", "the dragon has {benches} benches", benches=9).with_field("dragon")
     assert (long.field, long.message, str(long)) == ("dragon", *2 * ("the dragon has 9 benches",))
 
 
@@ -96,8 +96,8 @@ def test_the_other_parameters_of_a_message_get_their_new_names_too() -> None:
 def test_what_was_stopped_stays_so_under_another_name() -> None:
     error = TooMuchWork("pitch", "was not found")
     error.stopped = True
-    assert error.named("width").stopped
-    assert not TooMuchWork("pitch", "was not found").named("width").stopped
+    assert error.with_field("width").stopped
+    assert not TooMuchWork("pitch", "was not found").with_field("width").stopped
 
 
 @pytest.mark.parametrize("value", [0.0, 2, 3.0, np.float64(1.5), np.int64(2), Fraction(1, 2)], ids=repr)

@@ -113,11 +113,11 @@ def test_an_encounter_that_is_left_out_or_invented_is_a_fault() -> None:
         performance, margin, start, stop, look = hunt_encounters.random_case(44, case)
         return (margin, look), first_encounter(performance, margin=margin, start=start, stop=stop)
 
-    (margin, look), found = first_where(campaign, lambda found: found.outcome is Outcome.CONTACT)
-    assert hunt_encounters.encounter_fault(found, margin, look) == ""
-    assert hunt_encounters.encounter_fault(replace(found, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
-    start = found.time_bracket[0]
-    early = replace(found, time_bracket=(start - 0.1, start - 1e-2))
+    (margin, look), encounter = first_where(campaign, lambda encounter: encounter.outcome is Outcome.CONTACT)
+    assert hunt_encounters.encounter_fault(encounter, margin, look) == ""
+    assert hunt_encounters.encounter_fault(replace(encounter, outcome=Outcome.CLEAR, time_bracket=None), margin, look)
+    start = encounter.time_bracket[0]
+    early = replace(encounter, time_bracket=(start - 0.1, start - 1e-2))
     assert hunt_encounters.encounter_fault(early, margin - 1e-6, look)
 
 

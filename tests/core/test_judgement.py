@@ -268,11 +268,11 @@ def test_a_check_lays_out_one_search_for_each_question_and_area(monkeypatch: pyt
     made: list[int] = []
     lay_out = ContactSearch.__init__
 
-    def counted(search: ContactSearch, *args: Any, **kwargs: Any) -> None:
+    def recording(search: ContactSearch, *args: Any, **kwargs: Any) -> None:
         lay_out(search, *args, **kwargs)
         made.append(len(search.edges))
 
-    monkeypatch.setattr(ContactSearch, "__init__", counted)
+    monkeypatch.setattr(ContactSearch, "__init__", recording)
     route = Route([Line((0, 0), (100, 0))])
     square = venue(box("square", -10, -10, 110, 10), box("well", 40, 4, 44, 8), box("tree", 60, 4, 61, 5))
     check(Dance(Dragon(benches=5), route), venue=square, margin=0.5, speed_limit=2.0)

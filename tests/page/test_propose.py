@@ -146,9 +146,9 @@ def test_gates_lie_on_the_border_and_the_dance_begins_in_their_streets(open_page
     places = [[float(one) for one in gate[3].replace("!", ".").split(",")] for gate in gates]
     assert [place[0] for place in places] == [-12.0, 12.0]
     assert [place[1] for place in places] == pytest.approx([1.0, -2.0], abs=0.15)
-    with page.expect_request("**/proposals") as asked:
+    with page.expect_request("**/proposals") as sent:
         page.locator("#propose").click()
-    body = asked.value.post_data_json
+    body = sent.value.post_data_json
     assert [gate["heading"] for gate in body["gates"]] == pytest.approx([0.0, math.pi], abs=1e-3)
     page.locator(CARDS).first.wait_for()
     expect(page.locator(CARDS).filter(has_text="From gate to gate")).to_have_count(1)

@@ -153,13 +153,13 @@ def late() -> httpx.Response:
     """An answer that takes longer than it may: here a moment, while the service gives it ten seconds."""
     transport = httpx.ASGITransport(create_app(Settings(deadline_seconds=0.2)))
 
-    async def asked() -> httpx.Response:
+    async def late_answer() -> httpx.Response:
         async with httpx.AsyncClient(transport=transport, base_url="http://here") as client:
             return await client.get("/minimum-pitch", params={"benches": 9, "turning_diameter": 0.01})
 
     # In this thread the loop of Playwright runs.
     with ThreadPoolExecutor() as other:
-        return other.submit(asyncio.run, asked()).result()
+        return other.submit(asyncio.run, late_answer()).result()
 
 
 def refusals(server: str) -> list[dict[str, Any]]:

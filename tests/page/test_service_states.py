@@ -303,7 +303,7 @@ def test_a_dance_whose_samples_are_refused_says_so_and_is_not_played_for_ever(op
 
 
 # Counts checks of the service, each of which takes longer here.
-COUNTED = """() => {
+COUNT_REQUESTS = """() => {
   const real = window.fetch;
   Object.assign(window, { checks: 0, most: 0 });
   let running = 0;
@@ -319,7 +319,7 @@ COUNTED = """() => {
 
 def test_one_check_at_a_time_asks_whether_the_service_lives(visit: Any) -> None:
     page = visit("?benches=5&time=end", failing=True)
-    page.evaluate(COUNTED)
+    page.evaluate(COUNT_REQUESTS)
     page.route("**/{collision-time*,healthz}", lambda route: route.abort())
     page.locator("#pitch").fill("0.6")
     page.locator("#lost").wait_for()

@@ -159,11 +159,11 @@ def running_firefox(folder: Path) -> Iterator[Firefox]:
         process = subprocess.Popen(command, stdout=sink, stderr=sink, env=os.environ | {"HOME": str(folder)})
     try:
         end = time.monotonic() + PATIENCE
-        while not (found := LISTENS.search(log.read_text(encoding="utf-8", errors="replace"))):
+        while not (match := LISTENS.search(log.read_text(encoding="utf-8", errors="replace"))):
             assert process.poll() is None, log.read_text(encoding="utf-8", errors="replace")
             assert time.monotonic() < end, "Firefox does not listen"
             time.sleep(0.1)
-        firefox = Firefox(int(found[1]), downloads)
+        firefox = Firefox(int(match[1]), downloads)
         try:
             yield firefox
         finally:

@@ -11,8 +11,8 @@ CASES = reference_cases("encounters")
 PIECES = {"arc": Arc, "line": Line}
 
 
-def path_of(given: dict[str, Any]) -> Spiral | Route:
-    kind, rest = given["kind"], {name: value for name, value in given.items() if name != "kind"}
+def path_of(path: dict[str, Any]) -> Spiral | Route:
+    kind, rest = path["kind"], {name: value for name, value in path.items() if name != "kind"}
     if kind == "spiral":
         return Spiral(**rest)
     if kind == "waypoints":

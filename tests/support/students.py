@@ -306,8 +306,8 @@ def contact_workbook(results: Results) -> bytes:
 def rows_of(results: Results, times: Floats) -> Sheets:
     entries = {}
     for title, kind, rows in zip(("位置", "速度"), ("position", "speed"), sheets(results), strict=True):
-        named = [[label, *row] for label, row in zip(labels(kind), rows.tolist(), strict=True)]
-        entries[title] = [[None, *(f"{t:g} s" for t in times)], *named]
+        labelled = [[label, *row] for label, row in zip(labels(kind), rows.tolist(), strict=True)]
+        entries[title] = [[None, *(f"{t:g} s" for t in times)], *labelled]
     return entries
 
 

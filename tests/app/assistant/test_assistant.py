@@ -104,9 +104,9 @@ def test_an_assistant_asks_grades_and_looks(client: httpx.Client, tmp_path: Path
         by_content = await door.call_tool(
             "grade", {"content": base64.b64encode(WORKBOOK.read_bytes()).decode(), "language": "en"}
         )
-        (named,), (sent,) = (result.structured_content["files"] for result in (by_name, by_content))
-        assert sent == graded["files"][0]
-        assert named | {"file": sent["file"]} == sent
+        (of_path,), (of_content,) = (result.structured_content["files"] for result in (by_name, by_content))
+        assert of_content == graded["files"][0]
+        assert of_path | {"file": of_content["file"]} == of_content
 
         (picture,) = (await door.call_tool("contact_figure", {"benches": 20})).content
         assert (picture.type, picture.mime_type) == ("image", "image/png")

@@ -57,7 +57,7 @@ def festive(body: dict[str, Any], **more: Any) -> dict[str, Any]:
     return body | FESTIVE | {"dragon": {"benches": 24, "names": NAMES}} | more
 
 
-def asked(client: httpx.Client, request: dict[str, Any], accept: str) -> bytes:
+def answer_of(client: httpx.Client, request: dict[str, Any], accept: str) -> bytes:
     return client.post("/cues", json=request, headers={"accept": accept}).raise_for_status().content
 
 
@@ -138,7 +138,7 @@ def test_a_card_has_at_most_eight_cues_and_the_nearest_meetings(cards: Any, clie
 
 def test_a_carrier_finds_bench_17_where_its_card_says(client: httpx.Client, body: dict[str, Any]) -> None:
     request = festive(body, first_bench=17, last_bench=17)
-    card = json.loads(asked(client, request, "application/json"))["cards"][0]
+    card = json.loads(answer_of(client, request, "application/json"))["cards"][0]
     dance = checked(CuesRequest, request).to_dance(100)
     kinds = [cue["kind"] for cue in card["cues"]]
     assert kinds[:2] == ["begin", "pause"]
@@ -154,8 +154,8 @@ def test_a_carrier_finds_bench_17_where_its_card_says(client: httpx.Client, body
 
 def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client: httpx.Client, body: dict[str, Any]) -> None:
     request = festive(body)
-    cards = json.loads(asked(client, request, "application/json"))["cards"]
-    data = asked(client, request, "text/csv").decode()
+    cards = json.loads(answer_of(client, request, "application/json"))["cards"]
+    data = answer_of(client, request, "text/csv").decode()
     lines = list(csv.DictReader(io.StringIO(data)))
     assert [line["kind"] for line in lines if line["bench"] == "3"] == [
         "stand",
@@ -178,7 +178,10 @@ def test_the_table_has_the_same_numbers_and_runs_in_no_spreadsheet(client: httpx
 
 def test_four_cards_stand_on_a_sheet_with_fonts_and_marks_to_cut(client: httpx.Client, body: dict[str, Any]) -> None:
     request = festive(body, first_bench=15, last_bench=20)
-    data, cards = asked(client, request, "application/pdf"), json.loads(asked(client, request, "application/json"))
+    data, cards = (
+        answer_of(client, request, "application/pdf"),
+        json.loads(answer_of(client, request, "application/json")),
+    )
     pages = list(pypdfium2.PdfDocument(data))
     assert len(pages) == 2
     assert pages[0].get_size() == pytest.approx((595.28, 841.89), abs=0.01)
@@ -215,7 +218,7 @@ def test_chinese_cards_are_the_same_from_a_terminal(client: httpx.Client, body: 
     file.write_text(json.dumps({name: value for name, value in request.items() if name != "last_bench"}))
     for name, accept in (("cues.pdf", "application/pdf"), ("cues.csv", "text/csv"), ("cues.json", "application/json")):
         run("cues", str(file), "--last-bench", "1", "--output", str(tmp_path / name))
-        assert (tmp_path / name).read_bytes() == asked(client, request, accept)
+        assert (tmp_path / name).read_bytes() == answer_of(client, request, accept)
     data = (tmp_path / "cues.pdf").read_bytes()
     text = "".join(pypdfium2.PdfDocument(data)[0].get_textpage().get_text_bounded().split())
     for words in ("前：无后：1Wang", "起步，方向：与x轴夹角0°。", "停下，至19:45:50（16秒）。", "元宵", "检查：通过"):
@@ -225,9 +228,9 @@ def test_chinese_cards_are_the_same_from_a_terminal(client: httpx.Client, body: 
 def test_cards_are_chosen_by_name_and_by_number(client: httpx.Client, body: dict[str, Any], tmp_path: Path) -> None:
     names = ["", "Wang", "17", *[""] * 21]  # bench 2 is named 17
     request = body | {"dragon": {"benches": 24, "names": names}}
-    cards = json.loads(asked(client, request | {"cards": ["Wang", 5, "17", "6"]}, "application/json"))["cards"]
+    cards = json.loads(answer_of(client, request | {"cards": ["Wang", 5, "17", "6"]}, "application/json"))["cards"]
     assert [card["bench"] for card in cards] == [1, 5, 2, 6]
-    alone = json.loads(asked(client, request | {"first_bench": 5, "last_bench": 5}, "application/json"))["cards"]
+    alone = json.loads(answer_of(client, request | {"first_bench": 5, "last_bench": 5}, "application/json"))["cards"]
     assert cards[1:2] == alone
     file, output = tmp_path / "dance.json", tmp_path / "cues.json"
     file.write_text(json.dumps(request))
@@ -267,8 +270,8 @@ def test_the_last_benches_of_a_hundred_thousand_have_cards(patient: str) -> None
         "dragon": {"benches": 100_000}, "path": {"kind": "spiral", "pitch": 0.55}, "stop": 2.0, "first_bench": 99_998,
     }  # fmt: skip
     with httpx.Client(base_url=patient, timeout=600.0) as client:
-        cards = json.loads(asked(client, request, "application/json"))["cards"]
-        paper = asked(client, request, "application/pdf")
+        cards = json.loads(answer_of(client, request, "application/json"))["cards"]
+        paper = answer_of(client, request, "application/pdf")
     assert [card["bench"] for card in cards] == [99_998, 99_999]
     assert cards[1]["behind"] is None
     assert paper.startswith(b"%PDF")

@@ -203,9 +203,9 @@ def test_the_drum_of_a_film_is_on_the_beat(client: httpx.Client) -> None:
     # Each frame shows its instant as long as it stands; between two of them time goes on evenly.
     frames = FilmSpec(start, stop, seconds, rate).times
     heard = np.interp([beat for beat in beats if start <= beat <= stop], frames, np.arange(frames.size) / rate)
-    found = onsets(data)
-    assert len(found) == len(heard) == 9
-    assert np.abs(np.array(found) - heard).max() < HEARD
+    onset_times = onsets(data)
+    assert len(onset_times) == len(heard) == 9
+    assert np.abs(np.array(onset_times) - heard).max() < HEARD
     # The pictures are those of the same dance without a sound.
     with av.open(io.BytesIO(data)) as file:
         assert file.streams.video[0].frames == frames.size

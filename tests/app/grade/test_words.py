@@ -37,6 +37,6 @@ def test_every_known_error_has_words(language: Language) -> None:
 
 
 def test_every_name_in_the_code_has_words() -> None:
-    named = {name for file in GRADE.glob("*.py") for name in USE_OF_WORDS.findall(file.read_text(encoding="utf-8"))}
-    assert len(named) > 20
-    assert named <= words.WORDS.keys()
+    used = {name for file in GRADE.glob("*.py") for name in USE_OF_WORDS.findall(file.read_text(encoding="utf-8"))}
+    assert len(used) > 20
+    assert used <= words.WORDS.keys()

@@ -15,7 +15,7 @@ ALL = [SQUARE, WALL, TREE, COURT]
 
 
 @pytest.mark.parametrize(
-    ("at", "height", "named"),
+    ("at", "height", "owner"),
     [
         ((22, 21), 2.5, 1),  # beside the wall
         ((22, 19), 1.0, 1),
@@ -28,14 +28,14 @@ ALL = [SQUARE, WALL, TREE, COURT]
         ((70, 70), 1.0, None),
     ],
 )
-def test_a_text_names_the_nearest_thing(at: tuple[float, float], height: float, named: int | None) -> None:
-    assert names_of(ALL, [label_of("words", at, height, 0.0, 0.0)]) == ({} if named is None else {named: "words"})
+def test_a_text_names_the_nearest_thing(at: tuple[float, float], height: float, owner: int | None) -> None:
+    assert names_of(ALL, [label_of("words", at, height, 0.0, 0.0)]) == ({} if owner is None else {owner: "words"})
 
 
 def test_a_text_reaches_as_far_as_its_letters() -> None:
     # Ten letters of 1 m: 6 m to the right of its place, which is 5 m from the wall; centred, 3 m to both sides.
-    for align, named in ((0.0, 1), (0.5, 0), (1.0, 0)):
-        assert names_of(ALL, [label_of("ten letter", (14, 20), 1.0, 0.0, align)]) == {named: "ten letter"}
+    for align, owner in ((0.0, 1), (0.5, 0), (1.0, 0)):
+        assert names_of(ALL, [label_of("ten letter", (14, 20), 1.0, 0.0, align)]) == {owner: "ten letter"}
     assert names_of(ALL, [label_of("ten letter", (25, 13), 1.0, 1.5707963, 0.0)]) == {1: "ten letter"}
 
 

@@ -150,11 +150,14 @@ def test_a_path_that_goes_on_beyond_the_map_ends_at_its_frame(client: httpx.Clie
 
 @pytest.mark.chinese_font
 def test_a_plan_in_chinese_on_a3_is_the_same_from_a_terminal(client: httpx.Client, tmp_path: Path) -> None:
-    named = BODY | {"dragon": {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]}, "start_clock": "19:30"}
-    body = named | {"language": "zh", "paper": "A3", "title": "板凳龙 2027"}
+    with_names = BODY | {
+        "dragon": {"benches": 6, "names": ["龙头组", "王家", "", "", "", "李家"]},
+        "start_clock": "19:30",
+    }
+    body = with_names | {"language": "zh", "paper": "A3", "title": "板凳龙 2027"}
     data = client.post("/plan", json=body).raise_for_status().content
     file = tmp_path / "dance.json"
-    file.write_text(json.dumps(named))
+    file.write_text(json.dumps(with_names))
     output = tmp_path / "plan.pdf"
     done = run(
         "plan", str(file), "--output", str(output), "--language", "zh", "--paper", "A3", "--title", "板凳龙 2027"

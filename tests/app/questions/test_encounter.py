@@ -251,10 +251,10 @@ def test_the_command_says_what_the_service_says(client: httpx.Client, tmp_path: 
     file.write_text(json.dumps(TWO))
     output = run("encounter", str(file), "--json", "--margin", "0.05")
     assert output.stdout.encode() == client.post("/encounter", json=TWO | {"margin": 0.05}).content + b"\n"
-    shown = run("encounter", str(EXAMPLE))
-    assert shown.stderr == ""
+    result = run("encounter", str(EXAMPLE))
+    assert result.stderr == ""
     for words in ("First encounter", "207.37836126", "blue, red", "all 120 benches", "0 of dragon 0, 3 of dragon 1"):
-        assert words in shown.stdout
+        assert words in result.stdout
     alone = run("encounter", str(EXAMPLE), "--cross-check", "pair", "--margin", "0.1", "--stray", "0.01")
     assert "are within 0.1 m of each other that may come about with strays up to 0.01 m" in " ".join(
         alone.stdout.split()

@@ -121,12 +121,12 @@ def test_the_command_writes_dances_and_pictures(tmp_path: Path) -> None:
     file = tmp_path / "wish.toml"
     file.write_text('venue = "yard.geojson"\nfigures = ["ring"]\ncount = 2\n[dragon]\nbenches = 10\n')
     folder = tmp_path / "proposals"
-    told = run("propose", str(file), "--output", str(folder))
-    assert told.returncode == 0, told.stderr
-    assert told.stdout.startswith("The best 2 of ")
+    result = run("propose", str(file), "--output", str(folder))
+    assert result.returncode == 0, result.stderr
+    assert result.stdout.startswith("The best 2 of ")
     names = {"1-ring.json", "1-ring.png", "2-ring.json", "2-ring.png", "overview.png"}
     assert {one.name for one in folder.iterdir()} == names
-    assert told.stderr.splitlines() == [str(folder / name) for name in sorted(names)]
+    assert result.stderr.splitlines() == [str(folder / name) for name in sorted(names)]
     assert all(one.read_bytes().startswith(PNG) for one in folder.glob("*.png"))
     checked = run("check", str(folder / "2-ring.json"))
     assert checked.stdout.startswith("Passes."), checked.stderr

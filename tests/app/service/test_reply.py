@@ -32,7 +32,7 @@ class Count(Wire):
     """A request without values."""
 
 
-class Counted(Answer):
+class CountAnswer(Answer):
     """How often this answer was computed."""
 
     computed: int
@@ -51,16 +51,16 @@ class Counting:
         return self.cost
 
     def question(self) -> Question:
-        def counting(request: Count, terms: Terms) -> Counted:
+        def counting(request: Count, terms: Terms) -> CountAnswer:
             """How often this answer was computed."""
             self.computed += 1
             try:
                 self.work(terms, self.computed)
             except Halted as halted:
                 raise TooMuchWork("", "must be less") from halted
-            return Counted(computed=self.computed)
+            return CountAnswer(computed=self.computed)
 
-        return Question(counting, Counted, flat=Count, body=Count, cost=self.estimate)
+        return Question(counting, CountAnswer, flat=Count, body=Count, cost=self.estimate)
 
 
 def quick(terms: Terms, number: int) -> None:

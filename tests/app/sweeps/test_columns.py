@@ -37,7 +37,7 @@ def test_what_an_answer_does_not_have_is_null() -> None:
 def test_what_is_shown_and_what_is_left_out_are_columns(name: str) -> None:
     question = question_of(name)
     names = {column.name: column for column in answer_columns(question.answer)}
-    assert names[question.shown].kind is float
+    assert names[question.map_column].kind is float
     assert len(names) == len(answer_columns(question.answer))
     kept = {column.name for column in answer_columns(question.answer, question.left_out)}
     for field in question.left_out:

@@ -70,7 +70,7 @@ def test_a_question_is_asked_flat_or_as_a_body(name: str, flat: dict[str, Any], 
         [row] = rows(ShardPiece.whole(spec, spec.asks, 0))
         answers.append({place: value for place, value in row.items() if place not in {*request, "pitch"}})
     assert answers[0] == answers[1]
-    assert isinstance(answers[0][spec.asks.shown], float)
+    assert isinstance(answers[0][spec.asks.map_column], float)
 
 
 def test_a_refusal_of_core_uses_the_names_of_the_spec() -> None:
@@ -117,7 +117,7 @@ def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
     spec = Spec.of({"question": name, "over": {parameter: [good, -1.0]}, "request": request, "shard_size": 2})
     answered, refused = rows(ShardPiece.whole(spec, question, 0))
     assert answered["error.code"] is None, answered
-    assert isinstance(answered[question.shown], float)
+    assert isinstance(answered[question.map_column], float)
     assert refused["error.code"] == "invalid-value"
     assert parameter.rpartition(".")[2] in refused["error.message"]
 

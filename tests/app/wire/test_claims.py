@@ -18,12 +18,12 @@ from app.wire.question import Answer, Terms
 from tests.support.every_kind import CLAIMS
 
 
-def plain(value: Any) -> Any:
+def json_like(value: Any) -> Any:
     """A value of core as JSON has it."""
     if isinstance(value, dict):
-        return {name: plain(one) for name, one in value.items()}
+        return {name: json_like(one) for name, one in value.items()}
     if isinstance(value, (tuple, list)):
-        return [plain(one) for one in value]
+        return [json_like(one) for one in value]
     return value.value if isinstance(value, Enum) else value
 
 
@@ -34,7 +34,7 @@ def on_wire(claim: Any) -> Answer:
 
 @pytest.mark.parametrize("name", CLAIMS)
 def test_every_value_of_a_claim_is_reported(name: str) -> None:
-    assert orjson.loads(on_wire(CLAIMS[name]).to_json()) == plain(asdict(CLAIMS[name]))
+    assert orjson.loads(on_wire(CLAIMS[name]).to_json()) == json_like(asdict(CLAIMS[name]))
 
 
 def test_a_claim_stands_beside_its_sentences_in_every_certificate() -> None:

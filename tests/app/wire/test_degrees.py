@@ -178,8 +178,8 @@ def test_vertices_lie_where_the_slow_formula_puts_them(
     place = place_of(geometry, "degrees", Dragon())
     assert place.venue is not None
     assert place.origin is not None
-    for area, given_ring in zip(place.venue.areas, (box, stall), strict=True):
-        for (east, north), (lon, lat) in zip(area.rings[0], given_ring, strict=True):
+    for area, outline in zip(place.venue.areas, (box, stall), strict=True):
+        for (east, north), (lon, lat) in zip(area.rings[0], outline, strict=True):
             slow = east_north(place.origin, lon, lat)
             assert (east, north) == pytest.approx(slow, abs=PLACED)
 

@@ -137,11 +137,11 @@ BODIES = [
 ]  # fmt: skip
 
 
-def named(request: Wrong) -> str:
+def label_of(request: Wrong) -> str:
     return f"{request.call} {request.name} {request.words[:30]}"
 
 
-@pytest.mark.parametrize("wanted", FLAT + FLAT_GET, ids=named)
+@pytest.mark.parametrize("wanted", FLAT + FLAT_GET, ids=label_of)
 def test_a_query_is_refused_by_its_own_name_and_value(client: httpx.Client, wanted: Wrong) -> None:
     answer = client.get(f"/{wanted.call}", params=wanted.query)
     assert answer.status_code == 422
@@ -154,7 +154,7 @@ def test_a_query_is_refused_by_its_own_name_and_value(client: httpx.Client, want
     assert wanted.name in {parameter["name"] for parameter in parameters}
 
 
-@pytest.mark.parametrize("wanted", FLAT, ids=named)
+@pytest.mark.parametrize("wanted", FLAT, ids=label_of)
 def test_an_option_is_refused_in_the_same_words(client: httpx.Client, wanted: Wrong) -> None:
     options = [f"--{name.replace('_', '-')}={value}" for name, value in wanted.query.items()]
     done = run(wanted.call, *options)
@@ -162,7 +162,7 @@ def test_an_option_is_refused_in_the_same_words(client: httpx.Client, wanted: Wr
     assert done.stderr == f"Error: {client.get(f'/{wanted.call}', params=wanted.query).json()['detail']}\n"
 
 
-@pytest.mark.parametrize("wanted", BODIES, ids=named)
+@pytest.mark.parametrize("wanted", BODIES, ids=label_of)
 def test_a_body_is_refused_by_a_place_in_it(client: httpx.Client, wanted: Wrong) -> None:
     answer = client.post(f"/{wanted.call}", json=wanted.query)
     assert answer.status_code == 422
@@ -193,7 +193,7 @@ def test_an_instant_is_refused_by_the_option_that_asked_for_it(arguments: list[s
     assert len(done.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize("wanted", [one for one in BODIES if one.call == "check"], ids=named)
+@pytest.mark.parametrize("wanted", [one for one in BODIES if one.call == "check"], ids=label_of)
 def test_a_file_of_a_dance_is_refused_as_a_body_is(client: httpx.Client, tmp_path: Path, wanted: Wrong) -> None:
     file = tmp_path / "dance.json"
     file.write_text(json.dumps(wanted.query))

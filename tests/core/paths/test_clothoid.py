@@ -166,8 +166,8 @@ def test_handles_are_those_of_the_slow_route() -> None:
     slow = SlowRoute.of(DRAGON, route)
     times = np.linspace(-5.0, route.end, 30)
     rates = np.diff(slow.handles(np.array([3.0 - 1e-5, 3.0 + 1e-5])), axis=0)[0] / 2e-5
-    found = trajectory(Dance(DRAGON, route), times)
-    assert np.abs(found.position - slow.handles(times)).max() < 1e-10
+    motion = trajectory(Dance(DRAGON, route), times)
+    assert np.abs(motion.position - slow.handles(times)).max() < 1e-10
     assert np.abs(trajectory(Dance(DRAGON, route), [3.0]).velocity[0] - rates).max() < 1e-5
 
 

@@ -99,14 +99,14 @@ def test_the_places_near_a_point_are_those_of_a_fine_scan() -> None:
         s = np.linspace(begin, end, 200_001)
         away = np.hypot(*(path.position(s) - np.array(point)).T)
         inner = 1 + np.flatnonzero((away[1:-1] < away[:-2]) & (away[1:-1] <= away[2:]) & (away[1:-1] <= 2.0))
-        found = places_near(path, point, begin, end, 2.0)
+        places = places_near(path, point, begin, end, 2.0)
         # At the middle of the arc all places of it are equally near.
         if point == (60.0, 1.6):
-            assert len(found) >= 1
-            assert all(np.hypot(*(path.position(one) - np.array(point))) <= 2.0 for one in found)
+            assert len(places) >= 1
+            assert all(np.hypot(*(path.position(one) - np.array(point))) <= 2.0 for one in places)
         else:
-            assert found == pytest.approx(s[inner].tolist(), abs=2 * (end - begin) / 200_000)
-            assert len(found) >= 2
+            assert places == pytest.approx(s[inner].tolist(), abs=2 * (end - begin) / 200_000)
+            assert len(places) >= 2
     assert places_near(THERE_AND_BACK, (20.0, 40.0), 0.0, 100.0, 2.0) == []
     assert SAMPLE < 1.6
 

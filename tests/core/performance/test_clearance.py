@@ -99,12 +99,12 @@ def test_dragons_that_overlap_at_the_start_have_a_negative_clearance_there() -> 
 def test_a_stray_takes_ground_and_is_bounded_in_closed_form() -> None:
     lanes = [Line((-40.0, 0.0), (40.0, 0.0)), Line((40.0, 2.0), (-40.0, 2.0))]
     performance = Performance([Part(Dance(Dragon(1), Route([lane]))) for lane in lanes])
-    plain, strayed = (performance_least_clearance(performance, stray=stray) for stray in (0.0, 0.05))
-    assert plain is not None
+    without, strayed = (performance_least_clearance(performance, stray=stray) for stray in (0.0, 0.05))
+    assert without is not None
     assert strayed is not None
-    assert plain.distance == pytest.approx(2.0 - 0.3, rel=0, abs=1e-12)
+    assert without.distance == pytest.approx(2.0 - 0.3, rel=0, abs=1e-12)
     # Both move 0.05 m towards each other, or turn: the corners beyond the holes swing further out.
-    assert 0.09 < plain.distance - strayed.distance < 0.13
+    assert 0.09 < without.distance - strayed.distance < 0.13
     assert strayed.at_least is not None
     assert strayed.at_least <= strayed.distance
 

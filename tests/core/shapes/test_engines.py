@@ -37,16 +37,16 @@ def test_boxes_used_again_find_what_new_ones_find_in_any_order_and_from_several_
     random = np.random.default_rng(5)
     order = random.integers(0, (len(scenes), 3), (examples(60, 400), 2)).tolist()
 
-    def found(request: list[int]) -> set[tuple[int, int]]:
+    def pairs_of(request: list[int]) -> set[tuple[int, int]]:
         scene, instant = request
         poses, size = scenes[scene]
         (pairs,) = engine_pairs(Engine.FCL, poses[instant : instant + 1], size, margin, chained=True)
         return {(a, b) for a, b in pairs.tolist()}
 
     wanted = [truth[scene][instant] for scene, instant in order]
-    assert [found(request) for request in order] == wanted
+    assert [pairs_of(request) for request in order] == wanted
     with ThreadPoolExecutor(THREADS) as pool:
-        assert list(pool.map(found, order)) == wanted
+        assert list(pool.map(pairs_of, order)) == wanted
 
 
 @pytest.mark.parametrize("engine", Engine)

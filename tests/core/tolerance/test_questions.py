@@ -66,14 +66,14 @@ def test_the_minimum_pitch_for_a_stray_has_that_tolerance() -> None:
 
 
 QUESTIONS: dict[str, Any] = {
-    "first contact": lambda **given: first_contact(DANCE, **given),
-    "within a margin": lambda **given: first_contact(DANCE, margin=0.05, **given),
-    "through the turn": lambda **given: first_contact(Dance(Dragon(30), Turn(0.9)), **given),
-    "least clearance": lambda **given: least_clearance(DANCE, stop=300.0, **given),
-    "minimum pitch": lambda **given: minimum_pitch(Dragon(), **given),
-    "shortest turn": lambda **given: deepest_turn(Dragon(3), 1.7, **given).turn.entry_radius,
-    "venue": lambda **given: venue_clearance(Dance(LAPPING, LAP), VENUE, **given),
-    "check": lambda **given: check(DANCE, **given),
+    "first contact": lambda **options: first_contact(DANCE, **options),
+    "within a margin": lambda **options: first_contact(DANCE, margin=0.05, **options),
+    "through the turn": lambda **options: first_contact(Dance(Dragon(30), Turn(0.9)), **options),
+    "least clearance": lambda **options: least_clearance(DANCE, stop=300.0, **options),
+    "minimum pitch": lambda **options: minimum_pitch(Dragon(), **options),
+    "shortest turn": lambda **options: deepest_turn(Dragon(3), 1.7, **options).turn.entry_radius,
+    "venue": lambda **options: venue_clearance(Dance(LAPPING, LAP), VENUE, **options),
+    "check": lambda **options: check(DANCE, **options),
 }
 
 

@@ -23,7 +23,7 @@ DANCE = Dance(Dragon(5), Spiral())
         ({"hole": 0.05, "pin": 0.06}, "model.pin must be no wider than its model.hole (0.05 m), got 0.06 m"),
         ({"pitch_error": float("nan")}, "model.pitch_error must be a finite number, got nan m"),
     ],
-    ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
+    ids=lambda fields: next(iter(fields)) if isinstance(fields, dict) else "",
 )
 def test_a_model_that_cannot_be_is_refused(fields: dict[str, Any], message: str) -> None:
     with pytest.raises(InvalidValue) as refused:
