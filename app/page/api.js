@@ -87,7 +87,10 @@ export class Service {
   /** End the requests to a service that does not answer any more. */
   #hanging = new AbortController();
 
-  /** tell: {lost(seconds until the next try, 0 during one), back(), busy(channel, whether it is busy)} */
+  /**
+   * tell: {lost(seconds until the next try, 0 during one), back(), busy(channel, whether it is busy), refused(): Promise, after
+   * which a refusal can be put into words}
+   */
   constructor(tell) {
     this.tell = tell;
     this.#beat();
@@ -156,7 +159,11 @@ export class Service {
       signal.throwIfAborted();
       if (!response || response.ok) await this.#untilBack();
       else if (BUSY.includes(response.status) && pauseOf(response) <= MOMENT) await wait(1000 * pauseOf(response));
-      else throw new Problem(response.status, await response.json().catch(() => null));
+      else {
+        const body = await response.json().catch(() => null);
+        await this.tell.refused();
+        throw new Problem(response.status, body);
+      }
       signal.throwIfAborted();
     }
   }

@@ -1,8 +1,7 @@
 /** The editor of a table of benches: it is typed, pasted, dropped or opened. */
 
 import { tableOf, tableText } from "./benches.js";
-import { $, make, textButton } from "./elements.js";
-import { bearer } from "./jobs.js";
+import { $, bearer, make, textButton } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { Pause } from "./pending.js";
 import { language, nameBenches, refusalWords, say } from "./text.js";

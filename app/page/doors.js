@@ -4,7 +4,6 @@ import { EMPTY } from "./drawing.js";
 import { $, $$, onClick } from "./elements.js";
 import { setExact } from "./numbers.js";
 import { announce } from "./overlays.js";
-import { PRESETS } from "./presets.js";
 import { say } from "./text.js";
 
 /** The kinds of path behind a door, of which the first one opens; behind `all` is the whole page, as behind an old address. */
@@ -13,13 +12,16 @@ const PATHS = { contest: ["spiral", "turn"], village: ["route"], look: ["spiral"
 /** Longest name of an unknown door in a message [characters]. */
 const LONGEST = 40;
 
-/** A first dance for a village, with its things named in the language of the page. */
-const village = () => ({ ...PRESETS.village, things: PRESETS.village.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) })) });
-
 export class Doors {
-  /** @param {State} state */
-  constructor(state) {
+  #pressed = "";
+
+  /**
+   * @param {State} state
+   * @param {Parts} parts
+   */
+  constructor(state, parts) {
     this.state = state;
+    this.parts = parts;
     for (const button of $$("[data-door]")) button.addEventListener("click", () => this.#enter(button.dataset.door));
     onClick("#more", () => this.#offerMore(!$("main").classList.contains("more")));
   }
@@ -28,11 +30,14 @@ export class Doors {
     return this.state.get("door") ?? "all";
   }
 
-  #enter(door) {
+  async #enter(door) {
+    this.#pressed = door;
     const [path] = PATHS[door] ?? [];
     const stays = !path || PATHS[door].includes(this.state.get("path"));
     const begins = door === "village" && this.state.get("drawing") === EMPTY;
-    this.state.choosePath(stays ? this.state.get("path") : path, { door, ...(begins && { drawing: village() }) });
+    const drawing = begins && (await this.parts.load("drawn")).village();
+    if (this.#pressed !== door) return; // Another door was pressed meanwhile.
+    this.state.choosePath(stays ? this.state.get("path") : path, { door, ...(begins && { drawing }) });
   }
 
   /** Show or hide what stands behind "more". */

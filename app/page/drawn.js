@@ -9,7 +9,16 @@ import { Judgement } from "./judgement.js";
 import { PRESETS } from "./presets.js";
 import { Propose } from "./propose.js";
 import { RouteForm } from "./route.js";
+import { say } from "./text.js";
 import { layers } from "./venue.js";
+import { learn } from "./words.js";
+import { ROUTE } from "./words/route.js";
+import { SQUARE } from "./words/square.js";
+
+learn({ ...ROUTE, ...SQUARE });
+
+/** A first dance for a village, with its things named in the language of the page. */
+export const village = () => ({ ...PRESETS.village, things: PRESETS.village.things.map((thing) => ({ ...thing, name: say(`placed_${thing.name}`) })) });
 
 /** Boxes about spirals, which are empty here. */
 const SPIRAL_ALONE = ["#minimum-pitch", "#curve", "#scan"];

@@ -62,6 +62,12 @@ export function onSlide(slider, act) {
   slider.addEventListener("input", () => touch || act());
 }
 
+/** The typed token, for calls that may need it. */
+export function bearer() {
+  const token = $("#token").value.trim();
+  return token ? { Authorization: `Bearer ${token}` } : {};
+}
+
 /** An element with these properties and children; names with a dash become attributes. */
 export function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);

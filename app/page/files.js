@@ -3,8 +3,7 @@
 import { tableOfFile } from "./bench_table.js";
 import { tableOf } from "./benches.js";
 import { drawingOf } from "./drawing.js";
-import { $, download, make, textButton } from "./elements.js";
-import { bearer } from "./jobs.js";
+import { $, bearer, download, make, textButton } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { passagesText } from "./passages.js";
 import { language, say } from "./text.js";

@@ -2,6 +2,7 @@
 
 type Editor = import("./edit.js").Editor;
 type Jobs = import("./jobs.js").Jobs;
+type Parts = import("./parts.js").Parts;
 type Questions = import("./questions.js").Questions;
 type Service = import("./api.js").Service;
 type State = import("./state.js").State;

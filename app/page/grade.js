@@ -1,8 +1,7 @@
 /** The grader: dropped or chosen workbooks, and typed answers, each with the service's verdict. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, make, onClick } from "./elements.js";
-import { bearer } from "./jobs.js";
+import { $, bearer, make, onClick } from "./elements.js";
 import { refusalWords, say } from "./text.js";
 
 const ANSWERS = ["collision_time", "pitch", "turn_length", "speed"];

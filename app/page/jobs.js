@@ -1,7 +1,7 @@
 /** The jobs that this browser has started, or with a token all jobs of the service: progress, result and removal. */
 
 import { Problem, Superseded } from "./api.js";
-import { $, button, download, make } from "./elements.js";
+import { $, bearer, button, download, make } from "./elements.js";
 import { announce, announceRefusal } from "./overlays.js";
 import { refusalWords, say } from "./text.js";
 
@@ -28,12 +28,6 @@ function remembered() {
   } catch {
     return [];
   }
-}
-
-/** The typed token, for calls that may need it. */
-export function bearer() {
-  const token = $("#token").value.trim();
-  return token ? { Authorization: `Bearer ${token}` } : {};
 }
 
 export class Jobs {

@@ -1,9 +1,9 @@
 /** Everything to save: the link, files of every kind, a film, and the commands that give the same. */
 
 import { Problem, TOO_LONG } from "./api.js";
-import { $, button, download, make, onClick } from "./elements.js";
+import { $, bearer, button, download, make, onClick } from "./elements.js";
 import { CONTACT, DRAGON, FIELDS, TURN, numbersOf, strayOf } from "./fields.js";
-import { UNFINISHED, bearer } from "./jobs.js";
+import { UNFINISHED } from "./jobs.js";
 import { announce, announceRefusal, copy } from "./overlays.js";
 import { isPlain } from "./questions.js";
 import { language, refusalWords, say } from "./text.js";

@@ -5,26 +5,23 @@ import { Problem, Service } from "./api.js";
 import { BenchTable } from "./bench_table.js";
 import { Controls, limitsIn } from "./controls.js";
 import { Dance, spanOf, speedRange } from "./dance.js";
-import { Designs } from "./designs.js";
 import { Doors } from "./doors.js";
-import { Drawn } from "./drawn.js";
 import { $, $$, onClick } from "./elements.js";
 import { CONTACT, FIELDS, strayOf } from "./fields.js";
 import { Graphs } from "./graphs.js";
-import { Grader } from "./grade.js";
-import { Keep } from "./keep.js";
 import { addLook } from "./look.js";
 import { announce, announceAgain, lost, markContact, placeInset, showPrinted } from "./overlays.js";
 import { formatNumber } from "./numbers.js";
 import { Pace } from "./pace.js";
 import { passagesText, quickened, timeOfDay } from "./passages.js";
+import { OF_FILES, Parts, whenReached } from "./parts.js";
 import { pending } from "./pending.js";
 import { Player } from "./player.js";
 import { Questions } from "./questions.js";
 import { Sharing } from "./sharing.js";
 import { EXTRAS, State } from "./state.js";
 import { Table } from "./table.js";
-import { handleName, say, setLanguage } from "./text.js";
+import { handleName, language, learnRefusals, say, setLanguage, writeTexts } from "./text.js";
 import { showRefusals } from "./refusal_boxes.js";
 
 const NUMBERS = [...FIELDS.map((field) => field.name), ...EXTRAS, "path", "drawing"];
@@ -60,7 +57,9 @@ const service = new Service({
     $("#lost").hidden = true;
     announce(() => say("back"));
   },
+  refused: async () => learnRefusals(await parts.load("refusals")),
 });
+const parts = new Parts(service);
 const questions = new Questions(service, state, (kind, detail) => (SHOW[kind] ?? TELL[kind])(detail));
 const dance = new Dance($("#canvas"), $("#inset canvas"), {
   moved(panned) {
@@ -76,14 +75,15 @@ const benches = new BenchTable($("[data-group=dragon]"), state, service);
 const pace = new Pace($("[data-field=head_speed]"), state);
 const table = new Table($("#rows"), { choose, chosen: (handle) => state.set({ handle }) });
 const graphs = new Graphs(state, questions, (time) => player.seek(time));
-const route = new Drawn({ state, service, questions, dance, draw });
-const { jobs, map } = new Designs(state, service, NUMBERS);
-const keep = new Keep({ service, questions, jobs, canvas: $("#canvas") });
-const grader = new Grader(service);
-const doors = new Doors(state);
-new Sharing(state);
+const doors = new Doors(state, parts);
+new Sharing(state, parts);
 addLook();
+/** What belongs to a drawn dance, and what stands below the dance; null until they have loaded. @type {any} */
+let [route, below] = [null, null];
+/** Language of the first view. */
+let begun = "";
 let limits = {};
+let paths = null;
 const DRAWING = Symbol("drawing");
 let drawing = false;
 let opened = false;
@@ -127,7 +127,7 @@ function showPose(pose) {
   largest.textContent = answers.foldOf(questions.dance.answer) === null ? `${speed} m/s` : say("legendFold", { speed });
   showHandle();
   if (pose.dance) showTable(pose);
-  route.posed(pose);
+  route?.posed(pose);
   showTime();
   draw();
 }
@@ -176,8 +176,8 @@ const SHOW = {
     pace.begun(questions.dance);
     answers.showEnd($("#run-end"), answer, end, numbers);
     graphs.pitch();
-    keep.show();
-    route.judged();
+    below?.show();
+    route?.judged();
     player.update();
     if (state.opensInMotion && !opened) player.open();
     opened = true;
@@ -256,9 +256,9 @@ const TELL = {
   track: () => player.update(false),
   gap: () => dance.scene.pose && showPose(dance.scene.pose),
   path(points) {
-    dance.setPath(points, route.around());
-    route.judged();
-    route.refused();
+    dance.setPath(points, route?.around());
+    route?.judged();
+    route?.refused();
     draw();
   },
   refused() {
@@ -270,7 +270,7 @@ const TELL = {
     // Without a dance there are no further questions.
     if (refusals.has("contact") && !questions.dance) for (const box of $$("[aria-busy=true]")) box.setAttribute("aria-busy", false);
     showRefusals(questions, graphs, (kind) => BUSY[kind][0]);
-    route.refused();
+    route?.refused();
   },
 };
 
@@ -291,10 +291,10 @@ const SHOW_STATE = {
     press("path", path);
     for (const box of ["#shortest-turn", "#quickest-turn", "#turn-time", "#head-speed"]) $(box).hidden = path !== "turn";
     dance.scene.circle = path === "route" ? null : Number(state.get("turning_diameter")) / 2;
-    route.show();
+    showRoute();
     if (questions.answers.minimum) SHOW.minimum();
   },
-  drawing: () => route.show(),
+  drawing: showRoute,
   start_clock: showTime,
   time() {
     showTime();
@@ -315,30 +315,58 @@ function press(name, value) {
 }
 
 function translate() {
-  const language = setLanguage(state.get("lang"));
-  press("lang", language);
-  for (const link of $$("[data-how]")) link.href = `how?lang=${language}`;
-  grader.translate(language);
+  const chosen = setLanguage(state.get("lang"));
+  press("lang", chosen);
+  for (const link of $$("[data-how]")) link.href = `how?lang=${chosen}`;
+  // Of a part that is not there, the texts stay in the first language until it is.
+  if (chosen !== (begun ||= chosen)) for (const open of [openRoute, openBelow]) open();
   graphs.help();
   controls.translate(limits);
   benches.show();
   pace.show();
-  for (const part of [player, keep]) part.translate();
-  jobs.render();
-  map.draw();
+  player.translate();
+  below?.translate(chosen);
   for (const [kind, show] of Object.entries(SHOW)) if (kind === "dance" ? questions.dance : questions.answers[kind]) show();
   if (dance.scene.pose) showPose(dance.scene.pose);
   TELL.refused();
-  route.translate();
+  route?.translate();
   announceAgain();
+}
+
+/** What belongs to a drawn dance. */
+async function openRoute() {
+  const { Drawn } = await parts.load("drawn");
+  if (route) return route;
+  route = new Drawn({ state, service, questions, dance, draw });
+  writeTexts();
+  route.translate();
+  const { course } = questions;
+  if (state.get("path") === "route" && course) TELL.path(course);
+  return route;
+}
+
+function showRoute() {
+  if (state.get("path") === "route") openRoute();
+  route?.show();
+}
+
+async function openBelow() {
+  const { Below } = await parts.load("below");
+  if (below) return;
+  below = new Below({ state, service, questions, names: NUMBERS, canvas: $("#canvas") });
+  writeTexts();
+  if (paths) below.learn(paths, limits);
+  below.translate(language());
 }
 
 function listen() {
   state.listen(showState);
   onClick("#lost button", () => service.retry());
   for (const button of $$("[data-lang]")) button.addEventListener("click", () => state.set({ lang: button.dataset.lang }));
-  for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? route.choose() : state.choosePath(button.dataset.path)));
+  for (const button of $$("[data-path]")) button.addEventListener("click", () => (button.dataset.path === "route" ? openRoute().then((one) => one.choose()) : state.choosePath(button.dataset.path)));
   for (const button of $$("[data-section]")) button.addEventListener("click", () => $(`#${button.dataset.section}`).scrollIntoView());
+  whenReached(["#keep", "#sweeps", "#grade"], openBelow);
+  whenReached(["#stage"], openRoute, OF_FILES);
   addEventListener("look", restyle);
   matchMedia("print").addEventListener("change", restyle);
   new ResizeObserver(draw).observe($("#stage"));
@@ -359,8 +387,7 @@ function listen() {
 function restyle() {
   dance.restyle();
   graphs.restyle();
-  map.draw();
-  grader.show();
+  below?.restyle();
   const { kind, answer, end = 0, extras } = questions.dance ?? {};
   const last = answer?.end?.time ?? end;
   showPrinted(kind === "route" ? `${last.toFixed(2)} s${extras.clock && ` (${timeOfDay(last, extras.clock)})`}` : "");
@@ -370,11 +397,10 @@ function restyle() {
 
 /** Limits and units of the numbers, and formats that this service can write. */
 async function readDocument() {
-  const { paths } = await service.ask("openapi", "openapi.json");
+  ({ paths } = await service.ask("openapi", "openapi.json"));
   limits = limitsIn(paths);
-  map.learn(Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say(unit) : unit])));
   controls.translate(limits);
-  keep.offer(paths);
+  below?.learn(paths, limits);
 }
 
 listen();

@@ -3,7 +3,6 @@
 import { $$ } from "./elements.js";
 import { strayOf } from "./fields.js";
 import { claimInChinese } from "./proofs.js";
-import { refusalIn } from "./refusals.js";
 import { WORDS } from "./words.js";
 
 let column = 0;
@@ -16,12 +15,18 @@ export function setLanguage(choice) {
   column = language === "zh" ? 1 : 0;
   document.documentElement.lang = language === "zh" ? "zh-Hans" : "en";
   document.title = say("title");
-  for (const element of $$("[data-text]")) element.textContent = say(element.dataset.text);
-  for (const element of $$("[data-label]")) {
+  writeTexts();
+  return language;
+}
+
+/** Write the text or the label of every element that has a key; those of a part that has not loaded stay as the service wrote them. */
+export function writeTexts() {
+  const known = (name) => $$(`[data-${name}]`).filter(({ dataset }) => dataset[name] in WORDS);
+  for (const element of known("text")) element.textContent = say(element.dataset.text);
+  for (const element of known("label")) {
     element.setAttribute("aria-label", say(element.dataset.label));
     if (element.tagName === "BUTTON") element.title = say(element.dataset.label);
   }
-  return language;
 }
 
 /** The language of the page for the service: en or zh. */
@@ -58,8 +63,15 @@ export function columnName(name) {
   return words.join(" · ");
 }
 
+/** The function of refusals.js; null until it has loaded. */
+let refusalIn = null;
+export const learnRefusals = (module) => (refusalIn = module.refusalIn);
+
 /** A refusal of the service in the language of the page: the properties of an element. problem: a problem or one of its errors */
-export const refusalWords = (problem) => refusalIn(problem.errors?.[0] ?? problem, column === 1, say);
+export function refusalWords(problem) {
+  const one = problem.errors?.[0] ?? problem;
+  return refusalIn ? refusalIn(one, column === 1, say) : { textContent: one.detail, lang: "en" };
+}
 
 /** The proof of an answer in the language of the page: the service's own sentences, or its claim in Chinese. */
 export const proofWords = ({ method, claim }) => (column ? claimInChinese(claim) : method);

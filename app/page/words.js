@@ -1,11 +1,10 @@
-/** Every word of the page in English and in Simplified Chinese, with the terms of the contest. */
+/** Every word of the page in English and in Simplified Chinese, with the terms of the contest; later parts bring their own. */
 
 import { ANSWERS } from "./words/answers.js";
-import { COLUMNS } from "./words/columns.js";
 import { DANCE } from "./words/dance.js";
 import { MORE } from "./words/more.js";
-import { SQUARE } from "./words/square.js";
 
-const columns = Object.fromEntries(Object.entries(COLUMNS).map(([name, words]) => [`column_${name}`, words]));
+export const WORDS = { ...DANCE, ...ANSWERS, ...MORE };
 
-export const WORDS = { ...DANCE, ...ANSWERS, ...MORE, ...SQUARE, ...columns };
+/** Take the words of a part that has loaded. */
+export const learn = (words) => Object.assign(WORDS, words);

@@ -50,7 +50,7 @@ GO = """(query) => {
   for (const one of document.querySelectorAll("details")) one.open = one.id === "things";
   const choice = document.querySelector("#curl-of");
   choice.selectedIndex = 0;
-  choice.dispatchEvent(new Event("change"));
+  if (choice.options.length) choice.dispatchEvent(new Event("change"));
   document.activeElement.blur();
   scrollTo(0, 0);
   document.querySelector("#rows").scrollTop = 0;

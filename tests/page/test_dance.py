@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.pending import reached, settled
+from tests.support.pending import reached, settled, with_below
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 # Between two samples the picture may be off by this much [m]; a bench is 0.3 m wide.
@@ -305,13 +305,13 @@ def test_two_thousand_benches_are_drawn_and_listed(visit: Any, server: str) -> N
 
 
 def test_a_shared_link_opens_the_same_state(visit: Any, open_page: Any, picture: Any, alike: Any) -> None:
-    page = visit("?pitch=0.5&benches=40&margin=0.01&time=120.5&rate=5&handle=7&lang=zh&view=1,2,35")
+    page = with_below(visit("?pitch=0.5&benches=40&margin=0.01&time=120.5&rate=5&handle=7&lang=zh&view=1,2,35"))
     page.locator("#width").fill("0.25")
     page.locator("#share").click()
     page.wait_for_url(re.compile("width=0.25"))
     settled(page)
     other = open_page(page.url.split("/")[-1])
-    settled(other)
+    settled(with_below(other))
     for place in ("#first-contact", "#clock", "#table-time", "tr.chosen", "#minimum-pitch", "#curl"):
         assert other.locator(place).inner_text() == page.locator(place).inner_text()
     assert other.url.split("?")[1] == page.url.split("?")[1]
@@ -338,7 +338,7 @@ def test_the_files_hold_what_the_service_answers(open_page: Any, server: str) ->
 
 
 def test_the_commands_give_what_the_page_shows(visit: Any, server: str) -> None:
-    page = visit("?benches=40&pitch=0.5")
+    page = with_below(visit("?benches=40&pitch=0.5"))
     text_of(page, "#curl", "pitch=0.5")
     get, post = (shlex.split(line) for line in page.locator("#curl").inner_text().splitlines())
     assert polite.get(get[1]).json() == collision_time(server, benches=40, pitch=0.5)
@@ -387,7 +387,7 @@ def test_a_link_to_the_turn_opens_at_the_pitch_of_the_contest(visit: Any) -> Non
     assert page.locator("#pitch").input_value() == "1.7"
     page.wait_for_url(re.compile("path=turn$"))
     # The figure of a dance without a contact is of the part that is shown.
-    settled(page)
+    settled(with_below(page))
     page.locator("#curl-of").select_option("keepContact")
     request = json.loads(shlex.split(page.locator("#curl").inner_text())[5])
     assert (request["start"], request["stop"]) == (-100, 100)

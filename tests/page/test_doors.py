@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.support.axe import serious
-from tests.support.pending import settled
+from tests.support.pending import settled, with_below
 from tests.support.qr_reader import read_qr
 
 EASY = "?benches=5&time=end"
@@ -152,7 +152,7 @@ def test_in_the_village_the_verdict_comes_first_with_the_times_of_day(visit: Any
 
 def test_a_village_keeps_film_plan_cues_and_map_and_sees_there_how_far_they_are(open_page: Any) -> None:
     page = open_page(f"?door=village{ROUTE}")
-    settled(page)
+    settled(with_below(page))
     rows = page.locator("#kept li:visible > span:first-child")
     names = ("The picture as it is", "Film of the dance", "Plan on paper, true to scale", "A cue card for each bench")
     expect(rows).to_have_text([*names, "Map with chalk marks"])
@@ -171,7 +171,7 @@ def test_a_village_keeps_film_plan_cues_and_map_and_sees_there_how_far_they_are(
 
 def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_page: Any) -> None:
     page = open_page("?door=contest&benches=5&turning_diameter=8.5&margin=0.01&stray=0.02&time=end")
-    settled(page)
+    settled(with_below(page))
     button, jobs = page.locator("#kept li:visible button").first, page.locator("#jobs li", has_text="contest kit")
     expect(button).to_have_text("The whole contest kit")
 
@@ -198,7 +198,7 @@ def test_the_contest_kit_is_one_button_with_its_progress_and_then_a_zip(open_pag
 
 
 def test_the_kit_is_for_equal_benches_and_behind_no_village(visit: Any) -> None:
-    page = visit(f"?door=village{ROUTE}")
+    page = with_below(visit(f"?door=village{ROUTE}"))
     expect(page.locator("#keepKit-ZIP")).to_be_hidden()
     page = visit(f"?door=contest&time=0&csv={'%0A'.join(['2.2,0.3,0.2'] * 5)}")
     settled(page)
@@ -212,7 +212,7 @@ def test_the_kit_is_for_equal_benches_and_behind_no_village(visit: Any) -> None:
 @pytest.mark.chinese_font
 def test_figures_have_the_language_of_the_page(visit: Any) -> None:
     for language in ("zh", "en"):
-        page = visit(f"{EASY}&lang={language}")
+        page = with_below(visit(f"{EASY}&lang={language}"))
         for button in ("keepContact-SVG", "keepInstant-SVG", "keepStairs-SVG"):
             with page.expect_download() as download:
                 page.locator(f"#{button}").click()
@@ -222,7 +222,7 @@ def test_figures_have_the_language_of_the_page(visit: Any) -> None:
 
 def test_a_film_shows_its_progress_on_its_button_and_opens_below(open_page: Any) -> None:
     page = open_page(f"?door=village{ROUTE}")
-    settled(page)
+    settled(with_below(page))
     page.route(
         "**/films", lambda route: route.continue_(post_data=json.dumps({**route.request.post_data_json, "height": 90}))
     )

@@ -47,12 +47,14 @@ def test_no_text_is_missing_in_either_language(visit: Any) -> None:
     page = visit()
     for language in ("English", "中文"):
         page.get_by_role("button", name=language).click()
+        settled(page)
         empty = "[...document.querySelectorAll('[data-text]')].filter((one) => !one.textContent).length"
         assert page.evaluate(empty) == 0
         assert "undefined" not in page.locator("body").inner_text()
     keys = page.evaluate(
         """async () => {
-          const rooms = await Promise.all(["dance", "answers", "more"].map((one) => import(`/page/words/${one}.js`)));
+          const names = ["dance", "answers", "more", "route", "square", "below"];
+          const rooms = await Promise.all(names.map((one) => import(`/page/words/${one}.js`)));
           return rooms.flatMap(Object.values).flatMap(Object.keys);
         }"""
     )

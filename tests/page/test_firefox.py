@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests.support.firefox import Firefox, running_firefox
+from tests.support.pending import REACH
 
 pytestmark = pytest.mark.firefox
 QUIET = "document.documentElement.dataset.pending === ''"
@@ -77,6 +78,8 @@ def test_a_path_is_drawn_by_taps_and_a_point_is_dragged(firefox: Firefox, server
 def test_a_figure_and_a_table_are_saved(firefox: Firefox, server: str) -> None:
     firefox.open(f"{server}/?benches=5&time=end&lang=en")
     firefox.wait(QUIET)
+    firefox.evaluate(REACH)
+    firefox.wait(QUIET)
     firefox.click("#keepTrajectory-CSV")
     assert firefox.saved("trajectory.csv").startswith(b"time,handle,x,y,speed")
     firefox.click("#keepInstant-SVG")
@@ -85,6 +88,8 @@ def test_a_figure_and_a_table_are_saved(firefox: Firefox, server: str) -> None:
 
 def test_a_film_is_a_job_that_shows_its_progress_and_opens(firefox: Firefox, server: str) -> None:
     firefox.open(f"{server}/?door=village&{ROUTE}&lang=en")
+    firefox.wait(QUIET)
+    firefox.evaluate(REACH)
     firefox.wait(QUIET)
     firefox.evaluate(SMALL)
     firefox.click("#keepFilm-GIF")

@@ -193,7 +193,8 @@ def test_every_refusal_is_a_sentence_in_both_languages(visit: Any, server: str) 
     result = refusals(server)
     assert len(result) > 100
     script = """async (refusals) => {
-      const { refusalWords, setLanguage } = await import("/page/text.js");
+      const { learnRefusals, refusalWords, setLanguage } = await import("/page/text.js");
+      learnRefusals(await import("/page/refusals.js"));
       return ["zh", "en"].map((one) => setLanguage(one) && refusals.map((told) => refusalWords(told).textContent));
     }"""
     chinese, english = page.evaluate(script, result)

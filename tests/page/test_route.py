@@ -492,8 +492,8 @@ def test_a_drawn_dance_is_played_listed_and_kept_as_a_spiral_is(visit: Any, serv
     verdict(page, "Can be danced")
     page.locator("#rows tr.chosen", has_text="2 · body 2").wait_for()
     page.locator("#table-time", has_text="60").wait_for()
-    assert re.search(r"'\S+/check'.*\"kind\":\"waypoints\"", page.locator("#curl").inner_text())
     reached(page.locator("#keep"))
+    assert re.search(r"'\S+/check'.*\"kind\":\"waypoints\"", page.locator("#curl").inner_text())
     with page.expect_download() as download:
         page.locator("[data-keep=keepTrajectory][data-form=CSV]").click()
     assert Path(download.value.path()).read_text().startswith("time,handle,x,y,speed")

@@ -9,11 +9,11 @@ from urllib.parse import urlencode
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.pending import settled
+from tests.support.pending import settled, with_below
 from tests.support.serving import free_port, serving
 
 PATIENT = 50.0  # longest computation of one answer [s], also on a busy machine
-OWN_MAX, ALL_MAX = 200_000, 1_600_000  # [bytes] over the wire
+OWN_MAX, ALL_MAX = 125_000, 1_600_000  # [bytes] over the wire
 FIRST_MAX = 2_000  # [ms] from the request for the page to first contact shown
 IN_CM = ("stray", "hole", "pin")  # shown to people in centimetres; the service takes metres
 HALF_A_CHORD = "half of the shortest distance between two handles"
@@ -58,7 +58,7 @@ def test_a_lost_service_is_reported_the_page_recovers_by_itself_and_a_file_that_
     page.locator("#lost", has_text="does not answer").wait_for()
     with serving(tmp_path / "hurried.log", port=port, deadline_seconds=1e-9) as hurried:
         page.locator("#lost").wait_for(state="hidden")
-        settled(page)  # The service refuses a file while it is busy with what the page asks.
+        settled(with_below(page))  # The service refuses a file while it is busy with what the page asks.
         page.get_by_role("button", name="Ground that benches sweep, JSON").click()
         expect(page.locator("#jobs li")).to_have_attribute("data-state", "successful")
         result = page.locator("#jobs a[download]").get_attribute("href")

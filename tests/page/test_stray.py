@@ -10,7 +10,7 @@ import numpy as np
 from playwright.sync_api import expect
 
 from tests.support import polite
-from tests.support.pending import settled
+from tests.support.pending import settled, with_below
 
 SURE = ("Contact at", "Nothing touches", "touch at", "meet at", "时碰撞", "无碰撞")
 CHORD, OVERHANG, WIDTH, STRAY = 1.65, 0.275, 0.3, 0.05
@@ -65,7 +65,7 @@ def test_with_a_stray_the_answers_say_what_may_happen_in_both_languages(visit: A
     shows(page, "#minimum-pitch", pitch, "任何两节板凳都不可能相碰")
     shows(page, "#tolerance", f"每人随时都可离位 {safe}", "已证明的步")
     assert not [word for word in SURE if word in page.locator("#first-contact").inner_text()]
-    get = shlex.split(page.locator("#curl").inner_text().splitlines()[0])
+    get = shlex.split(with_below(page).locator("#curl").inner_text().splitlines()[0])
     assert polite.get(get[1]).json() == contact
 
 

@@ -15,7 +15,7 @@ from app.sweeps.questions import question_of
 from tests.support import polite
 from tests.support.axe import serious
 from tests.support.job_service import SHORT, JobService, wait_for
-from tests.support.pending import reached, settled
+from tests.support.pending import reached, settled, with_below
 
 PHONE = {"width": 390, "height": 844}
 WIDE = {"width": 1440, "height": 900}
@@ -36,7 +36,7 @@ def base(service: JobService) -> str:
 
 def ask(page: Any, question: str, *axes: tuple[str, float, float, int]) -> None:
     """Fill the form and start the sweep."""
-    page.select_option("#sweep-question", question)
+    with_below(page).select_option("#sweep-question", question)
     for k in range(2):
         page.select_option(f"#sweep-name-{k}", axes[k][0] if k < len(axes) else "")
     for k, (_, *numbers) in enumerate(axes):
@@ -97,6 +97,7 @@ def test_every_value_of_a_map_has_its_name_in_chinese(visit: Any) -> None:
     assert len(left) > 50
     script = """async (names) => {
       const { columnName, setLanguage } = await import("/page/text.js");
+      await import("/page/below.js");
       setLanguage("zh");
       const words = names.map(columnName);
       setLanguage("en");
@@ -108,7 +109,7 @@ def test_every_value_of_a_map_has_its_name_in_chinese(visit: Any) -> None:
 
 
 def test_a_switch_of_the_question_keeps_the_axes_that_it_can(visit: Any) -> None:
-    page = visit("?benches=5&time=end")
+    page = with_below(visit("?benches=5&time=end"))
     page.select_option("#sweep-name-0", "pitch")
     page.select_option("#sweep-name-1", "width")
     page.locator("#sweep-sweepFrom-0").fill("0.51")
@@ -155,6 +156,7 @@ def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page
     expect(running.locator("progress")).to_be_visible()
     expect(running).to_contain_text("of 90 designs")
     page.reload()
+    with_below(page)
     expect(running).to_contain_text("Shortest turn over Pitch")
     address = running.locator("button").get_attribute("id").replace("jobCancel-", "/jobs/")
     assert service.status(address)["total"] == 90
@@ -166,7 +168,7 @@ def test_the_list_outlives_the_page_and_jobs_are_cancelled_and_removed(open_page
     assert service.client.get(address).status_code == 404
     wait_for(lambda: not list((service.folder / "sweeps").iterdir()))
     page.reload()
-    expect(page.locator("#no-jobs")).to_be_visible()
+    expect(with_below(page).locator("#no-jobs")).to_be_visible()
 
 
 def refuses_in_words(page: Any) -> None:

@@ -5,7 +5,8 @@ import { $, $$, onClick } from "../elements.js";
 import { addLook } from "../look.js";
 import { lost } from "../overlays.js";
 import { Pause } from "../pending.js";
-import { say, setLanguage } from "../text.js";
+import { refusalIn } from "../refusals.js";
+import { learnRefusals, say, setLanguage } from "../text.js";
 import { Figure } from "./figure.js";
 import { PLANS } from "./plans.js";
 import { WORDS } from "./words.js";
@@ -26,7 +27,9 @@ const service = new Service({
     $("#lost").hidden = true;
     for (const figure of figures) figure.lost("");
   },
+  refused: async () => {},
 });
+learnRefusals({ refusalIn });
 const figures = Object.entries(PLANS).map(([id, plan]) => new Figure($(`#${id}`), plan, service, word, keep));
 
 /** Each number to drag with its name in the address, such as chord_turns. */

@@ -1,0 +1,49 @@
+/** What stands below the dance: what can be kept, many designs with their jobs, and grading. It loads when a person is near. */
+
+import { Designs } from "./designs.js";
+import { Grader } from "./grade.js";
+import { Keep } from "./keep.js";
+import { say } from "./text.js";
+import { learn } from "./words.js";
+import { BELOW } from "./words/below.js";
+import { COLUMNS } from "./words/columns.js";
+
+learn(BELOW);
+learn(Object.fromEntries(Object.entries(COLUMNS).map(([name, words]) => [`column_${name}`, words])));
+
+export class Below {
+  /**
+   * names: of the state's numbers
+   * @param {{ state: State, service: Service, questions: Questions, names: string[], canvas: any }} parts
+   */
+  constructor({ state, service, questions, names, canvas }) {
+    const { jobs, map } = new Designs(state, service, names);
+    this.jobs = jobs;
+    this.map = map;
+    this.keep = new Keep({ service, questions, jobs, canvas });
+    this.grader = new Grader(service);
+  }
+
+  /** Show what belongs to the dance. */
+  show() {
+    this.keep.show();
+  }
+
+  /** paths: of the OpenAPI document; limits: name -> [low, high, unit] */
+  learn(paths, limits) {
+    this.map.learn(Object.fromEntries(Object.entries(limits).map(([name, [, , unit]]) => [name, unit === "turns" ? say(unit) : unit])));
+    this.keep.offer(paths);
+  }
+
+  translate(language) {
+    this.grader.translate(language);
+    this.keep.translate();
+    this.jobs.render();
+    this.map.draw();
+  }
+
+  restyle() {
+    this.map.draw();
+    this.grader.show();
+  }
+}
