@@ -92,6 +92,7 @@ def test_a_turn_stays_clear_and_has_its_own_tolerance(open_page: Any, server: st
     body = {"dragon": {"benches": 20}, "path": {"kind": "turn", "pitch": 1.7}, "start": -100, "stop": 100}
     free = polite.post(f"{server}/tolerance", json=body).raise_for_status().json()["stray"]
     shows(page, "#tolerance", f"{int(10_000 * free) / 100:.2f} cm", "In this part of the dance everybody may be")
+    with_below(page)
     with page.expect_download() as download:
         page.get_by_role("button", name="Figure of the first contact, SVG").click()
     assert download.value.suggested_filename == "first-contact.svg"
