@@ -11,7 +11,7 @@ from urllib.parse import urlencode
 import httpx2
 from mcp import types
 
-from app.assistant.tools import Call, path_of
+from app.assistant.tools import ToolCall, path_of
 from app.wire.problem import PROBLEM_TYPE, Problem, problem_of
 from app.wire.question import BYTES, JSON, short_json
 
@@ -25,7 +25,7 @@ ACCEPT = f"{JSON}, image/png;q=0.9, */*;q=0.8"
 HANGS = 3600.0
 
 
-class Refused(Exception):
+class RefusedCall(Exception):
     """A request that the door refuses itself. problem: what is wrong"""
 
     def __init__(self, problem: Problem) -> None:
@@ -33,15 +33,15 @@ class Refused(Exception):
         self.problem = problem
 
 
-def _refused(status: int, code: str, sentence: str, **values: Any) -> Refused:
-    return Refused(problem_of(status, code, sentence, **values))
+def _refused(status: int, code: str, sentence: str, **values: Any) -> RefusedCall:
+    return RefusedCall(problem_of(status, code, sentence, **values))
 
 
 def file_content(arguments: dict[str, Any], folder: Path | None, most: int) -> bytes:
     """Content of the file that the arguments give.
 
     folder: where files may be read; None: nowhere; most: limit of the size [bytes]
-    raises: Refused for no file or two, content that is not base64, a name outside the folder, a file that is too large
+    raises: RefusedCall for no file or two, content that is not base64, a name outside the folder, a file too large
     """
     name, text = arguments.pop("file", None), arguments.pop("content", None)
     if (name is None) == (text is None):
@@ -70,7 +70,7 @@ def file_content(arguments: dict[str, Any], folder: Path | None, most: int) -> b
 
 async def answer(
     app: Any,
-    call: Call,
+    call: ToolCall,
     arguments: dict[str, Any],
     headers: dict[str, str],
     client: tuple[str, int],
@@ -102,7 +102,7 @@ async def answer(
                 call.method, f"{path}?{query}" if query else path, content=content, headers={"Accept": ACCEPT} | headers
             )
         return _result(call, response)
-    except Refused as refused:
+    except RefusedCall as refused:
         return _problem(json.loads(refused.problem.to_json()))
 
 
@@ -115,7 +115,7 @@ def _problem(problem: Any) -> types.CallToolResult:
     return types.CallToolResult(content=content, structured_content=problem, is_error=True)
 
 
-def _result(call: Call, response: httpx2.Response) -> types.CallToolResult:
+def _result(call: ToolCall, response: httpx2.Response) -> types.CallToolResult:
     kind = response.headers.get("content-type", BYTES).partition(";")[0]
     if response.status_code >= 400:
         if kind != PROBLEM_TYPE:

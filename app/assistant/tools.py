@@ -30,7 +30,7 @@ FILE = {
 
 
 @dataclass(frozen=True)
-class Call:
+class ToolCall:
     """A call of the service as a tool.
 
     name: its operation id; method, path: of the request, the path with {names} in it; query: names of its query
@@ -50,7 +50,7 @@ class Call:
     reads_only: bool
 
 
-def calls_of(description: dict[str, Any], *, twins: bool = False) -> dict[str, Call]:
+def calls_of(description: dict[str, Any], *, twins: bool = False) -> dict[str, ToolCall]:
     """The calls that are tools, by name.
 
     description: the OpenAPI document of the service
@@ -69,7 +69,7 @@ def calls_of(description: dict[str, Any], *, twins: bool = False) -> dict[str, C
     return calls
 
 
-def _call_of(path: str, method: str, operation: dict[str, Any], schemas: dict[str, Any]) -> Call:
+def _call_of(path: str, method: str, operation: dict[str, Any], schemas: dict[str, Any]) -> ToolCall:
     parameters = [one for one in operation.get("parameters", []) if one["in"] in ("query", "path")]
     properties = {one["name"]: _of_parameter(one, schemas) for one in parameters}
     required = [one["name"] for one in parameters if one.get("required") and "default" not in properties[one["name"]]]
@@ -86,7 +86,7 @@ def _call_of(path: str, method: str, operation: dict[str, Any], schemas: dict[st
         schema["required"] = required
     if definitions := _definitions_in(properties, schemas):
         schema["$defs"] = definitions
-    return Call(
+    return ToolCall(
         operation["operationId"],
         operation["summary"],
         operation.get("description", operation["summary"]),
@@ -148,7 +148,7 @@ def _with_local_names(schema: Any) -> Any:
     return [_with_local_names(value) for value in schema] if isinstance(schema, list) else schema
 
 
-def path_of(call: Call, arguments: dict[str, Any]) -> str:
+def path_of(call: ToolCall, arguments: dict[str, Any]) -> str:
     """The path of the request. Arguments in it that are left out take their default."""
 
     def value(match: re.Match[str]) -> str:

@@ -31,7 +31,7 @@ class FigureOptions(drawn.InstantQuery, ScanFields, drawn.WithLanguage):
     """The fields of all three GET /figures requests."""
 
 
-class Kind(StrEnum):
+class FigureKind(StrEnum):
     """The figures, by their names in the service."""
 
     TRAJECTORY = "trajectory"
@@ -39,7 +39,11 @@ class Kind(StrEnum):
     PITCH_SCAN = "pitch-scan"
 
 
-FIGURES = {Kind.TRAJECTORY: drawn.TRAJECTORY, Kind.CONTACT: drawn.CONTACT, Kind.PITCH_SCAN: drawn.PITCH_SCAN}
+FIGURES = {
+    FigureKind.TRAJECTORY: drawn.TRAJECTORY,
+    FigureKind.CONTACT: drawn.CONTACT,
+    FigureKind.PITCH_SCAN: drawn.PITCH_SCAN,
+}
 
 
 def _is_dance(place: Path) -> bool:
@@ -63,7 +67,7 @@ def figures(
         ),
     ] = None,
     kind: Annotated[
-        list[Kind] | None,
+        list[FigureKind] | None,
         typer.Option(help="Figure to draw; may be repeated. Default: all three, for a FILE the first two."),
     ] = None,
     format: Annotated[Format, typer.Option(help="File format.")] = Format.PNG,
@@ -75,7 +79,7 @@ def figures(
     folder = folder or Path()
     if folder.is_file():
         raise InvalidValue.in_words("folder", "FOLDER must be a folder, got the file {file}", file=str(folder))
-    kinds = kind or list(Kind)[: 2 if file else None]
+    kinds = kind or list(FigureKind)[: 2 if file else None]
     used = {name for one in kinds for name in (FIGURES[one].flat or FigureOptions).model_fields}
     why = "does not apply to the figure {kinds}: leave it out, or draw another --kind too"
     unused(context, FigureOptions.model_fields.keys() - used, why, kinds=" or ".join(kinds))
@@ -91,7 +95,7 @@ def figures(
     for one, data in drawings.items():
         show.write(files[one], data)
     if file and not kind:
-        name = Kind.PITCH_SCAN.value
+        name = FigureKind.PITCH_SCAN.value
         why = f"it is about all pitches, not about one path: --kind {name} draws it for the dragon of the FILE"
         print(f"{name} is left out: {why}.", file=sys.stderr)
 

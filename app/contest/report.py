@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from app.contest.answers import Result
 from app.contest.solved import Solved
-from app.contest.tables import PaperTable, in_markdown
+from app.contest.tables import KitTable, in_markdown
 from app.files.words import Say
 from core.errors import format_number
 
@@ -35,7 +35,7 @@ def _bracket(one: Result) -> str:
 def report(
     solved: Solved,
     results: Sequence[Result],
-    tables: Sequence[PaperTable],
+    tables: Sequence[KitTable],
     drawn: Sequence[Drawn],
     films: Sequence[str],
     say: Say,

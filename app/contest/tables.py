@@ -22,7 +22,7 @@ COLUMNS_MOST, SMALLER = 4, "\\footnotesize\\setlength{\\tabcolsep}{3pt}"
 
 
 @dataclass(frozen=True)
-class PaperTable:
+class KitTable:
     """A table of numbers with named rows and columns.
 
     name: of its files; caption: a sentence; corner: head of the column with the names of the rows
@@ -71,7 +71,7 @@ def in_markdown(lines: Iterable[Sequence[str]]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
-def paper_tables(solved: Solved, say: Say) -> list[PaperTable]:
+def paper_tables(solved: Solved, say: Say) -> list[KitTable]:
     """Tables of questions 1 and 4 at the instants that the contest requires, and of question 2 at first contact."""
     question_1, question_4 = ("", say("Question 1", "问题 1")), ("turn-", say("Question 4", "问题 4"))
     tables = [*_over_time(solved, solved.spiral, solved.table_times, question_1, say), _at_contact(solved, say)]
@@ -86,7 +86,7 @@ def _names(solved: Solved, say: Say) -> list[str]:
     return [names[k] for k in solved.handles]
 
 
-def _over_time(solved: Solved, dance: Dance, times: Floats, begin: tuple[str, str], say: Say) -> list[PaperTable]:
+def _over_time(solved: Solved, dance: Dance, times: Floats, begin: tuple[str, str], say: Say) -> list[KitTable]:
     """Tables of positions and of speeds at times [s]. begin: first part of their names, and of their captions"""
     prefix, question = begin
     motion = core.trajectory(dance, times)
@@ -102,12 +102,12 @@ def _over_time(solved: Solved, dance: Dance, times: Floats, begin: tuple[str, st
     of_places = f"{question}{colon}{say('positions', '位置')}{note}"
     of_speeds = f"{question}{colon}{say('speeds', '速度')}{note}"
     return [
-        PaperTable(f"{prefix}positions", of_places, corner, columns, axes, places),
-        PaperTable(f"{prefix}speeds", of_speeds, corner, columns, speeds, motion.speed[:, solved.handles].T),
+        KitTable(f"{prefix}positions", of_places, corner, columns, axes, places),
+        KitTable(f"{prefix}speeds", of_speeds, corner, columns, speeds, motion.speed[:, solved.handles].T),
     ]
 
 
-def _at_contact(solved: Solved, say: Say) -> PaperTable:
+def _at_contact(solved: Solved, say: Say) -> KitTable:
     """The table of question 2: at first contact, or at the end of a run without one."""
     numbers = np.column_stack([solved.meeting.position[0], solved.meeting.speed[0]])[solved.handles]
     columns = say("x (m)|y (m)|speed (m/s)", "横坐标x (m)|纵坐标y (m)|速度 (m/s)").split("|")
@@ -117,4 +117,4 @@ def _at_contact(solved: Solved, say: Say) -> PaperTable:
         f"Question 2: positions and speeds at {solved.met_at:.6f} s{note}",
         f"问题 2：{solved.met_at:.6f} s 时的位置和速度{note}",
     )
-    return PaperTable("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)
+    return KitTable("contact", caption, say("handle", "把手"), columns, _names(solved, say), numbers)

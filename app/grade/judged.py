@@ -13,7 +13,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.grade.expected import Workbook, cells_of, contact_time, dance_of, of_dance, times_of
-from app.grade.layout import COMPONENTS, HANDLES, Ints, Table, TableKind
+from app.grade.layout import COMPONENTS, HANDLES, Ints, SheetTable, TableKind
 from app.grade.words import Note, note
 from core.values import Floats
 
@@ -63,7 +63,7 @@ class JudgedSheet:
     cells: number that the contest requires; right, missing: how many of them
     """
 
-    table: Table
+    table: SheetTable
     workbook: Workbook
     verdict: Rating
     decimals: int | None
@@ -119,7 +119,7 @@ class JudgedSheet:
         return ["".join(MARKS[part.max()] for part in np.array_split(band, width)) for band in bands]
 
 
-def workbook_of(tables: list[Table], name: str) -> Workbook:
+def workbook_of(tables: list[SheetTable], name: str) -> Workbook:
     """Workbook of some tables: by their kinds, by the name of the file, or by the number of instants."""
     if any(table.kind is TableKind.CONTACT for table in tables):
         return Workbook.RESULT2
@@ -130,7 +130,7 @@ def workbook_of(tables: list[Table], name: str) -> Workbook:
     return Workbook.RESULT1
 
 
-def judged(table: Table, workbook: Workbook, decimals_beside: int = 0) -> JudgedSheet:
+def judged(table: SheetTable, workbook: Workbook, decimals_beside: int = 0) -> JudgedSheet:
     """The judgement of one table. decimals_beside: those of the numbers in the other sheets of its file"""
     notes = [*table.notes]
     times = np.array([contact_time()]) if table.kind is TableKind.CONTACT else table.times
@@ -199,7 +199,7 @@ def _decimals_of_flat(values: Floats, wanted: Floats, decimals: int) -> int:
     return decimals if decimals >= DECIMALS[-1] else DECIMALS_OF_CONTEST
 
 
-def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
+def _scale(table: SheetTable, motion: Floats, notes: list[Note]) -> float:
     """Factor from the numbers to metres; numbers in a steady ratio to the right ones are in centimetres or millimetres.
 
     Angles of some hundred radians or degrees are as large as centimetres, but not spread alike.
@@ -215,7 +215,7 @@ def _scale(table: Table, motion: Floats, notes: list[Note]) -> float:
     return 1.0
 
 
-def _handles(table: Table, values: Floats, motion: Floats, notes: list[Note]) -> Ints:
+def _handles(table: SheetTable, values: Floats, motion: Floats, notes: list[Note]) -> Ints:
     """Handle of every line: by its label, or by its order if that fits more numbers."""
 
     def near(handles: Ints) -> int:

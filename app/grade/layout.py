@@ -46,7 +46,7 @@ COMPONENTS = {TableKind.POSITION: (X, Y), TableKind.SPEED: (SPEED,), TableKind.C
 
 
 @dataclass(frozen=True)
-class Table:
+class SheetTable:
     """Numbers of a sheet and their places.
 
     times: (T,) [s]; one NaN for the instant of first contact
@@ -66,7 +66,7 @@ class Table:
     notes: list[Note] = field(default_factory=list)
 
 
-def wide_table(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> Table | None:
+def wide_table(grid: Grid, cells: list[list[Cell]], *, turned: bool) -> SheetTable | None:
     """The table of a sheet with a line for each handle. turned: True if rows and columns of the sheet were swapped"""
     labels = _label_columns(cells)
     counts = [sum(label is not None and label.handle is not None for label in column) for column in labels]
@@ -160,7 +160,7 @@ def _over_time(
     times: dict[int, float],
     names_speeds: bool,
     turned: bool,
-) -> Table | None:
+) -> SheetTable | None:
     """Positions or speeds of handles at instants. says_speed: whether a text beside the numbers names speeds"""
     components = {label.component for _, label in lines}
     by_speed = SPEED in components or (X not in components and names_speeds)
@@ -177,7 +177,7 @@ def _over_time(
 
 def _contact(
     grid: Grid, cells: list[list[Cell]], lines: list[tuple[int, Label]], heads: dict[int, Label], turned: bool
-) -> Table:
+) -> SheetTable:
     """x, y and speed of handles at one instant."""
     columns = {label.component: (k, label.unit) for k, label in heads.items()}
     rows = [k for k, _ in lines]
@@ -189,7 +189,7 @@ def _contact(
         values[0, :, component] = [odd.value(cells[n][k], n, k) * unit for n in rows]
         row[0, :, component], column[0, :, component] = rows, k
     above, aside = (column, row) if turned else (row, column)
-    return Table(
+    return SheetTable(
         grid.title, TableKind.CONTACT, np.array([np.nan]), *_numbered(lines), values, above, aside, odd.notes()
     )
 
@@ -201,7 +201,7 @@ def _table_of(
     lines: list[tuple[int, Label]],
     times: dict[int, float],
     turned: bool,
-) -> Table | None:
+) -> SheetTable | None:
     """The table of the given lines and instants."""
     components = COMPONENTS[kind]
     lines = [(k, label) for k, label in lines if label.component in components]
@@ -218,10 +218,10 @@ def _table_of(
     column = np.broadcast_to(np.array(list(times), dtype=np.int64)[:, None, None], shape)
     above, aside = (column, row) if turned else (row, column)
     instants = np.array(list(times.values()))
-    return Table(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, odd.notes())
+    return SheetTable(grid.title, kind, instants, handles, np.arange(handles.size), values, above, aside, odd.notes())
 
 
-def bare_table(grid: Grid, cells: list[list[Cell]]) -> Table | None:
+def bare_table(grid: Grid, cells: list[list[Cell]]) -> SheetTable | None:
     """A table of numbers without labels of handles, recognised by its size."""
     numeric = [k for k, row in enumerate(cells) if sum(isinstance(cell, float) for cell in row) > len(row) // 2]
     # A line of numbers above those of the handles can only hold times.

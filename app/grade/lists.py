@@ -12,7 +12,7 @@ import numpy as np
 from app.grade.cells import OddCells
 from app.grade.grid import Cell, Grid, normalized
 from app.grade.labels import HANDLE_WORD, TIME_WORD, instant_of, label_of
-from app.grade.layout import BENCHES, COMPONENTS, LABELS_LEAST, MARGIN, Ints, Table, TableKind
+from app.grade.layout import BENCHES, COMPONENTS, LABELS_LEAST, MARGIN, Ints, SheetTable, TableKind
 from core.values import Floats
 
 # Lines whose labels are looked at.
@@ -20,7 +20,7 @@ LOOK = 20
 NUMBER = re.compile(r"\d+")
 
 
-def lists_of(grid: Grid, cells: list[list[Cell]]) -> list[Table]:
+def lists_of(grid: Grid, cells: list[list[Cell]]) -> list[SheetTable]:
     """Tables of positions and of speeds in a list, or the one of an instant; none if the sheet is not a list.
 
     cells: of the grid, as a rectangle
@@ -84,7 +84,7 @@ def _numbered(labels: list[int]) -> tuple[Ints, Ints]:
     return handles, places
 
 
-def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[Table]:
+def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[SheetTable]:
     """Tables of a list with a line for each handle and instant."""
     placed = [(instant_of(row[columns["time"]]), _handle_of(row[columns["handle"]])) for row in cells]
     lines = [n for n, (time, handle) in enumerate(placed) if n > head and time is not None and handle is not None]
@@ -96,7 +96,7 @@ def _over_time(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str
     return [_table_of(grid, cells, head, columns, kind, (times, t, handles, h, lines)) for kind in kinds]
 
 
-def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[Table]:
+def _at_contact(grid: Grid, cells: list[list[Cell]], head: int, columns: dict[str, int]) -> list[SheetTable]:
     """The table of a list with a line for each handle at one instant."""
     lines = [n for n in range(head + 1, len(cells)) if _handle_of(cells[n][columns["handle"]]) is not None]
     if len(lines) < LABELS_LEAST:
@@ -117,7 +117,7 @@ def _table_of(
     columns: dict[str, int],
     kind: TableKind,
     places: tuple[Floats, Ints, Ints, Ints, list[int]],
-) -> Table:
+) -> SheetTable:
     """The table of one kind. places: the times and the handles, each with its place by line; and the lines"""
     times, t, handles, h, lines = places
     components, odd = COMPONENTS[kind], OddCells()
@@ -130,4 +130,4 @@ def _table_of(
         unit = label.unit if label else 1.0
         values[t, h, c] = [odd.value(cells[n][k], n, k) * unit for n in lines]
         rows[t, h, c], column[..., c] = lines, k
-    return Table(grid.title, kind, times, handles, np.arange(handles.size), values, rows, column, odd.notes())
+    return SheetTable(grid.title, kind, times, handles, np.arange(handles.size), values, rows, column, odd.notes())

@@ -6,7 +6,7 @@ Input: a grid of cells. Output: its tables, and remarks on a sheet that holds no
 from __future__ import annotations
 
 from app.grade.grid import Cell, Grid
-from app.grade.layout import Table, bare_table, holds_angles, wide_table
+from app.grade.layout import SheetTable, bare_table, holds_angles, wide_table
 from app.grade.lists import lists_of
 from app.grade.words import note
 
@@ -14,7 +14,7 @@ from app.grade.words import note
 RECTANGLE_MAX = 2_000_000
 
 
-def tables_of(grid: Grid) -> list[Table]:
+def tables_of(grid: Grid) -> list[SheetTable]:
     """The tables of a sheet; none if no numbers are recognised. The grid's notes say what was left out."""
     cells = _rectangle(grid)
     if not cells:

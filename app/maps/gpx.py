@@ -39,14 +39,14 @@ def seconds_of(text: str) -> float:
 
 def read(data: bytes) -> Drawing:
     """The tracks, routes and waypoints of a document, in degrees. raises: InvalidValue with the line at fault"""
-    reader = _Reader()
+    reader = _TrackReader()
     read_document(data, reader, FAULT, FORBIDDEN)
     return Drawing(tuple(reader.collector.features), Unit.DEGREES, left_out=reader.collector.left_out)
 
 
 # State:  `stack`, the names of the open elements; `points`, `times` and `name` of the open track, route or waypoint;
 #         `text` of the open element.
-class _Reader:
+class _TrackReader:
     """Collects the tracks of a document while expat reads it. The segments of a track are one line."""
 
     def __init__(self) -> None:

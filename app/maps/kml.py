@@ -66,7 +66,7 @@ def unpacked(data: bytes) -> bytes:
 
 def read(data: bytes) -> Drawing:
     """The map in a KML document, always in degrees. raises: InvalidValue with the line at fault"""
-    reader = _Reader()
+    reader = _FeatureReader()
     read_document(data, reader, FAULT, FORBIDDEN)
     if not reader.is_kml:
         raise InvalidValue("file", "must be KML", got="XML of another kind")
@@ -85,7 +85,7 @@ def read(data: bytes) -> Drawing:
 # State:  `stack`, the names of the open elements; `folders`, the names of the open folders, and whether they are shown;
 #         `name`, `data`, `visible` and `shapes` of the open placemark; `rings` of the open polygon; `text` of the open
 #         element.
-class _Reader:
+class _FeatureReader:
     """Collects the features of a document while expat reads it."""
 
     def __init__(self) -> None:

@@ -12,7 +12,7 @@ from io import BufferedReader
 from types import MappingProxyType
 from typing import IO, cast
 
-from app.processes.messages import Kind, receive, send
+from app.processes.messages import MessageKind, receive, send
 from app.settings import SHARED_COUNTS
 from app.start import search_path
 
@@ -65,15 +65,15 @@ class Child:
         """
         received = False
         try:
-            send(cast(IO[bytes], self._process.stdin), Kind.TASK, task)
+            send(cast(IO[bytes], self._process.stdin), MessageKind.TASK, task)
             while True:
                 kind, data = receive(cast(BufferedReader, self._process.stdout))
-                if kind is Kind.RECEIVED:
+                if kind is MessageKind.RECEIVED:
                     received = True
-                elif kind is Kind.REPORT:
+                elif kind is MessageKind.REPORT:
                     report(data)
                 else:
-                    self.stays = kind is Kind.ANSWER
+                    self.stays = kind is MessageKind.ANSWER
                     return data
         except (EOFError, OSError, ValueError):  # ValueError: another thread has closed the pipes
             self.end()

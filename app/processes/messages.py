@@ -14,23 +14,23 @@ from typing import IO
 HEAD = struct.Struct("<BQ")
 
 
-class Kind(IntEnum):
+class MessageKind(IntEnum):
     """What a message is."""
 
     TASK, RECEIVED, REPORT, ANSWER, LAST = range(5)
 
 
-def send(stream: IO[bytes], kind: Kind, data: bytes = b"") -> None:
+def send(stream: IO[bytes], kind: MessageKind, data: bytes = b"") -> None:
     """Write one message. raises: OSError if nobody reads it"""
     stream.write(HEAD.pack(kind, len(data)))
     stream.write(data)
     stream.flush()
 
 
-def receive(stream: RawIOBase | BufferedIOBase) -> tuple[Kind, bytearray]:
+def receive(stream: RawIOBase | BufferedIOBase) -> tuple[MessageKind, bytearray]:
     """Kind and data of the next message. raises: EOFError where the stream ends, also amid a message"""
     kind, length = HEAD.unpack(_read(stream, HEAD.size))
-    return Kind(kind), _read(stream, length)
+    return MessageKind(kind), _read(stream, length)
 
 
 def _read(stream: RawIOBase | BufferedIOBase, size: int) -> bytearray:

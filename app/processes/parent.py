@@ -15,7 +15,7 @@ from threading import Thread
 from typing import NoReturn
 
 from app.processes.limits import is_small
-from app.processes.messages import Kind, receive, send
+from app.processes.messages import MessageKind, receive, send
 
 # Function that sends a report to the parent while this process works on a task.
 Report = Callable[[bytes], object]
@@ -54,7 +54,7 @@ def answer_tasks(answer: Callable[[bytearray, Report], bytes], again: Callable[[
     tasks: SimpleQueue[bytearray] = SimpleQueue()
     follow_parent(tasks.put)
 
-    def tell(kind: Kind, data: bytes = b"") -> None:
+    def tell(kind: MessageKind, data: bytes = b"") -> None:
         try:
             send(sink, kind, data)
         except BrokenPipeError:  # The parent has ended.
@@ -62,8 +62,8 @@ def answer_tasks(answer: Callable[[bytearray, Report], bytes], again: Callable[[
 
     while True:
         task = tasks.get()
-        tell(Kind.RECEIVED)
-        result = answer(task, partial(tell, Kind.REPORT))
+        tell(MessageKind.RECEIVED)
+        result = answer(task, partial(tell, MessageKind.REPORT))
         del task
-        tell(Kind.ANSWER if again() else Kind.LAST, result)
+        tell(MessageKind.ANSWER if again() else MessageKind.LAST, result)
         del result

@@ -7,7 +7,7 @@ space has a limit, BYTES, and it is the first that the system ends when memory r
 no more than one process.
 
 task    a function, and its arguments except the budget
-answer  an Outcome
+answer  a GradingOutcome
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1", "MALLOC_ARENA_MAX": "1"}
 
 
 @dataclass(frozen=True)
-class Outcome:
+class GradingOutcome:
     """What became of a file.
 
     value: of the function, None if it raised `error`; peak: memory of the process so far [bytes]
@@ -70,7 +70,7 @@ class Graders:
             memory; ProcessEnded when no process starts
         """
         try:
-            outcome: Outcome = pickle.loads(self._pool.answer(pickle.dumps((reader, arguments)), budget))
+            outcome: GradingOutcome = pickle.loads(self._pool.answer(pickle.dumps((reader, arguments)), budget))
         except ProcessEnded as end:
             if not end.received:
                 raise
@@ -88,16 +88,16 @@ class Graders:
 
 
 def outcome_of(task: bytearray, report: Report, *, memory_max: int) -> bytes:
-    """The Outcome of a file, pickled. Whatever the function raises is an answer."""
+    """The GradingOutcome of a file, pickled. Whatever the function raises is an answer."""
     try:
-        return pickle.dumps(Outcome(_read(task), peak=peak_memory()))
+        return pickle.dumps(GradingOutcome(_read(task), peak=peak_memory()))
     except BenchDragonError as refusal:
         error = refusal
     except MemoryError:
         error = too_much_memory(memory_max)
     except Exception as fault:
         error = _unexpected(fault)
-    return pickle.dumps(Outcome(error=error, peak=peak_memory()))
+    return pickle.dumps(GradingOutcome(error=error, peak=peak_memory()))
 
 
 def _read(task: bytearray) -> object:

@@ -25,7 +25,7 @@ from core.kernels import Budget
 from core.motion.places import handle_places
 from core.motion.trajectory import trajectory
 from core.passages import TIME_MAX, Period
-from core.people.meetings import Meetings, instants_at_once, meetings_between, steady_dance, travels_between
+from core.people.meetings import MeetingColumns, instants_at_once, meetings_between, steady_dance, travels_between
 from core.shapes.rectangles import bench_poses
 from core.values import Floats
 
@@ -248,7 +248,7 @@ def _directions(steady: Dance, benches: list[int], travel: float, budget: Budget
     return directions
 
 
-def _middles(steady: Dance, met: Meetings, budget: Budget) -> list[tuple[float, float]]:
+def _middles(steady: Dance, met: MeetingColumns, budget: Budget) -> list[tuple[float, float]]:
     """Middle x, y of the followed bench at each meeting [m]."""
     middles = np.empty((met.travel.size, 2))
     at_once = instants_at_once(steady)

@@ -50,7 +50,7 @@ SPARE = 0.5
 Indices = NDArray[np.intp]
 
 
-class Meetings(NamedTuple):
+class MeetingColumns(NamedTuple):
     """Meetings in columns (M,): own and other bench, travel of the head [m], signed distance of the middles to the left
     [m], gap of the benches [m], and the cosine of the angle between their directions."""
 
@@ -93,14 +93,16 @@ def instants_at_once(dance: Dance) -> int:
 
 
 @question_about("dance", Dance, "the meetings were not found")
-def meetings_between(dance: Dance, benches: Sequence[int], travels: Floats, reach: float, budget: Budget) -> Meetings:
+def meetings_between(
+    dance: Dance, benches: Sequence[int], travels: Floats, reach: float, budget: Budget
+) -> MeetingColumns:
     """All meetings of some benches with others, between rows of travels of the head.
 
     dance: at 1 m/s without passages; travels: rising, (R,) [m]; reach: largest gap of a meeting [m]
     returns: in the order of the own benches, then of travels
     raises: TooMuchWork
     """
-    parts = [Meetings(*_NONE)]
+    parts = [MeetingColumns(*_NONE)]
     at_once = instants_at_once(dance)
     rows, before = max(2, min(ROWS_AT_ONCE, at_once)), dict[int, _Before]()
     for first in range(0, len(travels), rows):
@@ -112,7 +114,7 @@ def meetings_between(dance: Dance, benches: Sequence[int], travels: Floats, reac
             parts.append(_met(dance, _zeros(dance, part, budget), reach, budget))
     columns = [np.concatenate(column) for column in zip(*parts, strict=True)]
     order = np.lexsort((columns[2], columns[0]))
-    return Meetings(*(column[order] for column in columns))
+    return MeetingColumns(*(column[order] for column in columns))
 
 
 def _far(dance: Dance, reach: float) -> float:
@@ -210,7 +212,7 @@ def _zeros(dance: Dance, crossings: _Crossings, budget: Budget) -> tuple[Indices
     return own, other, travel
 
 
-def _met(dance: Dance, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> Meetings:
+def _met(dance: Dance, zeros: tuple[Indices, Indices, Floats], reach: float, budget: Budget) -> MeetingColumns:
     """The zeros that are meetings: within the reach, and with no third bench between the two middles."""
     own, other, travel = zeros
     rows = np.arange(own.size)
@@ -224,7 +226,7 @@ def _met(dance: Dance, zeros: tuple[Indices, Indices, Floats], reach: float, bud
     hidden = _hidden(poses[kept], sizes, own[kept], other[kept])
     kept = kept[~hidden]
     cosine = np.cos(theirs[kept, 2] - mine[kept, 2])
-    return Meetings(own[kept], other[kept], travel[kept], left[kept], gap[kept], cosine)
+    return MeetingColumns(own[kept], other[kept], travel[kept], left[kept], gap[kept], cosine)
 
 
 # The segment p + t q, t in [0, 1], meets a rectangle if the intervals of t in which it is between the two long sides

@@ -11,7 +11,7 @@ from flint import acb, arb
 
 from core.dragon import Dragon
 from core.errors import Quantity, format_number
-from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, Side
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, Ground, PolygonSide
 from core.proof.pairs import Benches, Size, TouchingLine, Unproven, above, below
 
 # A guess from doubles is within this of its root [rad]; an interval Newton step verifies it.
@@ -314,7 +314,9 @@ class SpiralStretch:
         """
         hulls = AT_ONCE if len(sides) == 1 else ONE_BY_ONE
         both = self.grounds(partner)
-        return all(self._beyond(partner, Side(number, pair, *both)) for number, pair in zip(sides, hulls, strict=True))
+        return all(
+            self._beyond(partner, PolygonSide(number, pair, *both)) for number, pair in zip(sides, hulls, strict=True)
+        )
 
     def _beyond(self, partner: int, line: TouchingLine) -> bool:
         """Whether one of the two is more than the margin beyond a line of the other, over the whole stretch (4.)."""

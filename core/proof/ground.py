@@ -90,7 +90,7 @@ def _spare(chord: arb, stray: arb, furthest: arb) -> arb:
     return second * (arb.pi() / (2 * SAMPLES)) ** 2 / 8
 
 
-class Side(TouchingLine):
+class PolygonSide(TouchingLine):
     """A side of a polygon of one of two grounds a, b; a polygon of the other is beyond if its corners are.
 
     number: 0 to SIDES - 1 for the first ground's sides, from SIDES on for the second's; hulls: a polygon of each

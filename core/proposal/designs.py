@@ -12,7 +12,7 @@ from core.paths.pieces import Piece
 from core.paths.route import Route
 from core.proposal.figures import DANCED, Figure, Shape
 from core.proposal.gates import Gate
-from core.proposal.legs import Ways
+from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
 from core.proposal.walks import Pose, Step, along, length_of, moved, pieces_of, placed, stretch
 
@@ -67,7 +67,7 @@ def stand_length(needs: Needs) -> float:
     return needs.length + STAND_MORE
 
 
-def laid_out(design: Design, needs: Needs, ways: Ways) -> Route | None:
+def laid_out(design: Design, needs: Needs, ways: LegFinder) -> Route | None:
     """The route of a design, with s = 0 where the head stands when the whole dragon is on it; None if there is none."""
     try:
         pieces = _pieces(design, needs, ways)
@@ -84,7 +84,7 @@ def laid_out(design: Design, needs: Needs, ways: Ways) -> Route | None:
         return None
 
 
-def _pieces(design: Design, needs: Needs, ways: Ways) -> list[Piece] | None:
+def _pieces(design: Design, needs: Needs, ways: LegFinder) -> list[Piece] | None:
     shape, pose = design.shape, design.pose
     if shape is not None and shape.pieces is None:
         return None
@@ -139,7 +139,7 @@ def _doors(design: Design) -> tuple[Pose, Pose]:
     return enter, leave
 
 
-def with_gates(design: Design, gates: tuple[Gate, Gate], needs: Needs, ways: Ways) -> Iterator[Design]:
+def with_gates(design: Design, gates: tuple[Gate, Gate], needs: Needs, ways: LegFinder) -> Iterator[Design]:
     """The designs of a shape at a place with the shortest direct ways in and out, in both directions of the dance."""
     shape = design.shape
     assert shape is not None
@@ -168,7 +168,7 @@ def _parts(shape: Shape) -> list[float]:
     return [0.0] if shape.closed else [0.0, 0.5]
 
 
-def _way(ways: Ways, begin: Pose, end: Pose) -> float:
+def _way(ways: LegFinder, begin: Pose, end: Pose) -> float:
     """Length of a direct leg [m]; without one, the distance as if it were BLOCKED metres longer."""
     steps = ways.leg(begin, end)
     return BLOCKED + math.dist(begin[:2], end[:2]) if steps is None else length_of(steps)

@@ -28,7 +28,7 @@ DETOUR, DETOUR_MORE = 2.5, 25.0
 LEG_WORK = 300.0
 
 
-class Ways:
+class LegFinder:
     """Legs of one dragon on one free ground."""
 
     def __init__(self, ground: FreeGround, needs: Needs, budget: Budget) -> None:

@@ -21,7 +21,7 @@ STRANDS = 2.5
 
 
 @dataclass(frozen=True)
-class Rating:
+class PathRating:
     """venue: stray that the edges allow by the estimate [m]; own: that the strands allow [m]; length: of the path [m];
     turns: that the head makes along it [1]"""
 
@@ -36,7 +36,7 @@ class Rating:
         return min(self.venue, self.own)
 
 
-def rated(ground: FreeGround, needs: Needs, route: Route, streets: tuple[float, float] = (0.0, 0.0)) -> Rating:
+def rated(ground: FreeGround, needs: Needs, route: Route, streets: tuple[float, float] = (0.0, 0.0)) -> PathRating:
     """The rating of a path. streets: lengths of its straight ends in streets, where there is room [m]"""
     path = sampled(route, needs)
     inside = (path.s > route.begin + streets[0]) & (path.s < route.end - streets[1])
@@ -46,7 +46,7 @@ def rated(ground: FreeGround, needs: Needs, route: Route, streets: tuple[float, 
     room = ground.clearance(points[near]) - sides[near] - needs.margin
     turned = np.abs(route.curvature(path.s)).mean() * (route.end - route.begin) / math.tau
     venue = float(room.min(initial=math.inf)) / needs.gain
-    return Rating(venue, strands(path, needs) / (2.0 * needs.gain), route.end - route.begin, float(turned))
+    return PathRating(venue, strands(path, needs) / (2.0 * needs.gain), route.end - route.begin, float(turned))
 
 
 def strands(path: Sampled, needs: Needs) -> float:

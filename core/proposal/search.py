@@ -23,10 +23,10 @@ from core.proposal.designs import Design, laid_out, stand_length, street_length,
 from core.proposal.figures import Figure, Shape, shapes
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import Gate, with_streets
-from core.proposal.legs import Ways
+from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
 from core.proposal.places import placements, sampled
-from core.proposal.rating import Rating, rated, strands
+from core.proposal.rating import PathRating, rated, strands
 from core.tolerance.tolerance import tolerance
 from core.venue import Venue
 
@@ -58,7 +58,7 @@ class Rated:
 
     design: Design
     route: Route
-    rating: Rating
+    rating: PathRating
 
 
 @dataclass(frozen=True)
@@ -91,11 +91,11 @@ class Search:
         self.venue = with_streets(venue, gates, width, self.street) if gates else venue
         square = venue.square.edges.reshape(-1, 2)
         self.ground = FreeGround(self.venue, (square.min(axis=0), square.max(axis=0)))
-        self.ways = Ways(self.ground, self.needs, budget)
+        self.ways = LegFinder(self.ground, self.needs, budget)
         self.tried = self.checked = 0
         self.nearest: tuple[Rated, Report] | None = None
 
-    def value(self, rating: Rating) -> float:
+    def value(self, rating: PathRating) -> float:
         """Value of a rating for the objective; a dance without room for the stray is worth less than any with it."""
         if rating.stray < self.wish.stray:
             return rating.stray - 1e6

@@ -20,7 +20,7 @@ from app.files.tables import Language
 from app.grade.diagnosis import diagnosed
 from app.grade.expected import Workbook, dance_of, of_dance, times_of
 from app.grade.judged import judged
-from app.grade.layout import COMPONENTS, HANDLES, Table, TableKind
+from app.grade.layout import COMPONENTS, HANDLES, SheetTable, TableKind
 from app.grade.report import typed
 from app.grade.shortcuts import UNITS, right_answer
 from core import Budget
@@ -136,12 +136,12 @@ def sheet_fault(random: Random) -> str:
     return f"{workbook.value}, {names or 'rounded'}, {decimals} decimals: {', '.join(one.error for one in findings)}"
 
 
-def table_of(kind: TableKind, times: Floats, values: Floats) -> Table:
+def table_of(kind: TableKind, times: Floats, values: Floats) -> SheetTable:
     """A sheet with these numbers (T, HANDLES, 3)."""
     some, handles = values[..., list(COMPONENTS[kind])], np.arange(HANDLES)
     places = np.zeros(some.shape, dtype=np.int64)
     instants = np.array([np.nan]) if kind is TableKind.CONTACT else times
-    return Table("", kind, instants, handles, handles, some, places, places)
+    return SheetTable("", kind, instants, handles, handles, some, places, places)
 
 
 def typed_fault(random: Random) -> str:

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from shapely import LineString, Polygon
 
 from core import Dance, bench_outlines, trajectory
-from core.people.meetings import EVEN, STEP, Meetings
+from core.people.meetings import EVEN, STEP, MeetingColumns
 from core.values import Floats
 
 # How well a root is known [m of head travel].
@@ -83,7 +83,7 @@ def _met(dance: Dance, own: int, other: int, travel: float) -> SlowMeeting | Non
 
 
 def same_meetings(
-    met: Meetings, dance: Dance, ends: tuple[float, float], reach: float, step: float
+    met: MeetingColumns, dance: Dance, ends: tuple[float, float], reach: float, step: float
 ) -> list[SlowMeeting]:
     """The slow meetings in the order of the others, which must be among them; every lasting one must be there.
 

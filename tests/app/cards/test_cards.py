@@ -22,7 +22,7 @@ from app.maps.dances import read_dance
 from app.questions.cues import CuesRequest
 from app.wire.messages import checked
 from core.people.cards import CUES_MOST, TOGETHER
-from core.people.meetings import Meetings
+from core.people.meetings import MeetingColumns
 from tests.support.command import run
 from tests.support.slow_meetings import same_meetings
 
@@ -65,7 +65,7 @@ def test_every_meeting_of_the_village_square_is_one_of_a_slow_search(cards: Any,
     met = [(card["bench"], one) for card in cards for one in card["meetings"]]
     assert len(met) > 200
     columns = zip(*((own, one["bench"], one["time"], 0.0, one["gap"], 0.0) for own, one in met), strict=True)
-    slow = same_meetings(Meetings(*map(np.array, columns)), dance, (0.0, dance.end.time), 8.0, 0.1)
+    slow = same_meetings(MeetingColumns(*map(np.array, columns)), dance, (0.0, dance.end.time), 8.0, 0.1)
     assert [one["side"] for _, one in met] == ["left" if left else "right" for *_, left in slow]
     for (own, one), (_, other, travel, gap, _) in zip(met, slow, strict=True):
         assert one["time"] == pytest.approx(travel, abs=MOMENT)  # the head goes at 1 m/s

@@ -17,7 +17,7 @@ import pytest
 from app.files.tables import ARROW_TYPE
 from app.jobs import runner
 from app.jobs.store import Store
-from app.processes.messages import Kind, send
+from app.processes.messages import MessageKind, send
 from app.settings import Settings
 from tests.campaigns.job_kills import post, survive
 from tests.support.job_service import ENDLESS, LINGER, SCAN, SHORT, JobService, direct, wait_for
@@ -133,7 +133,7 @@ for module in runner, work:
     with subprocess.Popen(command, env=environment, **pipes) as process:
         assert process.stdin is not None
         assert process.stderr is not None
-        send(process.stdin, Kind.TASK, b"job")
+        send(process.stdin, MessageKind.TASK, b"job")
         assert [json.loads(line)["message"] for line in process.stderr] == ["app.jobs.runner", "app.jobs.work"]
 
 

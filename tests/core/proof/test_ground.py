@@ -10,7 +10,7 @@ import pytest
 import shapely
 from flint import acb, arb, ctx
 
-from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, Side, best_side
+from core.proof.ground import AT_ONCE, ONE_BY_ONE, SIDES, WHOLE, Ground, PolygonSide, best_side
 from core.shapes.reach import bench_hulls, directions, supports
 from tests.support.random_strays import moved_points, random_strays
 
@@ -56,7 +56,7 @@ def test_corners_of_a_side_are_all_that_can_be_nearest_while_a_bench_turns(sprea
     rng = np.random.default_rng(5)
     for number, hulls in [(3, AT_ONCE[0]), (40, ONE_BY_ONE[1]), (70, ONE_BY_ONE[3]), (100, ONE_BY_ONE[8])]:
         heading = rng.uniform(-math.pi, math.pi)
-        side = Side(number, hulls, ground, ground)
+        side = PolygonSide(number, hulls, ground, ground)
         ends = [acb(cmath.rect(1.0, heading + off)) for off in (-spread, 0.0, spread)]
         corners = [complex(corner) for corner in side.corners(ends[0].union(ends[1]).union(ends[2]))]
         everyone = ground.rough_corners[hulls[0] if number >= SIDES else hulls[1]]

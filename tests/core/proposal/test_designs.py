@@ -12,7 +12,7 @@ from core.proposal.designs import Design, gate_poses, in_world, laid_out, stand_
 from core.proposal.figures import Shape
 from core.proposal.free_ground import FreeGround
 from core.proposal.gates import with_streets
-from core.proposal.legs import Ways
+from core.proposal.legs import LegFinder
 from core.proposal.needs import Needs
 from tests.support.random_squares import box
 
@@ -25,9 +25,9 @@ SPIRAL = Shape(Figure.SPIRAL, (6.0, 3.4, 1.6))
 MIDDLE = (20.0, 15.0, 0.3)
 
 
-def ways() -> Ways:
+def ways() -> LegFinder:
     venue = with_streets(SQUARE, GATES, 3.0, street_length(NEEDS))
-    return Ways(FreeGround(venue, (np.array([0.0, 0.0]), np.array([40.0, 30.0]))), NEEDS, Budget())
+    return LegFinder(FreeGround(venue, (np.array([0.0, 0.0]), np.array([40.0, 30.0]))), NEEDS, Budget())
 
 
 def handles_at(route: Route, time: float) -> np.ndarray:

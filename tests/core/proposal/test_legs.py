@@ -10,7 +10,7 @@ import shapely
 
 from core import Budget, Dragon, Venue
 from core.proposal.free_ground import FreeGround
-from core.proposal.legs import Ways, points_along
+from core.proposal.legs import LegFinder, points_along
 from core.proposal.needs import Needs
 from core.proposal.walks import joined, moved
 from tests.support.random_squares import box, polygon
@@ -21,8 +21,8 @@ NEEDS = Needs(Dragon(8), 0.05, 0.0)
 BEGIN, END = (4.0, 5.0, 0.0), (36.0, 5.0, 0.0)
 
 
-def ways(*obstacles: object, needs: Needs = NEEDS) -> Ways:
-    return Ways(FreeGround(Venue(SQUARE, obstacles)), needs, Budget())  # type: ignore[arg-type]
+def ways(*obstacles: object, needs: Needs = NEEDS) -> LegFinder:
+    return LegFinder(FreeGround(Venue(SQUARE, obstacles)), needs, Budget())  # type: ignore[arg-type]
 
 
 def test_a_free_leg_is_straight() -> None:
