@@ -184,7 +184,7 @@ def _graded(name: str, data: bytes, language: Language, budget: Budget) -> FileA
     rubric = rubric_of(judgements, certain)
     notes += [one for grid in grids for one in grid.notes]
     if (match := NAME_OF_WORKBOOK.search(PurePath(name).stem)) and match[1] != workbook.value[-1]:
-        notes.append(note("named_otherwise", match=f"result{match[1]}", workbook=workbook.value))
+        notes.append(note("named_otherwise", named=f"result{match[1]}", workbook=workbook.value))
     return FileAnswer(
         file=name,
         workbook=workbook.value,
