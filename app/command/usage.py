@@ -18,16 +18,16 @@ Misuse: Any = typer.BadParameter.__base__
 EMPTY = "must not be an empty name: the current folder is ."
 
 
-class Explained(typer.BadParameter):
-    """A mistake whose message is whole, in the service's words."""
+class ExplainedMistake(typer.BadParameter):
+    """A mistake with a complete message in the service's words."""
 
 
 class Commands(TyperGroup):
-    """Commands of which an unknown one is explained."""
+    """Commands; an unknown name is answered with the known one that is most like it."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         if self.get_command(ctx, args[0]) is None:
-            raise Explained(unknown(args[0], self.list_commands(ctx)))
+            raise ExplainedMistake(unknown(args[0], self.list_commands(ctx)))
         return super().resolve_command(ctx, args)
 
 
@@ -40,7 +40,7 @@ def explain_values(parameter: Any) -> None:
         try:
             return convert(value, *context)
         except typer.BadParameter as error:
-            raise Explained(_unfit(parameter, str(value))) from error
+            raise ExplainedMistake(_value_message(parameter, str(value))) from error
 
     kind.convert = convert_or_explain
     parameter.type = kind
@@ -48,7 +48,7 @@ def explain_values(parameter: Any) -> None:
 
 def message_of(error: Any) -> str:
     """One line for a Misuse: what is wrong, where, and what to change; else the parser's own message."""
-    if isinstance(error, Explained):
+    if isinstance(error, ExplainedMistake):
         return error.message
     if hasattr(error, "possibilities"):
         return unknown(error.option_name, [option for one in error.ctx.command.params for option in one.opts])
@@ -59,7 +59,7 @@ def message_of(error: Any) -> str:
 
 
 def path(text: str | Path) -> Path:
-    """The place with that name; an empty one, as from an unset variable, is refused: it would be the current folder."""
+    """The path of a file or folder. An empty name, as of an unset variable, would be the current folder: refused."""
     if not str(text):
         raise ValueError
     return Path(text)
@@ -82,7 +82,7 @@ def _name(parameter: Any) -> str:
     return str((parameter.metavar or parameter.name.upper()) if argument else parameter.opts[0])
 
 
-def _unfit(parameter: Any, value: str) -> str:
+def _value_message(parameter: Any, value: str) -> str:
     """Message for a value that an option or argument cannot take."""
     name, kind = _name(parameter), parameter.type
     if kind.name == path.__name__:

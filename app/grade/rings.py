@@ -1,9 +1,9 @@
 """Handles on the wrong ring.
 
-Input: the judgement of positions. Output: a finding, or none. State: none. Argument: no two places of a spiral, or of
-the turn, are the same point, so every handle on the path has one arc length. If a handle is one chord away from the one
-before, but in front of it, or much further behind along the path than the chord is long, another root of the chord
-equation was taken.
+Input: the judgement of positions. Output: a finding, or none. State: none. Argument: a spiral and the turn never cross
+themselves, so every handle on the path has one arc length. A right handle is one chord away from the one before it, and
+a little more than a chord behind it along the path. One that is a chord away too, but in front of it or much further
+behind, is another root of the chord equation.
 """
 
 from __future__ import annotations
@@ -22,11 +22,12 @@ from app.grade.words import note
 from core.paths.path import Path
 from core.values import Floats
 
-# Least share of the links to wrong handles with the right length [1]: exchanged rows give links of wrong lengths.
+# Of the links that end at wrong handles, at least this share has the right length [1]; in exchanged rows fewer have it.
 RING_SHARE = 0.995
 # Tolerance for a handle on the path, and for the length of a chord [m].
 ON_PATH = 1e-4
-# Along the path a handle is at most half a circle behind, pi / 2 chords; the next root is beyond this number [1].
+# A right handle is at most half a circle behind the one before it, pi / 2 chords along the path. The next root is
+# further behind than this number of chords [1].
 CHORDS_MOST = 2.0
 
 
@@ -76,12 +77,12 @@ def _candidates(path: Path, points: Floats) -> list[Floats]:
     turn = right_turn()
     growth = turn.pitch / (2.0 * np.pi)
     outside = _arc(radius, growth) - _arc(np.array(turn.entry_radius), growth)
-    candidates, begun = [-outside, turn.length + outside], 0.0
+    candidates, begin = [-outside, turn.length + outside], 0.0
     for centre, size, start, turned in arcs_of(turn):
         away = points[..., 0] + 1j * points[..., 1] - centre
         angle = np.angle(away * cmath.exp(-1j * start)) * np.sign(turned)
-        candidates.append(begun + size * (angle % (2.0 * np.pi)))
-        begun += size * abs(turned)
+        candidates.append(begin + size * (angle % (2.0 * np.pi)))
+        begin += size * abs(turned)
     return candidates
 
 

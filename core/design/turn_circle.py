@@ -25,9 +25,9 @@ class CheckedCircle(NamedTuple):
         return self.pitch / (2.0 * math.pi)
 
     def turn(self, entry: float | None = None, leaving: float | None = None, ratio: float | None = None) -> Turn:
-        """The turn between an entry and an exit radius [m]; default: from the circle, and opposite to the entry.
+        """The turn from an entry radius to an exit radius [m]; by default it enters on the circle and leaves opposite.
 
-        ratio: default: that of the circle, or 1 if it is free
+        ratio: by default that of the circle, or 1 if any is allowed
         raises: InvalidValue
         """
         chosen = ratio or self.ratio or 1.0
@@ -45,9 +45,9 @@ def checked_circle(
     *,
     any_ratio: bool = False,
 ) -> CheckedCircle:
-    """The circle of a question. any_ratio: True allows a ratio of None, which stands for any
+    """The circle of a question. any_ratio: True allows the ratio None, which means any
 
-    raises: InvalidValue for what no turn can have
+    raises: InvalidValue for values that no turn can have
     """
     margin = checked_number("margin", margin, "m", 0.0, MARGIN_MAX)
     free = any_ratio and ratio is None

@@ -111,13 +111,13 @@ def gains(dragon: Dragon) -> Floats:
     return gain(dragon.chords, dragon.overhangs, 0.5 * dragon.widths)
 
 
-@lru_cache(maxsize=4)  # a march that continues asks again
+@lru_cache(maxsize=4)  # a march that goes on needs it again
 def simple_reach(dragon: Dragon, stray: float) -> Reach:
     """Upper bound of reach(): every bench widened on all sides by its gain times the stray."""
     return _reach(dragon, stray, _simple_supports)
 
 
-@lru_cache(maxsize=4)  # a question asks several times, and so does someone who drags the pitch
+@lru_cache(maxsize=4)  # one question needs it several times, and so does a user who drags the pitch
 def reach(dragon: Dragon, stray: float) -> Reach:
     """The ground that the benches of a dragon may cover while every hole is within the stray of its place [m].
 

@@ -46,19 +46,17 @@ WRONG = {
     "dragon": DRAGON,
     "ragged": [[1.0], [1.0, 2.0]],
 }
-# None stands for a default there, and these are right there.
+# Right values: None where it stands for a default, and the types that these parameters have.
 ALLOWED = {
     ("nothing", name)
     for name in ("venue", "benches", "speed_limit", "start", "step", "stop", "entry_radius", "exit_radius", "ratio")
 } | {("nothing", name) for name in ("start_heading", "end_heading", "gates", "figures")}
 ALLOWED |= {("path", "path"), ("dragon", "dragon"), ("text", "name")}
-
-
-# Places where nothing is refused although it is taken elsewhere.
-SPELLED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
-SPELLED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
-SPELLED |= {(core.propose, "venue")}
-SPELLED |= {(core.ClothoidTurn, "ratio"), (core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
+# Parameters that refuse None although others of the same name take it.
+NONE_REFUSED = {*((call, "start") for call in (core.Legs, core.Line, core.Route)), (core.Turn, "ratio")}
+NONE_REFUSED |= {(core.quickest_turn, "ratio"), (core.quickest_turn, "speed_limit"), (core.turn_time, "speed_limit")}
+NONE_REFUSED |= {(core.propose, "venue")}
+NONE_REFUSED |= {(core.ClothoidTurn, "ratio"), (core.deepest_turn, "ratio"), (core.dubins_turn, "ratio")}
 
 
 def words_of(call: Callable[..., Any]) -> str:
@@ -74,7 +72,7 @@ def refusal(call: Callable[..., Any], **arguments: Any) -> InvalidValue | None:
 
 
 @pytest.mark.parametrize("call", CALLS, ids=words_of)
-def test_the_good_call_is_good(call: Callable[..., Any]) -> None:
+def test_each_call_is_answered(call: Callable[..., Any]) -> None:
     call(**CALLS[call])
 
 
@@ -87,7 +85,7 @@ def test_every_public_function_is_called() -> None:
 @pytest.mark.parametrize("call", CALLS, ids=words_of)
 def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any]) -> None:
     for name, (kind, wrong) in product(CALLS[call], WRONG.items()):
-        if (kind, name) in ALLOWED and (call, name) not in SPELLED:
+        if (kind, name) in ALLOWED and (call, name) not in NONE_REFUSED:
             continue
         expected = WORDS.get(call, {}).get(name, name)
         refused = refusal(call, **{**CALLS[call], name: wrong})
@@ -98,18 +96,17 @@ def test_a_wrong_type_is_refused_by_name(call: Callable[..., Any]) -> None:
 
 SUBJECTS = {"dance": "Dance", "dragon": "Dragon", "contact": "FirstContact", "minimum": "MinimumPitch"}
 QUESTIONS = [call for call, good in CALLS.items() if next(iter(good)) in SUBJECTS and not isinstance(call, type)]
-
-
-BEHIND: list[tuple[Any, ...]] = [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)]
-IN_WORDS = [(None, "None"), (0.55, "0.55"), (SPIRAL, "a Spiral"), (Dragon, "the class Dragon")]
+# Further arguments, and wrong subjects with their words in the message.
+FURTHER: list[tuple[Any, ...]] = [(), (0.55,), (SPIRAL, 300.0), (None, None, None, None)]
+WRONG_SUBJECTS = [(None, "None"), (0.55, "0.55"), (SPIRAL, "a Spiral"), (Dragon, "the class Dragon")]
 
 
 @pytest.mark.parametrize("call", QUESTIONS, ids=words_of)
-def test_what_a_question_is_asked_of_is_refused_by_name_whatever_stands_behind_it(call: Callable[..., Any]) -> None:
+def test_a_wrong_subject_is_refused_by_name_whatever_arguments_follow(call: Callable[..., Any]) -> None:
     name = next(iter(CALLS[call]))
-    for behind, (wrong, in_words) in product(BEHIND, IN_WORDS):
+    for further, (wrong, in_words) in product(FURTHER, WRONG_SUBJECTS):
         with pytest.raises(InvalidValue) as refused:
-            call(wrong, *behind)
+            call(wrong, *further)
         assert refused.value.message == f"{name} must be a {SUBJECTS[name]}, got {in_words}"
         assert refused.value.field == name
 

@@ -1,4 +1,4 @@
-"""Students' results, right ones and some with one error each, computed in plain steps without the grader's models."""
+"""Results as students hand them in: right ones, and some with one error each, computed without the grader's models."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def arc(theta: float) -> float:
 
 
 def head_at(theta_of: Callable[[float], float]) -> Results:
-    """The dance with its head at another angle at every time: as the right one when its head is there."""
+    """The right dance at the moments at which its head is at these angles."""
     return spiral(np.array([arc(START) - arc(theta_of(t)) for t in SPIRAL_TIMES]))
 
 
@@ -65,10 +65,10 @@ def steady_angle() -> Results:
 
 
 def equal_arcs() -> Results:
-    """Every handle an arc of a chord's length behind the one before, by root finding."""
+    """Every handle is a chord's length behind the one before along the path, instead of in a straight line."""
     back = np.concatenate([[0.0], np.cumsum(Dragon().chords)])
     position = np.empty((301, 224, 2))
-    # The same angle comes back at many times, as the body follows the head.
+    # One table of arc lengths serves all times, because the body follows the head.
     reach = np.linspace(0.1, 1.2 * math.sqrt(2.0 * (arc(START) + back[-1]) / B), 400_000)
     arcs = 0.5 * B * (reach * np.hypot(1.0, reach) + np.arcsinh(reach))
     for t in range(301):
@@ -90,14 +90,14 @@ def with_speeds(results: Results, speed: Floats) -> Results:
 
 
 def quotient(before: float, after: float, motion: Callable[[Floats], Results] = spiral) -> Results:
-    """Speeds as the way from one time to another over the time that it takes."""
+    """Speeds as distance over time between two moments. before, after: of them, from the time of the row [s]"""
     times = SPIRAL_TIMES if motion is spiral else TURN_TIMES
     way = motion(times + after)[0] - motion(times + before)[0]
     return with_speeds(motion(times), np.hypot(way[..., 0], way[..., 1]) / (after - before))
 
 
 def gradient() -> Results:
-    """Speeds by numpy.gradient from the table itself, rounded to six decimals as it is."""
+    """Speeds by numpy.gradient from the places as they stand in the table, with six decimals."""
     position = np.round(spiral()[0], 6)
     velocity = np.gradient(position, axis=0)
     return with_speeds((position, velocity), np.hypot(velocity[..., 0], velocity[..., 1]))
@@ -109,14 +109,14 @@ def is_outside(position: Floats) -> Any:
 
 
 def outside(value: float) -> Results:
-    """Handles outside the spiral and their speeds written as this value."""
+    """Right results, but with this value as place and speed of handles that are not yet on the spiral."""
     position, speed = spiral()
     beyond = is_outside(position)
     return np.where(beyond[..., None], value, position), np.where(beyond, value, speed)
 
 
 def on_line() -> Results:
-    """Handles outside the spiral in a line along its tangent at the beginning, as far apart as chords."""
+    """Handles that are not yet on the spiral stand on its tangent at the start, a chord apart, at the head's speed."""
     position, speed = spiral()
     beyond = is_outside(position)
     back = np.array([math.cos(math.atan(START)), math.sin(math.atan(START))])
@@ -163,7 +163,7 @@ def wrong_ring(handle: int) -> Results:
 
 
 def wrong_coil(handle: int, times: Floats) -> Results:
-    """While the handle before is outside the turn, one is put on the other coil; those behind follow from there."""
+    """One handle is on the other coil while the one before it is outside the turn; those behind it follow it."""
     path, (position, speed) = Turn(1.7), turn(times)
     growth, s = 1.7 / (2.0 * math.pi), times
     position = position.copy()
@@ -187,7 +187,7 @@ def wrong_coil(handle: int, times: Floats) -> Results:
 
 
 def semicircles(times: Floats) -> Results:
-    """A turn of two semicircles on the line from the entry to the exit, 3 m and 1.5 m: every handle by root finding."""
+    """A turn of two semicircles, 3 m and 1.5 m in radius, with their centres on the line from the entry to the exit."""
     path = Turn(1.7)
     entry = np.array(path.entry)
     along = -entry / np.linalg.norm(entry)
@@ -213,7 +213,7 @@ def semicircles(times: Floats) -> Results:
             if k:
                 point = position[t, k - 1]
                 if s < -4.0:
-                    break  # from here on the spiral, as far behind as in the right dance only if s is the same
+                    break  # this handle and all behind it are on the coil
                 s = brentq(
                     lambda u, point=point, k=k: float(np.linalg.norm(place(u) - point)) - chords[k - 1],
                     s - 1.6 * chords[k - 1], s - 0.9 * chords[k - 1], xtol=1e-12,
@@ -222,14 +222,14 @@ def semicircles(times: Floats) -> Results:
         else:
             continue
         rest = trajectory(Dance(Dragon(), path), s + np.zeros(1)).position[0]
-        # On the coil a chain behind a handle depends on its place alone, and body chords are equal.
+        # On the coil the handles behind one depend on its place alone. Behind the head's bench all chords are equal.
         body = trajectory(Dance(Dragon(head_length=2.20), path), np.array([s])).position[0]
         position[t, k - 1 :] = (rest if k == 1 else body)[: 224 - k + 1]
     return position, right[1]
 
 
 def mirrored_arcs(times: Floats) -> Results:
-    """Both arcs on the other side of the line from the entry to the exit, which they reach all the same."""
+    """The two arcs are mirrored in the line from the entry to the exit, where they still begin and end."""
     path, right = Turn(1.7), turn(times)
     along = np.array(path.exit) - np.array(path.entry)
     along /= np.linalg.norm(along)
@@ -246,7 +246,7 @@ def mirrored_arcs(times: Floats) -> Results:
         def excess(u: Floats, point: Floats = points[-1], chord: float = chord) -> Floats:
             return np.linalg.norm(place(u) - point, axis=-1) - chord
 
-        # The first place behind that is a chord away: at the kinks it is several chords behind along the path.
+        # The first place behind that is a chord away. At the kinks it may be several chords back along the path.
         far = s - 0.9 * chord
         while (short := excess(far) < 0.0).any():
             far = np.where(short, far - 0.05, far)
@@ -281,7 +281,7 @@ def workbook(results: Results, times: Floats, decimals: int = 6) -> bytes:
 
 
 def lines(results: Results, times: Floats) -> bytes:
-    """CSV with a line for each handle and instant, which is read much sooner than a workbook."""
+    """CSV with a line for each handle and instant; reading it takes much less time than a workbook."""
     rows = (
         f"{t:g},{handle},{x:.6f},{y:.6f},{v:.6f}"
         for t, points, speeds in zip(times, results[0].tolist(), results[1].tolist(), strict=True)

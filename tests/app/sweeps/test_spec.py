@@ -1,4 +1,4 @@
-"""Specs: read from TOML, JSON and Python alike, named by their bytes, refused in words."""
+"""Specs of sweeps: equal from TOML, JSON and Python, named after their bytes; wrong ones are refused with a message."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_designs_are_all_combinations_cut_into_shards() -> None:
     assert [spec.shard(k) for k in (0, 1, 6)] == [(0, 30), (30, 60), (180, 200)]
 
 
-def test_the_size_of_shards_is_known_without_a_clock() -> None:
+def test_the_size_of_shards_depends_on_no_clock() -> None:
     assert Spec.of(changed(over={"pitch": Range(start=0.4, stop=0.6, count=10**6).model_dump()})).shard_size == 5000
     assert Spec.of(changed(over={"pitch": Range(start=0.4, stop=0.6, count=640).model_dump()})).shards == SHARDS_SMALL
 
@@ -116,7 +116,7 @@ def test_a_wrong_spec_is_refused_in_words(changes: dict[str, Any], message: str)
     assert message in refused.value.message
 
 
-def test_a_bad_value_of_a_parameter_that_varies_is_a_row_and_no_error_here() -> None:
+def test_a_bad_value_of_a_varied_parameter_is_a_design_like_any_other() -> None:
     assert Spec.of(changed(over={"pitch": [-1.0, 0.5]})).designs == 2
 
 
@@ -134,6 +134,6 @@ def test_values_are_placed_into_a_copy() -> None:
     assert base == {"path": {"kind": "spiral"}, "margin": 0}
 
 
-@pytest.mark.parametrize("stated", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
-def test_the_specs_of_the_page_are_specs(stated: str) -> None:
-    assert Spec.of(tomllib.loads(stated)).designs in (120, 1000)
+@pytest.mark.parametrize("spec", re.findall(r"^```toml\n(.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE))
+def test_the_specs_in_the_docs_are_valid(spec: str) -> None:
+    assert Spec.of(tomllib.loads(spec)).designs in (120, 1000)

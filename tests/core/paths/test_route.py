@@ -301,7 +301,7 @@ def test_position_runs_along_the_tangent_at_unit_speed(route: Route, share: floa
 def slow_clearance(route: Route, times: np.ndarray) -> np.ndarray:
     """Least distance of benches that share no handle, by shapely; 0 where two overlap. (T,) [m]
 
-    Benches whose middles are farther apart than their half diagonals reach are apart, and are left out: inf.
+    A pair whose middles are farther apart than both half diagonals together counts as infinitely far.
     """
     a, b = np.triu_indices(DRAGON.benches, 2)
     size = np.stack([DRAGON.lengths, DRAGON.widths], axis=-1)
@@ -340,13 +340,10 @@ def test_random_routes_do_meet_themselves() -> None:
     assert contact.outcome is Outcome.CONTACT
 
 
-# -- waypoints -----------------------------------------------------------------------------------------------
-
-
 # -- s and batches -------------------------------------------------------------------------------------------
 
 
-def test_s_counts_from_the_start_asked_for() -> None:
+def test_s_counts_from_the_start_of_the_route() -> None:
     pieces = [Line((0, 0), (5, 0)), Arc((5, 2), 2, -0.5 * math.pi, math.pi)]
     route = Route(pieces, start=3.0)
     assert (route.begin, route.joints, route.end) == (-3.0, (2.0,), pytest.approx(2.0 + 2.0 * math.pi, abs=1e-14))
@@ -355,7 +352,7 @@ def test_s_counts_from_the_start_asked_for() -> None:
     assert route.curvature(np.array([1.0, 3.0])) == pytest.approx([0.0, 0.5], abs=1e-15)
 
 
-def test_a_batch_of_places_is_a_loop_over_its_items() -> None:
+def test_a_batch_of_places_equals_a_loop_over_its_items() -> None:
     s = np.linspace(-20.0, 30.0, 12).reshape(3, 4)
     for name in ("position", "tangent", "curvature"):
         batch = getattr(TURN, name)(s)

@@ -25,14 +25,14 @@ DRAGON, RADIUS, TURNS = Dragon(14, 2.21, 1.47, 0.06, 0.12), 0.85, 5.0
 ONE = Dragon(1, 2.21, 1.47, 0.06, 0.12)
 # The minimum pitch of this dragon, by mpmath to 40 digits [m].
 TRUE = 0.52555267785787
-# Less than the true pitch by this, the dragon folds before the circle [m]; it gets a certificate with as much more.
+# This much below the true pitch the dragon folds before the circle; this much above it there is a certificate [m].
 OFF = 1e-11
 # The step below a minimum pitch, and a little more than it [m].
 STEP, MORE_THAN_STEP = 1e-6, 1.1e-6
-# Dense samples of a delta miss no root by more than this [rad].
+# Number of samples of a delta, and a little more than the distance between two of them [rad].
 SAMPLES, SAMPLED = 200_001, 1e-4
-# One bench, chord 2 m: from this pitch on [m] the head passes to the centre (CREST_DELTA of core/kernels/fold.py), and
-# at this much above it [m] the balls still decide.
+# From this pitch on the head of one bench with a chord of 2 m reaches the centre (CREST_DELTA of core/kernels/fold.py);
+# at this distance from it the balls still decide [m].
 VANISHED, DECIDED = 2.1727687945055, 3e-7
 
 
@@ -49,23 +49,27 @@ def alone() -> Certificate:
     return through_json(prove_minimum_pitch(ONE, pitch, turning_radius=RADIUS, start_turns=TURNS))
 
 
-def moved(theta: float, deltas: Any) -> Any:
-    """The squared distance of two handles in units of growth, law of cosines."""
+def squared_distance(theta: float, deltas: Any) -> Any:
+    """The squared distance of two handles in units of growth, by the law of cosines."""
     return theta**2 + (theta + deltas) ** 2 - 2.0 * theta * (theta + deltas) * np.cos(deltas)
 
 
 def assert_folds(certificate: Certificate) -> None:
-    """On dense samples the delta of the head bench at the first place is cut off from any delta at the second one."""
+    """Dense samples show the fold of the head bench.
+
+    At the first place its rear handle is more than half a turn behind, and a wall stands behind that: angles at which
+    the distance is too short again. At the second place every angle up to that wall is too short.
+    """
     claim, (before, after) = certificate["claim"], certificate["overlap"]["head_theta"]
     growth = (claim["pitch"] - STEP) / (2.0 * math.pi)
     assert claim["turning_radius"] / growth <= after < before <= 2.0 * math.pi * claim["start_turns"]
     _, length, _, overhang = certificate["dragon"][0]
     needed, deltas = ((length - 2.0 * overhang) / growth) ** 2, np.linspace(0.0, 2.0 * math.pi, SAMPLES)
-    reached = int(np.argmax(moved(before, deltas) >= needed))
+    reached = int(np.argmax(squared_distance(before, deltas) >= needed))
     assert deltas[reached] > math.pi
-    wall = reached + int(np.argmax(moved(before, deltas[reached:]) < needed))
+    wall = reached + int(np.argmax(squared_distance(before, deltas[reached:]) < needed))
     assert wall > reached
-    assert np.all(moved(after, deltas[: wall + 1]) < needed)
+    assert np.all(squared_distance(after, deltas[: wall + 1]) < needed)
 
 
 @pytest.mark.uncompiled
@@ -131,7 +135,7 @@ def test_the_fold_of_any_bench_is_proven(seed: int, bench: int) -> None:
             verify(edit(at("overlap", "folds", put=other))(certificate))
 
 
-def test_where_a_fold_only_just_exists_it_is_proven_and_nearer_it_is_undecided() -> None:
+def test_a_fold_that_barely_exists_is_proven_and_the_limit_itself_is_undecided() -> None:
     one = Dragon(1, 2.2, 2.2, 0.02, 0.1)
     certificate = through_json(prove_minimum_pitch(one, VANISHED + DECIDED, turning_radius=0.2, start_turns=2.0))
     assert certificate["overlap"]["folds"] == 0
@@ -148,10 +152,10 @@ def test_a_bend_where_a_fold_has_just_vanished_is_the_first_root() -> None:
             result = float(delta(arb(theta), chain.needed[0]))
             before = np.linspace(0.0, result - SAMPLED, SAMPLES)
             assert result > math.pi
-            assert np.all(moved(theta, before) < (2.0 / growth) ** 2)
+            assert np.all(squared_distance(theta, before) < (2.0 / growth) ** 2)
 
 
-def test_no_fold_is_shown_where_every_bench_follows(folding: Certificate) -> None:
+def test_no_fold_is_proven_where_every_bench_follows(folding: Certificate) -> None:
     before, after = folding["overlap"]["head_theta"]
     with ctx.workprec(96):
         chain = Chain(DRAGON, folding["claim"]["pitch"] - arb(STEP), TURNS)
@@ -164,8 +168,8 @@ def test_no_fold_is_shown_where_every_bench_follows(folding: Certificate) -> Non
                 verify_fold(chain, bench, arb(before), arb(after))
 
 
-def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
-    """From farther out a delta might grow past the wall before it is one: nothing is shown then, though it folds."""
+def test_a_fold_with_a_shallow_wall_is_proven_only_from_close_to_it() -> None:
+    """From farther out the delta might grow past the wall before the wall exists: then nothing is proven."""
     pitch = VANISHED * 0.999
     fold, bench = end_theta(Dragon(1, 2.2, 2.2, 0.02, 0.1), Spiral(pitch, 2.0))
     assert bench == 0
@@ -177,9 +181,9 @@ def test_a_fold_with_a_shallow_wall_is_shown_from_near_it_alone() -> None:
 
 
 @pytest.mark.parametrize("theta", [1.1, 2.0, 10.0, 100.0])
-def test_only_up_to_its_first_crest_a_distance_is_shown_to_rise(theta: float) -> None:
+def test_a_distance_is_proven_to_rise_up_to_its_first_crest_only(theta: float) -> None:
     deltas = np.linspace(math.pi, 4.0 * math.pi, SAMPLES)
-    distance = moved(theta, deltas)
+    distance = squared_distance(theta, deltas)
     crest = int(np.argmax(np.diff(distance) < 0.0))
     later = int(np.argmax(distance[crest:] > distance[crest] + SAMPLED)) + crest
     assert 0 < crest < later
@@ -214,7 +218,7 @@ FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "places of nothing": (at("overlap", "head_theta", put=[0.0, 0.0]), "not shown to fold on the way"),
     "one place alone": (at("overlap", "head_theta", put=[10.0]), "must be a list of 2"),
     "a bench that is true": (at("overlap", "folds", put=True), "must be a whole number"),
-    "a bench of less than nothing": (at("overlap", "folds", put=-1), "must be a whole number"),
+    "a negative bench": (at("overlap", "folds", put=-1), "must be a whole number"),
     "a pair, too": (at("overlap", "benches", put=[0, 5]), "overlap.benches is unknown"),
     "a pair instead": (at("overlap", put={"benches": [0, 5], "head_theta": 11.0}), "not shown to overlap"),
     "the start instead": (at("overlap", put={"start_within_circle": True}), "not shown to lie within the circle"),

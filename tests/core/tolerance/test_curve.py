@@ -21,7 +21,7 @@ def test_a_curve_holds_the_tolerance_of_each_pitch() -> None:
     assert set(frame["limited_by"]) == {"benches"}
 
 
-def test_a_wider_spiral_allows_more_and_the_least_pitch_for_a_stray_is_its_inverse() -> None:
+def test_the_tolerance_rises_with_the_pitch_and_is_the_inverse_of_the_minimum_pitch() -> None:
     strays = [0.01, 0.03, 0.06]
     pitches = [minimum_pitch(DRAGON, start_turns=10.0, stray=stray).pitch for stray in strays]
     curve = tolerance_curve(DRAGON, pitches, start_turns=10.0)
@@ -29,7 +29,7 @@ def test_a_wider_spiral_allows_more_and_the_least_pitch_for_a_stray_is_its_inver
     assert curve.stray == pytest.approx(strays, rel=1e-3)
 
 
-def test_the_head_is_on_the_circle_then() -> None:
+def test_the_head_is_on_the_circle_at_that_time() -> None:
     dance = Dance(DRAGON, Spiral(0.6, 10.0), head_speed=2.0)
     assert dance.path.head(2.0 * time_on_circle(dance, 4.0)).radius == pytest.approx(4.0, abs=1e-12)
 
@@ -50,7 +50,7 @@ def test_the_head_is_on_the_circle_then() -> None:
     ],
     ids=["none", "a table", "inside the circle", "on the circle", "a fold before the circle", "a negative pitch"],
 )
-def test_curves_that_cannot_be_are_refused(pitches: list[float], arguments: dict[str, float], message: str) -> None:
+def test_impossible_curves_are_refused(pitches: list[float], arguments: dict[str, float], message: str) -> None:
     with pytest.raises(InvalidValue, match=message):
         tolerance_curve(DRAGON, pitches, **arguments)  # type: ignore[arg-type]
 

@@ -27,7 +27,7 @@ from tests.core.contact.test_walls import DRAGON as LAPPING
 from tests.core.contact.test_walls import LAP, VENUE
 
 DANCE = Dance(Dragon(), Spiral())
-# stray [m]; minimum pitch [m] and first contact [s] by a bound that is a little less sharp.
+# Stray [m]; the minimum pitch [m] and the first contact [s] of a bound that is a little less sharp.
 KNOWN = [(0.01, 0.47173, 401.565), (0.02, 0.49313, 389.513), (0.05, 0.55741, 311.432)]
 
 
@@ -43,7 +43,7 @@ def test_known_answers_with_a_stray(stray: float, pitch: float, time: float) -> 
     assert 2.0 * stray < contact.gap < 2.2 * stray
 
 
-def test_first_contact_with_the_tolerance_up_to_some_time_is_at_that_time() -> None:
+def test_a_stray_above_the_tolerance_until_a_time_touches_just_before_it() -> None:
     known = tolerance(DANCE, stop=300.0)
     safe, touching = known.stray_bracket
     assert touching is not None
@@ -84,12 +84,12 @@ def test_a_stray_of_0_changes_no_bit(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", QUESTIONS)
-def test_a_stray_that_cannot_be_is_refused_by_every_question(name: str) -> None:
+def test_every_question_refuses_a_negative_stray(name: str) -> None:
     with pytest.raises(InvalidValue, match=r"stray must be zero or more, got -0\.1 m"):
         QUESTIONS[name](stray=-0.1)
 
 
-def test_a_bench_may_come_as_much_nearer_to_a_wall_as_its_ground_reaches() -> None:
+def test_a_stray_brings_benches_nearer_to_a_wall_by_it_and_at_most_half_more() -> None:
     still = venue_clearance(Dance(LAPPING, LAP), VENUE, stop=10.0)
     strayed = venue_clearance(Dance(LAPPING, LAP), VENUE, stray=0.02, stop=10.0)
     for before, after in zip(still.areas, strayed.areas, strict=True):
