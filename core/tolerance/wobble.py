@@ -24,9 +24,9 @@ class Wobble(Readable):
     """Model of wobbling people. At two steps a second, a correlation time of 5 s is ten steps.
 
     lateral, forward: displacement that a person wants, across the path and along it [m]: normal numbers with these
-        standard deviations, so that one step in twenty is further than twice the deviation. Chords are rigid: of the
-        forward displacements only that of the first person remains, and the joint angles of the chain add some of the
-        lateral
+        standard deviations, so that one step in twenty is further than twice the deviation. Chords are rigid, so of
+        the forward displacements only that of the first person counts; where the chain bends, lateral ones move people
+        along the path too
     correlation_time: [s] after it 1 / e of a person's displacement is left, and the rest is new
     step: [s] between two instants, at most 1 / INSTANTS_PER_TIME of the correlation time; None stands for this maximum.
         The path of a person is as rough as a random walk, so closer instants show more contacts
@@ -79,13 +79,14 @@ def check_sizes(dance: Dance, model: Wobble) -> None:
     """raises: InvalidValue for a model whose sizes do not fit a dance"""
     bench = int(dance.dragon.chords.argmin())
     most = SIZE_PART * float(dance.dragon.chords[bench])
-    of, values = "{part} of the chord of bench {bench} ({most})", quantities("m", 9, most=most)
+    limit, values = "{part} of the chord of bench {bench} ({most})", quantities("m", 9, most=most)
     values |= {"part": SIZE_PART, "bench": bench}
     for name, size in (("lateral", model.lateral), ("forward", model.forward)):
         if size > most:
-            raise InvalidValue(f"model.{name}", f"must be at most {of}", got=Quantity(size, "m"), **values)
+            raise InvalidValue(f"model.{name}", f"must be at most {limit}", got=Quantity(size, "m"), **values)
     if model.play > most:
-        rule, got = f"must leave a play of at most {of} around its {{pin}}", f"{Quantity(model.play, 'm', 9)} of play"
+        rule = f"must leave a play of at most {limit} around its {{pin}}"
+        got = f"{Quantity(model.play, 'm', 9)} of play"
         raise InvalidValue("model.hole", rule, got=got, pin=Parameter("model.pin"), **values)
     if model.pitch_error > 0.0:
         spiral, rule = dance.path.spiral, "must be 0 on a path that is not a spiral"

@@ -54,7 +54,7 @@ class Tally:
 
 
 def mutated(value: Any, chance: random.Random) -> Any:
-    """The value with one thing in it changed: a part left out, named otherwise, given twice, or odd."""
+    """The value with one thing in it changed: a part left out, renamed, repeated, or odd."""
     inner = list(value) if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else []
     if not inner or chance.random() < 0.15:
         return copy.deepcopy(chance.choice(ODD))

@@ -1,5 +1,5 @@
-"""The command bench-dragon, asked from Python by run() and from a shell by the `bench-dragon` in bin_folder(); and
-`bench-dragon serve`, started by serve().
+"""The command bench-dragon: run() runs it from Python, the script in bin_folder() from a shell, and serve() starts
+`bench-dragon serve`.
 
 A new process takes longer to start Python and to import the command than to answer. So one process imports every
 command and is forked for each run; everything after the import is the run's own: arguments, folder, environment,
@@ -43,10 +43,10 @@ LAZY = (
     *("matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "matplotlib.backends.backend_svg"),
     *("fcl", "scipy.interpolate", "scipy.special", "shapely"),
 )
-# What needs another program, and the compiled loops.
+# Never imported beforehand: what needs another program, and the compiled loops.
 NEVER = ("app.sweeps.cluster", "core.kernels.")
 WORDS_MAX = 1 << 17  # of folder, environment and arguments together [bytes]
-# The command for a shell: it hands what it is given to the process that forks, and ends with the exit code of the run.
+# The command for a shell: it passes its arguments to the process that forks, and ends with the exit code of the run.
 SHELL = """#!/bin/sh
 exec {python} -IS {program} "$@"
 """
@@ -81,7 +81,7 @@ def run(
 
 
 def _forked(arguments: Sequence[str], environment: Mapping[str, str], files: Sequence[TextIO], room: int | None) -> int:
-    """Exit code of a run in this folder with these files as its standard input, output and error."""
+    """Exit code of one run in this folder with these files as its standard input, output and error."""
     with _forked_process(str(Path.cwd()), arguments, environment, [file.fileno() for file in files], room) as peer:
         code = peer.recv(9)
     if not code:
@@ -100,7 +100,7 @@ def _forked_process(
 
 
 class Serving:
-    """A service that runs: its number and its end, in the words of subprocess.Popen."""
+    """A running service, with the interface of subprocess.Popen."""
 
     returncode: int | None = None
 
@@ -198,7 +198,7 @@ def main() -> None:
             getattr(core, name)
         _build(import_module("pydantic").BaseModel)
     sys.modules["__main__"].__package__ = None  # click names the program by its script, not by `python -m`
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nothing stays of a run that has ended
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # a run that has ended leaves no zombie
     with socket.socket(fileno=int(sys.argv[1])) as door:
         while sys.stdin not in select.select([door, sys.stdin], [], [])[0]:
             peer, _ = door.accept()
@@ -228,7 +228,7 @@ def _answer(peer: socket.socket, app: Any, entry: Any) -> None:
     for number, file in enumerate(files):
         os.dup2(file, number)
         os.close(file)
-    # As a new process opens them; what waited to be written in this one is gone.
+    # Opened as a new process opens them; output in the buffers of this process is dropped.
     sys.stdin, sys.stdout, sys.stderr = (
         open(number, mode, encoding="utf-8")  # noqa: SIM115
         for number, mode in enumerate(("r", "w", "w"))

@@ -56,7 +56,7 @@ def test_every_frame_shows_every_bench_where_it_is(path: Spiral | Turn, tmp_path
     dance = Dance(Dragon(benches=30), path)
     file = tmp_path / "dance.mp4"
     kind = "turn" if isinstance(path, Turn) else "spiral"
-    request = tmp_path / "asked.json"
+    request = tmp_path / "request.json"
     request.write_text(f'{{"dragon": {{"benches": 30}}, "path": {{"kind": "{kind}"}}}}')
     done = run(
         "film", str(request), "--output", str(file), "--start", "0", "--stop", "90", "--seconds", "1", "--rate", "5"
@@ -160,8 +160,8 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("form", [MP4_TYPE, GIF_TYPE])
 @pytest.mark.parametrize("frames", some(range(0, 20, 2), 2))
-def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
-    """Its encoder may still write a frame then: the process goes on, and so does the next film."""
+def test_stopping_a_film_harms_no_other(form: str, frames: int) -> None:
+    """Its encoder may be writing a frame. The process lives on, and the next film is drawn."""
     budget = Budget()
 
     def stop_after(share: float) -> None:
@@ -179,7 +179,7 @@ def test_a_film_that_is_stopped_ends_alone(form: str, frames: int) -> None:
 # A march of which a film shows a part in slow motion, and the error with which a stroke may be heard [s].
 MARCH = [{"bars": 2, "tempo": 96, "step": 0.6}, {"bars": 2, "tempo": 132, "step": 0.3, "beats": 3}]
 HEARD = 0.010
-# A stroke is heard where the sound first passes this loudness again [1], and this long after the one before [s].
+# A stroke begins where the sound is louder than LOUD [1] for the first time in APART [s].
 LOUD, APART = 0.15, 0.2
 
 

@@ -43,7 +43,7 @@ def test_the_way_to_the_circle_has_the_tolerance_of_core_and_a_pose_that_overlap
     assert result.benches in {tuple(pair) for pair in touching.pairs.tolist()}
 
 
-def test_any_dance_in_any_venue_has_one(client: httpx.Client) -> None:
+def test_any_dance_in_any_venue_has_a_tolerance(client: httpx.Client) -> None:
     square = [[-9, -9], [9, -9], [9, 9], [-9, 9], [-9, -9]]
     venue = {"type": "Polygon", "coordinates": [square]}
     path = {"kind": "spiral", "pitch": 0.9, "start_turns": 9.0}
@@ -132,7 +132,7 @@ def test_a_circle_that_cannot_end_a_dance_is_refused(
     assert words in refused.json()["detail"]
 
 
-def test_a_curve_can_be_asked_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(client: httpx.Client) -> None:
+def test_a_curve_is_answered_where_a_dance_at_the_minimum_pitch_begins_on_the_circle(client: httpx.Client) -> None:
     got = (
         client.get("/tolerance-curve", params={"benches": 2, "start_turns": 9, "samples": 2}).raise_for_status().json()
     )
@@ -169,7 +169,7 @@ def test_a_stray_of_0_gives_the_same_bytes(client: httpx.Client, call: str) -> N
         ("/tolerance", {"turning_diameter": 1}, "turning_diameter", "before the head is on that circle"),
     ],
 )
-def test_what_cannot_be_is_refused_with_its_limit(
+def test_impossible_values_are_refused_with_their_limit(
     client: httpx.Client, call: str, query: dict[str, Any], field: str, words: str
 ) -> None:
     answer = client.get(call, params=query)

@@ -21,7 +21,7 @@ from core import TooMuchWork
 from core.kernels import Halted
 from tests.app.service.test_problems import ask
 
-# No computation here goes on for longer [s].
+# Every computation here ends within this time [s].
 SOON = 10.0
 
 # What a question does before it answers, from its terms and the number of its computation.
@@ -68,7 +68,7 @@ def quick(terms: Terms, number: int) -> None:
 
 
 def slow_at_first(terms: Terms, number: int) -> None:
-    """The first time more than the event loop may do, as on a busy machine."""
+    """The first computation takes longer than the event loop may, as on a busy machine."""
     if number == 1:
         until_stopped(terms, number)
 

@@ -1,4 +1,4 @@
-"""Rectangles in decimals: their separation, and the axis along which they have it."""
+"""Rectangles in decimals: their separation, and its axis."""
 
 from __future__ import annotations
 

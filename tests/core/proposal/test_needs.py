@@ -1,4 +1,4 @@
-"""What a dragon needs beside its path, against benches that stand on circles."""
+"""The room that a dragon needs beside its path, compared with benches on circles."""
 
 from __future__ import annotations
 
