@@ -235,12 +235,7 @@ class Dance(Readable):
         Only `default_start` if the run is too short for a whole second.
         raises: InvalidValue (path) for a route too short for the dragon
         """
-        start = self.default_start
-        # Both are whole numbers, so rounding cannot pass the end.
-        first, last = math.ceil(start), math.floor(self.end.time)
-        if first > last:
-            return np.array([start])
-        return np.arange(first, min(first + DEFAULT_SPAN, last) + 1, dtype=np.float64)
+        return whole_seconds(self.default_start, self.end.time)
 
     def _rows(self) -> list[tuple[str, str]]:
         return [*super()._rows(), ("end", self.end._line())]
@@ -321,6 +316,15 @@ def _end(dragon: Dragon, path: Spiral | Route, clock: Clock) -> RunEnd:
         raise InvalidValue("path.start_turns", rule, got=Quantity(got, "turns"), **values)
     time = clock.time(spiral.length - spiral.growth * float(kernels.spiral_arc(theta)))
     return RunEnd(EndReason.CENTRE if bench is None else EndReason.FOLD, time, theta, bench)
+
+
+def whole_seconds(start: float, end: float) -> Floats:
+    """Whole seconds (T,) from start on, for DEFAULT_SPAN or to the end [s]; only start if there is none between."""
+    # Both are whole numbers, so rounding cannot pass the end.
+    first, last = math.ceil(start), math.floor(end)
+    if first > last:
+        return np.array([start])
+    return np.arange(first, min(first + DEFAULT_SPAN, last) + 1, dtype=np.float64)
 
 
 def checked_instants(instants: ArrayLike) -> Floats:

@@ -15,6 +15,7 @@ from app.command.options import Json
 from app.command.usage import path_argument
 from app.extras import require
 from app.files.disk import checked_output, object_words
+from app.files.performance_tables import PerformanceTable, performance_file
 from app.files.tables import TABLE_ENDINGS, Language, trajectory_writer
 from app.maps.dances import read_dance
 from app.questions import check as checks
@@ -65,14 +66,10 @@ def check(
     if cross_check is not None:
         dance["cross_check"] = cross_check
     request = checked(CheckRequest, dance, object_words(file))
-    if request.dances is not None and output:
-        words = "cannot write several dances: leave it out, or give a FILE with dragon and path in place of dances"
-        raise InvalidValue.in_words("output", f"--output {words}")
     with refusing(request), show.waiting("check"):
         answer = checks.check(request, Terms())
         drawn = _drawn(request, answer, Format(ending[1:]), time) if figure else b""
-        write = trajectory_writer(suffix, None, Language.ENGLISH, _clock(request)) if suffix else None
-        table = write(_danced(request, answer)) if write else b""
+        table = _table(request, answer, suffix) if suffix else b""
     if figure:
         show.write(figure, drawn)
     if output:
@@ -80,18 +77,19 @@ def check(
     show.print_result(answer, json, _report_parts(answer, request))
 
 
-def _clock(request: CheckRequest) -> str | None:
-    """The time of day at time 0; None if the request gives none."""
-    return clock_of(request, request.to_dance(Settings().checked_benches_max))
-
-
-def _danced(request: CheckRequest, answer: Report | PerformanceReport) -> core.Trajectory:
-    """Positions and speeds at every second of the judged interval, within the run."""
+def _table(request: CheckRequest, answer: Report | PerformanceReport, ending: str) -> bytes:
+    """Positions and speeds at every second of the judged interval, within the run, as a file with that ending."""
     settings = Settings()
+    if isinstance(answer, PerformanceReport):
+        performance = request.to_performance(settings)
+        seconds = TimeRange(start=answer.start, stop=answer.stop).times_of(performance, settings.cells_max)
+        results = core.performance_trajectory(performance, seconds)
+        return performance_file(ending, PerformanceTable(performance, results, clock=clock_of(request, performance)))
     dance = request.to_dance(settings.checked_benches_max)
     stop = dance.end.time if request.stop is None else min(request.stop, dance.end.time)
-    steps = TimeRange(start=answer.start, stop=stop)
-    return core.trajectory(dance, steps.times_of(dance, settings.cells_max))
+    seconds = TimeRange(start=answer.start, stop=stop).times_of(dance, settings.cells_max)
+    write = trajectory_writer(ending, None, Language.ENGLISH, clock_of(request, dance))
+    return write(core.trajectory(dance, seconds))
 
 
 def _drawn_performance(request: CheckRequest, answer: PerformanceReport, format: Format, time: float | None) -> bytes:

@@ -29,7 +29,10 @@ def collision_time(request: CollisionQuery | CollisionRequest, json: Json = Fals
 
 @asks(ClearanceQuery, ClearanceRequest)
 def clearance(request: ClearanceQuery | ClearanceRequest, json: Json = False) -> None:
-    """Smallest distance between two benches that share no handle, and the pair, at every instant."""
+    """Smallest distance between two benches that share no handle, and the pair, at every instant.
+
+    Of a FILE of several dragons, between benches of two of them.
+    """
     with show.waiting("clearance"):
         answer = clearances.clearance(request, Terms())
     show.print_result(answer, json, _clearance_parts(answer.columns))
@@ -37,11 +40,15 @@ def clearance(request: ClearanceQuery | ClearanceRequest, json: Json = False) ->
 
 def _clearance_parts(columns: dict[str, Any]) -> Iterator[show.Part]:
     """Clearance at every instant, and the local minima between them."""
-    table = show.new_table("Clearance", "time [s]", "clearance [m]", "benches")
-    for time, clearance, benches in zip(columns["time"], columns["clearance"], columns["benches"], strict=True):
-        table.add_row(format_number(time), show.separation(clearance), show.value_text(tuple(benches)))
+    pairs = [name for name in ("dragons", "benches") if name in columns]
+    table = show.new_table("Clearance", "time [s]", "clearance [m]", *pairs)
+    for time, clearance, *pair in zip(*(columns[name] for name in ("time", "clearance", *pairs)), strict=True):
+        table.add_row(
+            format_number(time), show.separation(clearance), *(show.value_text(tuple(one.tolist())) for one in pair)
+        )
     yield table
-    grazes = show.new_table("Local minima", "time [s]", "clearance [m]", "benches")
+    grazes = show.new_table("Local minima", "time [s]", "clearance [m]", *pairs)
     for graze in columns["grazes"]:
-        grazes.add_row(show.value_text(graze.time), show.separation(graze.clearance), show.value_text(graze.benches))
+        pair = [show.value_text(getattr(graze, name)) for name in pairs]
+        grazes.add_row(show.value_text(graze.time), show.separation(graze.clearance), *pair)
     yield grazes if columns["grazes"] else "No local minimum between the first and the last instant."

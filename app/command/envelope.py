@@ -12,7 +12,14 @@ from app.command.options import Json, asks
 from app.extras import require
 from app.files.disk import checked_output, ending_of
 from app.files.outlines import WRITERS
-from app.questions.envelope import Envelope, EnvelopeQuery, EnvelopeRequest, envelope_of
+from app.questions.envelope import (
+    Envelope,
+    EnvelopeQuery,
+    EnvelopeRequest,
+    PerformanceEnvelope,
+    envelope_of,
+    envelopes_of,
+)
 from app.wire.question import Terms
 
 
@@ -24,13 +31,22 @@ def envelope(
     ] = None,
     json: Json = False,
 ) -> None:
-    """The ground that benches sweep: polygons proven to hold every pose and to reach at most 1 mm further."""
+    """The ground that benches sweep: polygons proven to hold every pose and to reach at most 1 mm further.
+
+    Of a FILE of several dragons, the ground of each.
+    """
     write = WRITERS[checked_output("output", output, tuple(WRITERS))] if output else None
     if output and ending_of(output) == ".dxf":
         require("dxf", "output", "DXF")
+    answer: Envelope | PerformanceEnvelope
     with show.waiting("envelope"):
-        result = envelope_of(request, Terms())
-        answer, data = Envelope.of(result, request), write(result) if write else b""
+        if isinstance(request, EnvelopeRequest) and request.dances is not None:
+            performance, results, grounds = envelopes_of(request, Terms())
+            answer = PerformanceEnvelope.together(results, request, performance)
+            data = write[1](grounds) if write else b""
+        else:
+            result = envelope_of(request, Terms())
+            answer, data = Envelope.of(result, request), write[0](result) if write else b""
     if output:
         show.write(output, data)
     show.print_answer("Ground that benches sweep", answer, json)

@@ -20,7 +20,7 @@ from app.maps.dances import read_dance
 from app.settings import Settings
 from app.wire.dances import DanceFields, PathFields, SpanFields, TimeRange
 from app.wire.messages import checked
-from app.wire.performances import BESIDE_SEVERAL
+from app.wire.performances import BESIDE_SEVERAL, PerformanceFields
 from app.wire.question import DanceQuery, Strays
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
@@ -109,12 +109,20 @@ def _steps(held: dict[str, Any], body: type[BaseModel], context: typer.Context) 
     if steps or ends:
         context.meta[RANGED] = True
     if "start" in ends and "stop" not in ends | steps:
-        request = checked(DanceFields, {name: held[name] for name in DanceFields.model_fields if name in held})
-        with refusing(request):
-            dance = request.to_dance(Settings().benches_max)
-            start = (ends | steps)["start"]
-            ends["stop"] = max(start, min(start + DEFAULT_SPAN, math.floor(dance.end.time)))
+        start = (ends | steps)["start"]
+        ends["stop"] = max(start, min(start + DEFAULT_SPAN, math.floor(_end_of(held))))
     return ends | steps
+
+
+def _end_of(held: dict[str, Any]) -> float:
+    """End time of the dance, or of the dances, in a file [s]. raises: InvalidValue"""
+    if "dances" in held:
+        several = checked(PerformanceFields, {"dances": held["dances"]})
+        with refusing(several):
+            return several.to_performance(Settings()).end.time
+    request = checked(DanceFields, {name: held[name] for name in DanceFields.model_fields if name in held})
+    with refusing(request):
+        return request.to_dance(Settings().benches_max).end.time
 
 
 @contextmanager

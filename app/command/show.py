@@ -177,6 +177,9 @@ def _flat(answer: BaseModel, prefix: str = "", *, benches: int) -> Iterator[tupl
             yield from ((f"{label}: {word}", text) for word, text in _check_words(value, benches))
         elif isinstance(value, answers.Polygon | answers.MultiPolygon):
             yield label, _polygon_words(value)
+        elif isinstance(value, list) and value and isinstance(value[0], BaseModel) and len(value) <= LISTED_MOST:
+            for k, one in enumerate(value):
+                yield from _flat(one, f"{label}[{k}]: ", benches=benches)
         elif isinstance(value, list) and (count := sum(map(_entries, value))) > LISTED_MOST:
             yield label, f"{count}, listed by --json"
         elif isinstance(value, answers.DragonPair):

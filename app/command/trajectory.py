@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -17,10 +18,11 @@ from app.command.options import Json, asks, numbers, typed_options, unused
 from app.command.paths import PathOptions, dance_of
 from app.files import tables
 from app.files.disk import checked_output, write_whole
+from app.files.performance_tables import PerformanceTable, performance_file
 from app.files.tables import PAPER_HANDLES, TABLE_ENDINGS, trajectory_writer
 from app.questions.trajectory import TrajectoryRequest
 from app.settings import Settings
-from app.wire.dances import TimeRange, clock_of
+from app.wire.dances import TimeRange, clock_of, handles_of
 from app.wire.messages import checked
 from app.wire.question import measure
 from core import Dragon, InvalidValue, RunEnd, Trajectory
@@ -61,7 +63,7 @@ def trajectory(
     ] = tables.Language.ENGLISH,
     json: Json = False,
 ) -> None:
-    """Position and speed of every handle."""
+    """Position and speed of every handle; of a FILE of several dragons, of each."""
     ending = checked_output("output", output, TABLE_ENDINGS) if output else ".json" if json else None
     if ending and typed_options(context, "handles"):
         words = "--handles chooses rows of the table: leave it out with --output or --json"
@@ -72,6 +74,9 @@ def trajectory(
     if ending != ".xlsx":
         unused(context, ["language"], "applies to the names in an xlsx file: give --output with .xlsx, or leave it out")
     settings = Settings()
+    if isinstance(request, TrajectoryRequest) and request.dances is not None:
+        _of_several(request, context, output, ending, language)
+        return
     dance = dance_of(request, context, settings.benches_max)
     clock = clock_of(request, dance) if isinstance(request, TrajectoryRequest) else None
     write = trajectory_writer(ending, request.decimals, language, clock) if ending else None
@@ -87,14 +92,51 @@ def trajectory(
     with show.waiting("trajectory"):
         result = core.trajectory(dance, instants)
         data = write(result) if write else b""
-    if output:
-        write_whole(output, data)
-        print(f"{output}: {dance.dragon.benches + 1} handles at {instants.size} instants", file=sys.stderr)
-    elif json:
-        show.print_json(data)
+    if ending:
+        _write(data, output, handles_of(dance), instants.size)
     else:
         fold, all_instants = dance.end if dance.end.bench is not None else None, isinstance(times, (str, list))
-        show.print_parts(*_parts(result, handles, all_instants=all_instants, decimals=request.decimals, fold=fold))
+        look = _Look("", all_instants, request.decimals, fold)
+        show.print_parts(*_parts(result, handles, tables.own_names(result), look))
+
+
+def _of_several(
+    request: TrajectoryRequest,
+    context: typer.Context,
+    output: Path | None,
+    ending: str | None,
+    language: tables.Language,
+) -> None:
+    """Print or write where the handles of several dragons are."""
+    settings = Settings()
+    performance = request.to_performance(settings)
+    instants = request.times_of(performance, settings.cells_max)
+    dragons = [part.dance.dragon for part in performance.parts]
+    handles = _handles(context.params["handles"], min(dragons, key=lambda dragon: dragon.benches))
+    with show.waiting("trajectory"):
+        results = core.performance_trajectory(performance, instants)
+        clock = clock_of(request, performance)
+        table = PerformanceTable(performance, results, request.decimals, clock, language)
+        data = performance_file(ending, table) if ending else b""
+    if ending:
+        _write(data, output, handles_of(performance), instants.size)
+        return
+    all_instants = isinstance(request.times, list)
+    for k, (part, result) in enumerate(zip(performance.parts, results, strict=True)):
+        end = part.dance.end
+        fold = replace(end, time=part.end) if part.folds else None
+        names = tables.own_names(result, own=part.dance.dragon.names)
+        look = _Look(f"{performance.name_of(k)}: ", all_instants, request.decimals, fold)
+        show.print_parts(*_parts(result, handles, names, look))
+
+
+def _write(data: bytes, output: Path | None, handles: int, instants: int) -> None:
+    """Write a file, or print it."""
+    if output is None:
+        show.print_json(data)
+        return
+    write_whole(output, data)
+    print(f"{output}: {handles} handles at {instants} instants", file=sys.stderr)
 
 
 def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
@@ -109,29 +151,39 @@ def _handles(text: str | None, dragon: Dragon) -> list[int] | None:
     return handles
 
 
-def _parts(
-    result: Trajectory, handles: Sequence[int] | None, *, all_instants: bool, decimals: int | None, fold: RunEnd | None
-) -> Iterator[show.Part]:
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """The look of tables.
+
+    title: what stands before the titles; decimals: of every number; None: show.DISPLAY_DECIMALS
+    all_instants: all instants, in as many tables as needed; else up to PRINTED_INSTANTS, evenly spaced, in one table
+    fold: end of the run, if it is a fold; instants just before it are marked, as speeds grow without bound there
+    """
+
+    title: str
+    all_instants: bool
+    decimals: int | None
+    fold: RunEnd | None
+
+
+def _parts(result: Trajectory, handles: Sequence[int] | None, names: Sequence[str], look: _Look) -> Iterator[show.Part]:
     """Tables of some handles at some instants.
 
-    handles: those to show; None: those of the contest and the last
-    decimals: of every number; None: show.SHOWN_DECIMALS
-    fold: end of the run, if it is a fold; instants just before it are marked, as speeds grow without bound there
-    all_instants: all instants, in as many tables as needed; else up to SHOWN_INSTANTS, evenly spaced, in one table
+    handles: those to show; None: those of the contest and the last; names: of all handles
     """
+    fold, all_instants = look.fold, look.all_instants
     instants, number = result.speed.shape
     rows = list(handles) if handles else sorted({k for k in PAPER_HANDLES if k < number} | {number - 1})
-    names = tables.own_names(result)
     labels = [f"{k} {names[k]}" for k in rows]
     x, y = result.position[..., 0], result.position[..., 1]
-    places = show.DISPLAY_DECIMALS if decimals is None else decimals
+    places = show.DISPLAY_DECIMALS if look.decimals is None else look.decimals
     instant_names = [_instant(result, t, fold) for t in range(instants)]
     widest = max(map(len, [*labels, "handle"]))
     room = show.new_console().width - show.TABLE_SPACE - show.COLUMN_SPACE - widest
     blocks = _blocks(result, rows, instant_names, room, all_instants, places)
-    for title, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
+    for what, values in (("x [m]", x), ("y [m]", y), ("speed [m/s]", result.speed)):
         for block in blocks:
-            table = show.new_table(title, "handle", *(instant_names[t] for t in block))
+            table = show.new_table(f"{look.title}{what}", "handle", *(instant_names[t] for t in block))
             for k, label in zip(rows, labels, strict=True):
                 table.add_row(label, *(_entry(value, places) for value in values[block, k]))
             yield table

@@ -1,4 +1,4 @@
-"""The envelope of a dance as a file: GeoJSON, or DXF for drawing programs, both in metres.
+"""The envelope of a dance, or those of several, as a file: GeoJSON, or DXF for drawing programs, both in metres.
 
 The same envelope gives the same bytes, so an answer may carry a strong ETag.
 """
@@ -6,9 +6,9 @@ The same envelope gives the same bytes, so an answer may carry a strong ETag.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from importlib import import_module
-from typing import Any
+from typing import Any, NamedTuple
 
 import orjson
 
@@ -23,8 +23,25 @@ LAYERS = (("ENVELOPE", 1), ("ENVELOPE_HOLES", 5))
 METRES, VERSION = 6, "R2000"
 
 
+class Ground(NamedTuple):
+    """The envelope of one of several dragons, and its name."""
+
+    name: str | None
+    envelope: Envelope
+
+
 def envelope_geojson(envelope: Envelope) -> bytes:
     """A GeoJSON feature: the polygons, with their proven bounds as properties."""
+    return orjson.dumps(_feature(envelope))
+
+
+def grounds_geojson(grounds: Sequence[Ground]) -> bytes:
+    """A collection with the feature of each dragon, which has its number, its name and the times of its own dance."""
+    features = [_feature(one.envelope, {"dragon": k, "dragon_name": one.name}) for k, one in enumerate(grounds)]
+    return orjson.dumps({"type": "FeatureCollection", "features": features})
+
+
+def _feature(envelope: Envelope, own: dict[str, Any] | None = None) -> dict[str, Any]:
     known = {
         "name": "envelope",
         "excess": envelope.excess,
@@ -32,8 +49,8 @@ def envelope_geojson(envelope: Envelope) -> bytes:
         "start": envelope.start,
         "stop": envelope.stop,
     }
-    properties = known | {"certificate": envelope.certificate.method}
-    return orjson.dumps({"type": "Feature", "properties": properties, "geometry": geometry_of(envelope)})
+    properties = known | {"certificate": envelope.certificate.method} | (own or {})
+    return {"type": "Feature", "properties": properties, "geometry": geometry_of(envelope)}
 
 
 def new_dxf(layers: Iterable[tuple[str, int]]) -> Any:
@@ -56,13 +73,26 @@ def dxf_bytes(drawing: Any) -> bytes:
 
 def envelope_dxf(envelope: Envelope) -> bytes:
     """A DXF drawing: each ring is a closed polyline, holes on a separate layer. raises: MissingPackage"""
-    drawing = new_dxf(LAYERS)
+    return _drawing([(LAYERS, envelope)])
+
+
+def grounds_dxf(grounds: Sequence[Ground]) -> bytes:
+    """A DXF drawing with two layers for each dragon, whose number they end in. raises: MissingPackage"""
+    layers = [[(f"{name}_{k}", colour) for name, colour in LAYERS] for k in range(len(grounds))]
+    return _drawing(list(zip(layers, [one.envelope for one in grounds], strict=True)))
+
+
+def _drawing(drawn: Sequence[tuple[Sequence[tuple[str, int]], Envelope]]) -> bytes:
+    """The file of envelopes, each on two layers, of outer rings and of holes."""
+    drawing = new_dxf(layer for layers, _ in drawn for layer in layers)
     space = drawing.modelspace()
-    for rings in envelope.polygons:
-        for k, ring in enumerate(rings):
-            space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": LAYERS[k > 0][0]})
+    for layers, envelope in drawn:
+        for rings in envelope.polygons:
+            for k, ring in enumerate(rings):
+                space.add_lwpolyline(ring[:-1].tolist(), close=True, dxfattribs={"layer": layers[k > 0][0]})
     return dxf_bytes(drawing)
 
 
-# Functions of an envelope by the ending of the file.
-WRITERS = {".geojson": envelope_geojson, ".json": envelope_geojson, ".dxf": envelope_dxf}
+# Functions of an envelope, and of those of several dragons, by the ending of the file.
+WRITERS = {".geojson": (envelope_geojson, grounds_geojson), ".dxf": (envelope_dxf, grounds_dxf)}
+WRITERS[".json"] = WRITERS[".geojson"]

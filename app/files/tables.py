@@ -62,10 +62,14 @@ def handle_names(benches: int, language: Language = Language.ENGLISH) -> list[st
     return [head, *body, tail, rear] if benches > 1 else [head, rear]
 
 
-def own_names(result: Trajectory, language: Language = Language.ENGLISH) -> list[str]:
-    """Name of every handle: the name that its bench was given, else that of handle_names()."""
+def own_names(result: Trajectory, language: Language = Language.ENGLISH, own: Sequence[str] | None = None) -> list[str]:
+    """Name of every handle: the name that its bench was given, else that of handle_names().
+
+    own: names of the benches, empty without; None: those of the dance of the result
+    """
     names = handle_names(result.speed.shape[-1] - 1, language)
-    own = result.dance.dragon.names if result.dance else ()
+    if own is None:
+        own = result.dance.dragon.names if result.dance else ()
     rear = "（后）" if language is Language.CHINESE else " (rear)"
     own_of_handles = [*own, f"{own[-1]}{rear}" if own and own[-1] else ""]
     return [name or known for name, known in zip(own_of_handles, names, strict=True)] if own else names
@@ -76,7 +80,7 @@ def _rounded(column: Floats, decimals: int | None) -> Floats:
     return column if decimals is None else np.round(column, decimals) + 0.0
 
 
-def _columns(result: Trajectory, rows: slice, decimals: int | None) -> dict[str, np.ndarray]:
+def columns_of(result: Trajectory, rows: slice, decimals: int | None) -> dict[str, np.ndarray]:
     """time, handle, x, y, speed of some instants, each (T * H,): instants in order, handles in order within each."""
     position, speed = result.position[rows], result.speed[rows]
     instants, handles = speed.shape
@@ -107,29 +111,41 @@ def trajectory_csv(result: Trajectory, decimals: int | None = None, start_clock:
 
 def csv_blocks(result: Trajectory, decimals: int | None = None, start_clock: str | None = None) -> Iterator[bytes]:
     """The same CSV in blocks of lines, each made on demand."""
-    instants, handles = result.speed.shape
     has_names = bool(result.dance and result.dance.dragon.names)
-    names = [_quoted(name) for name in own_names(result)] if has_names else []
+    yield csv_head(start_clock, has_names=has_names)
+    yield from csv_lines(result, decimals, start_clock, own_names(result) if has_names else ())
+
+
+def csv_head(start_clock: str | None, *, has_names: bool) -> bytes:
+    """The first line of the CSV: the names of its columns."""
     added = [column for column, known in ((NAME, has_names), (CLOCK, start_clock)) if known]
-    yield ",".join([*COLUMNS, *added]).encode() + b"\n"
+    return ",".join([*COLUMNS, *added]).encode() + b"\n"
+
+
+def csv_lines(
+    result: Trajectory, decimals: int | None, start_clock: str | None, names: Sequence[str]
+) -> Iterator[bytes]:
+    """The other lines of the CSV in blocks. names: of the handles, for a column of their own; empty: without it"""
+    instants, handles = result.speed.shape
+    entries = [text_entry(name) for name in names]
     rows = max(CSV_BLOCK // handles, 1)
     for first in range(0, instants, rows):
         columns = [
             orjson.dumps(np.ascontiguousarray(column), option=orjson.OPT_SERIALIZE_NUMPY)[1:-1].split(b",")
-            for column in _columns(result, slice(first, first + rows), decimals).values()
+            for column in columns_of(result, slice(first, first + rows), decimals).values()
         ]
         times = result.time[first : first + rows].tolist()
-        if has_names:
-            columns.append(names * len(times))
+        if entries:
+            columns.append(entries * len(times))
         if start_clock:
             columns.append([word for time in times for word in [time_of_day(time, start_clock).encode()] * handles])
         yield b"\n".join(map(b",".join, zip(*columns, strict=True))) + b"\n"
 
 
-def _quoted(name: str) -> bytes:
-    """An entry of CSV."""
-    name = text_to_cell(name)
-    return ('"' + name.replace('"', '""') + '"' if set(name) & {",", '"'} else name).encode()
+def text_entry(text: str) -> bytes:
+    """Text as an entry of CSV."""
+    text = text_to_cell(text)
+    return ('"' + text.replace('"', '""') + '"' if set(text) & {",", '"'} else text).encode()
 
 
 def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
@@ -137,10 +153,15 @@ def trajectory_arrow(result: Trajectory, decimals: int | None = None) -> bytes:
 
     raises: MissingPackage without pyarrow
     """
+    return arrow_bytes(columns_of(result, slice(None), decimals))
+
+
+def arrow_bytes(columns: dict[str, np.ndarray]) -> bytes:
+    """Arrow IPC file with these columns. raises: MissingPackage without pyarrow"""
     require("arrow", "format", "Arrow")
     import pyarrow
 
-    table = pyarrow.table(_columns(result, slice(None), decimals))
+    table = pyarrow.table(columns)
     sink = io.BytesIO()
     with pyarrow.ipc.new_file(sink, table.schema) as writer:
         writer.write_table(table)
@@ -154,20 +175,27 @@ def trajectory_xlsx(result: Trajectory, decimals: int | None = None, language: L
     decimals: None gives XLSX_DECIMALS
     raises: MissingPackage without xlsxwriter, TooLarge when the format has too few rows or columns
     """
-    decimals = XLSX_DECIMALS if decimals is None else decimals
+    refuse_large_sheets(result)
+    return workbook(trajectory_sheets(result, language), XLSX_DECIMALS if decimals is None else decimals)
+
+
+def refuse_large_sheets(result: Trajectory) -> None:
+    """raises: TooLarge for a trajectory that has more rows or columns than a sheet may have"""
     instants, handles = result.speed.shape
     if 2 * handles + 1 > XLSX_ROWS_MAX or instants + 1 > XLSX_COLUMNS_MAX:
         words, got = "xlsx holds at most {handles} handles and {instants} instants", f"{handles} and {instants}"
         most = {"handles": (XLSX_ROWS_MAX - 1) // 2, "instants": XLSX_COLUMNS_MAX - 1}
         raise TooLarge.in_words("format", words, got=got, reason="ask for csv", **most)
-    return workbook(trajectory_sheets(result, language), decimals)
 
 
-def trajectory_sheets(result: Trajectory, language: Language) -> list[Worksheet]:
-    """Positions, with two rows for each handle, x above y, and speeds: handles as rows, instants as columns."""
+def trajectory_sheets(result: Trajectory, language: Language, own: Sequence[str] | None = None) -> list[Worksheet]:
+    """Positions, with two rows for each handle, x above y, and speeds: handles as rows, instants as columns.
+
+    own: as for own_names()
+    """
     instants, handles = result.speed.shape
     chinese = language is Language.CHINESE
-    names, gap = own_names(result, language), "" if chinese else " "
+    names, gap = own_names(result, language, own), "" if chinese else " "
     times = [f"{instant:.12g} s" for instant in result.time.tolist()]
     positions = result.position.transpose(1, 2, 0).reshape(2 * handles, instants)
     axes = [f"{name}{gap}{axis} (m)" for name in names for axis in "xy"]

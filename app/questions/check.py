@@ -37,10 +37,6 @@ class DanceCheck(Contact, SpanFields, PlacedDance, strict=True):
 class CheckRequest(SeveralFields, DanceCheck, strict=True):
     """Verdict on a dance: dragon, path, venue and limits; or on several dances on one clock."""
 
-    @property
-    def benches(self) -> int:
-        return super().benches if self.dances is None else sum(part.benches for part in self.dances)
-
 
 class LeastClearance(Answer):
     """The least clearance over the dance."""
@@ -201,7 +197,7 @@ class Report(Answer):
     )
 
     @classmethod
-    def of(cls, result: core.Report, request: CheckRequest, terms: Terms, place: Place, clock: str | None) -> Self:
+    def of(cls, result: core.Report, request: DanceCheck, terms: Terms, place: Place, clock: str | None) -> Self:
         dragon = result.first_contact.dance.dragon
         contact = CollisionTime.of(result.first_contact, request, terms)
         failures = [Failure.of(failure, dragon, clock) for failure in result.failures]
@@ -315,9 +311,9 @@ class PerformanceReport(Answer):
         )
 
 
-def check(request: CheckRequest, terms: Terms) -> Report | PerformanceReport:
+def check(request: DanceCheck, terms: Terms) -> Report | PerformanceReport:
     """Verdict on a dance in its venue: first contact, least clearance, venue, speed, sharpest bend."""
-    if request.dances is not None:
+    if isinstance(request, CheckRequest) and request.dances is not None:
         performance, place = request.to_placed(terms.settings)
         return PerformanceReport.of(verdict_together(request, performance, terms), request, terms, place)
     dance = request.to_dance(terms.settings.checked_benches_max)

@@ -1,12 +1,14 @@
-"""The question clearance: the smallest distance between two benches over time."""
+"""The question clearance: the smallest distance between two benches over time, of one dragon or of two."""
 
 from __future__ import annotations
 
 from pydantic import Field
 
 import core
+from app.questions.encounter import NearPass
 from app.wire.answers import Columns, Graze, Pair
 from app.wire.dances import TimedDance, TimeRange
+from app.wire.performances import SeveralDances
 from app.wire.question import Answer, DanceQuery, Question, Terms, measure
 
 # Time that one bench at one instant takes, measured 2026-11-22 [s].
@@ -17,8 +19,12 @@ class ClearanceQuery(TimeRange, DanceQuery):
     """Smallest distance between two benches over time, on a spiral."""
 
 
-class ClearanceRequest(TimedDance):
-    """Smallest distance between two benches over time, on any path."""
+class DanceClearance(TimedDance):
+    """Smallest distance between two benches of a dragon over time, on any path."""
+
+
+class ClearanceRequest(SeveralDances, DanceClearance):
+    """Smallest distance between two benches over time, on any path; of several dragons, between two of them."""
 
 
 class ClearanceTable(Answer):
@@ -30,22 +36,45 @@ class ClearanceTable(Answer):
     grazes: list[Graze] = Field(description="Local minima between the first and the last instant, refined")
 
 
-def clearance(request: ClearanceQuery | ClearanceRequest, terms: Terms) -> Columns:
+class PerformanceClearanceTable(Answer):
+    """Columns with one entry per instant, and the local minima between the instants."""
+
+    time: list[float] = measure("s", "Instants")
+    clearance: list[float] = measure("m", "Smallest separation of two benches of different dragons")
+    dragons: list[Pair] = Field(description="The two dragons with that separation, in the order of the dances, from 0")
+    benches: list[Pair] = Field(description="Their benches, one of each")
+    grazes: list[NearPass] = Field(description="Local minima between the first and the last instant, refined")
+
+
+def clearance(request: ClearanceQuery | DanceClearance, terms: Terms) -> Columns:
     """Smallest separation of two benches that are not neighbours, and the pair, at every instant."""
+    if isinstance(request, ClearanceRequest) and request.dances is not None:
+        between = between_dragons(request, terms)
+        names = ("time", "clearance", "dragons", "benches", "grazes")
+        return Columns({name: getattr(between, name) for name in names})
     result = profile_of(request, terms)
     columns = {"time": result.time, "clearance": result.clearance, "benches": result.benches}
     return Columns(columns | {"grazes": result.grazes})
 
 
-def profile_of(request: ClearanceQuery | ClearanceRequest, terms: Terms) -> core.ClearanceProfile:
+def between_dragons(request: ClearanceRequest, terms: Terms) -> core.PerformanceClearance:
+    """The clearance between dragons as an object of core. raises: TooLarge, InvalidValue"""
+    performance = request.to_performance(terms.settings)
+    times = request.times_of(performance, terms.settings.cells_max)
+    return core.performance_clearance(performance, times, budget=terms.budget)
+
+
+def profile_of(request: ClearanceQuery | DanceClearance, terms: Terms) -> core.ClearanceProfile:
     """The clearance as an object of core. raises: TooLarge, InvalidValue"""
     flat = isinstance(request, ClearanceQuery)
     dance = request.to_dance(terms.settings.benches_max if flat else terms.settings.checked_benches_max)
     return core.clearance_profile(dance, request.times_of(dance, terms.settings.cells_max), budget=terms.budget)
 
 
-def _cost(request: ClearanceQuery | ClearanceRequest) -> float:
+def _cost(request: ClearanceQuery | DanceClearance) -> float:
     return request.instants() * request.benches * SECONDS_PER_CELL
 
 
-QUESTION = Question(clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost)
+QUESTION = Question(
+    clearance, ClearanceTable, flat=ClearanceQuery, body=ClearanceRequest, cost=_cost, several=PerformanceClearanceTable
+)

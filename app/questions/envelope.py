@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from typing import Annotated, Self
 
 from pydantic import Field
 
 import core
-from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_dxf, envelope_geojson
+from app.files import outlines
+from app.files.outlines import DXF_TYPE, GEOJSON_TYPE
 from app.wire.answers import MultiPolygon, Polygon
 from app.wire.claims import GroundClaim
 from app.wire.dances import DanceFields, SpanFields
 from app.wire.geojson import geometry_of
 from app.wire.paths import Point
+from app.wire.performances import SeveralDances
 from app.wire.question import JSON, Answer, DanceQuery, Instant, Question, Terms, measure
 
 # Largest number of points of a line of spectators.
@@ -33,8 +35,8 @@ class EnvelopeQuery(WholeSpan, DanceQuery):
     """The ground that a uniform dragon sweeps on a spiral."""
 
 
-class EnvelopeRequest(WholeSpan, DanceFields, strict=True):
-    """The ground that benches sweep in any dance."""
+class EnvelopeRequest(SeveralDances, WholeSpan, DanceFields, strict=True):
+    """The ground that benches sweep in any dance, or in each of several on one clock."""
 
     spectators: list[Point] | None = measure(
         "m",
@@ -77,10 +79,44 @@ class Envelope(Answer):
         return cls.from_result(result, envelope=geometry_of(result), distance=distance)
 
 
-# Forms of an envelope besides JSON: media type -> function of the envelope.
-FORMS: dict[str, Callable[[core.Envelope], bytes]] = {GEOJSON_TYPE: envelope_geojson}
+class DragonEnvelope(Envelope):
+    """The ground that one of several dragons sweeps; times are those of its own dance, which is 0 at its delay."""
+
+    name: str | None = Field(description="Name of the dragon; null without one")
+
+
+class PerformanceEnvelope(Answer):
+    """The ground that each of several dragons sweeps."""
+
+    dances: list[DragonEnvelope] = Field(
+        description="The ground of each dragon, in the order of the dances; of one that stands, a thousandth of a "
+        "second of its dance there"
+    )
+    distance: float | None = measure(
+        "m", "Least distance of the spectators' line from the ground of any dragon, 0 where they meet; null without it"
+    )
+    start: float = measure("s", "Start of the time asked about")
+    stop: float = measure("s", "End of the time asked about")
+
+    @classmethod
+    def together(
+        cls, results: Sequence[core.Envelope], request: EnvelopeRequest, performance: core.Performance
+    ) -> Self:
+        grounds = [
+            DragonEnvelope(**Envelope.of(result, request).model_dump(), name=part.name)
+            for result, part in zip(results, performance.parts, strict=True)
+        ]
+        distances = [one.distance for one in grounds if one.distance is not None]
+        start, stop = performance.span(request.start, request.stop)
+        return cls(dances=grounds, distance=min(distances, default=None), start=start, stop=stop)
+
+
+# Forms of an envelope besides JSON: media type -> functions of the envelope, and of those of several dragons.
+FORMS: dict[str, tuple[Callable[[core.Envelope], bytes], Callable[[Sequence[outlines.Ground]], bytes]]] = {
+    GEOJSON_TYPE: (outlines.envelope_geojson, outlines.grounds_geojson)
+}
 if find_spec("ezdxf"):
-    FORMS[DXF_TYPE] = envelope_dxf
+    FORMS[DXF_TYPE] = (outlines.envelope_dxf, outlines.grounds_dxf)
 
 
 def envelope_of(request: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.Envelope:
@@ -89,10 +125,27 @@ def envelope_of(request: EnvelopeQuery | EnvelopeRequest, terms: Terms) -> core.
     return core.envelope(dance, start=request.start, stop=request.stop, budget=terms.budget)
 
 
-def envelope(request: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | bytes:
+def envelopes_of(
+    request: EnvelopeRequest, terms: Terms
+) -> tuple[core.Performance, tuple[core.Envelope, ...], list[outlines.Ground]]:
+    """Several dances, their envelopes, and these as they are written into files. raises: TooLarge, InvalidValue"""
+    performance = request.to_performance(terms.settings)
+    results = core.performance_envelope(performance, start=request.start, stop=request.stop, budget=terms.budget)
+    grounds = [outlines.Ground(part.name, result) for part, result in zip(performance.parts, results, strict=True)]
+    return performance, results, grounds
+
+
+def envelope(request: EnvelopeRequest, terms: Terms, form: str = JSON) -> Envelope | PerformanceEnvelope | bytes:
     """The ground that benches sweep, as polygons that hold every pose and reach at most 1 mm further."""
+    if request.dances is not None:
+        performance, results, grounds = envelopes_of(request, terms)
+        return FORMS[form][1](grounds) if form in FORMS else PerformanceEnvelope.together(results, request, performance)
     result = envelope_of(request, terms)
-    return FORMS[form](result) if form in FORMS else Envelope.of(result, request)
+    return FORMS[form][0](result) if form in FORMS else Envelope.of(result, request)
 
 
-QUESTION = Question(envelope, Envelope, None, EnvelopeRequest, (JSON, *FORMS), lambda request, *form: SECONDS)
+def _cost(request: EnvelopeRequest, form: str = JSON) -> float:
+    return SECONDS * len(request.dances or [None])
+
+
+QUESTION = Question(envelope, Envelope, None, EnvelopeRequest, (JSON, *FORMS), _cost, several=PerformanceEnvelope)

@@ -48,7 +48,11 @@ class SpanOrCircle(SpanFields):
     )
 
 
-class ToleranceRequest(SeveralFields, SizeErrors, SpanOrCircle, PlacedDance, strict=True):
+class DanceTolerance(SizeErrors, SpanOrCircle, PlacedDance, strict=True):
+    """Largest proven stray in any dance, for contacts of benches and with a venue."""
+
+
+class ToleranceRequest(SeveralFields, DanceTolerance, strict=True):
     """Largest proven stray in any dance, or in several on one clock, for contacts of benches and with a venue."""
 
 
@@ -142,12 +146,12 @@ class PerformanceTolerance(Answer):
     )
 
 
-def tolerance(request: ToleranceQuery | ToleranceRequest, terms: Terms) -> Tolerance | PerformanceTolerance:
+def tolerance(request: ToleranceQuery | DanceTolerance, terms: Terms) -> Tolerance | PerformanceTolerance:
     """Largest proven stray of people without a contact, and a pose that touches with a slightly larger one."""
     if isinstance(request, ToleranceRequest) and request.dances is not None:
         return _together(request, terms)
     dance, budget = request.to_dance(terms.settings.checked_benches_max), terms.budget
-    venue = request.to_place(dance.dragon).venue if isinstance(request, ToleranceRequest) else None
+    venue = request.to_place(dance.dragon).venue if isinstance(request, DanceTolerance) else None
     start, stop = span_of(request, dance)
     with_errors = _with_errors(request, dance, budget, placed=venue is not None)
     result = core.tolerance(dance, venue, start=start, stop=stop, budget=budget)
@@ -189,7 +193,7 @@ def span_of(request: CircleQuery | SpanOrCircle, dance: core.Dance) -> tuple[flo
 
 
 def _with_errors(
-    request: ToleranceQuery | ToleranceRequest, dance: core.Dance, budget: core.Budget, *, placed: bool
+    request: ToleranceQuery | DanceTolerance, dance: core.Dance, budget: core.Budget, *, placed: bool
 ) -> float | None:
     errors = {"length_error": request.length_error, "pitch_error": request.pitch_error}
     if not any(errors.values()):

@@ -10,16 +10,22 @@ from pydantic import Field
 
 import core
 from app.files import tables
+from app.files.performance_tables import WRITERS, PerformanceTable
 from app.wire.dances import TimedDance, clock_of
+from app.wire.performances import SeveralDances
 from app.wire.question import AS_WHOLE, JSON, Answer, Question, Terms, measure
 
 
-class TrajectoryRequest(TimedDance):
-    """Positions and speeds of every handle at every instant."""
+class DanceTrajectory(TimedDance):
+    """Positions and speeds of every handle of a dragon at every instant."""
 
     decimals: Annotated[int, Field(ge=0, le=15), AS_WHOLE] | None = Field(
         None, description="Decimals of x, y and speed; default: all, and 6 in a workbook"
     )
+
+
+class TrajectoryRequest(SeveralDances, DanceTrajectory):
+    """Positions and speeds of every handle at every instant, of one dragon or of several."""
 
 
 class TrajectoryTable(Answer):
@@ -29,6 +35,22 @@ class TrajectoryTable(Answer):
     x: list[list[float]] = measure("m", "T rows of H entries")
     y: list[list[float]] = measure("m", "T rows of H entries")
     speed: list[list[float]] = measure("m/s", "T rows of H entries")
+
+
+class DragonTrajectory(Answer):
+    """Positions and speeds of one of several dragons; H is its number of handles."""
+
+    name: str | None = Field(description="Its name; null without one")
+    x: list[list[float]] = measure("m", "T rows of H entries")
+    y: list[list[float]] = measure("m", "T rows of H entries")
+    speed: list[list[float]] = measure("m/s", "T rows of H entries; 0 before the dance of this dragon, and after it")
+
+
+class PerformanceTrajectoryTable(Answer):
+    """Tables of several dragons at the same instants."""
+
+    time: list[float] = measure("s", "Instants, T entries")
+    dances: list[DragonTrajectory] = Field(description="A table for each dragon, in the order of the dances")
 
 
 # Forms of a trajectory: media type -> function of the trajectory and the decimals.
@@ -41,11 +63,18 @@ FORMS: dict[str, Callable[[core.Trajectory, int | None], bytes | Iterator[bytes]
 SECONDS_PER_CELL = {JSON: 1.5e-7, tables.CSV_TYPE: 1e-6, tables.XLSX_TYPE: 6e-6}
 if find_spec("pyarrow"):
     FORMS[tables.ARROW_TYPE] = tables.trajectory_arrow
+ENDINGS = {JSON: ".json", tables.CSV_TYPE: ".csv", tables.XLSX_TYPE: ".xlsx", tables.ARROW_TYPE: ".arrow"}
 
 
-def trajectory(request: TrajectoryRequest, terms: Terms, form: str = JSON) -> bytes | Iterator[bytes]:
+def trajectory(request: DanceTrajectory, terms: Terms, form: str = JSON) -> bytes | Iterator[bytes]:
     """Position and speed of every handle at every instant."""
     cells_max = terms.settings.workbook_cells_max if form == tables.XLSX_TYPE else terms.settings.cells_max
+    if isinstance(request, TrajectoryRequest) and request.dances is not None:
+        performance = request.to_performance(terms.settings)
+        times = request.times_of(performance, cells_max)
+        results = core.performance_trajectory(performance, times, budget=terms.budget)
+        clock = clock_of(request, performance)
+        return WRITERS[ENDINGS[form]](PerformanceTable(performance, results, request.decimals, clock))
     dance = request.to_dance(terms.settings.benches_max)
     result = core.trajectory(dance, request.times_of(dance, cells_max), budget=terms.budget)
     if form == tables.CSV_TYPE:
@@ -53,8 +82,15 @@ def trajectory(request: TrajectoryRequest, terms: Terms, form: str = JSON) -> by
     return FORMS[form](result, request.decimals)
 
 
-def _cost(request: TrajectoryRequest, form: str = JSON) -> float:
+def _cost(request: DanceTrajectory, form: str = JSON) -> float:
     return request.instants() * (request.benches + 1) * SECONDS_PER_CELL.get(form, 1e-7)
 
 
-QUESTION = Question(trajectory, TrajectoryTable, body=TrajectoryRequest, forms=tuple(FORMS), cost=_cost)
+QUESTION = Question(
+    trajectory,
+    TrajectoryTable,
+    body=TrajectoryRequest,
+    forms=tuple(FORMS),
+    cost=_cost,
+    several=PerformanceTrajectoryTable,
+)

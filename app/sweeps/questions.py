@@ -15,18 +15,22 @@ from pydantic import BaseModel, Field
 
 import core
 from app.questions import clearance, overlaps
-from app.questions.check import LeastClearance
+from app.questions.check import DanceCheck, DragonsClearance, LeastClearance
+from app.questions.clearance import DanceClearance
 from app.questions.registry import CALLS
 from app.questions.registry import QUESTIONS as KNOWN
-from app.questions.trajectory import TrajectoryRequest
+from app.questions.tolerance import DanceTolerance
+from app.questions.trajectory import DanceTrajectory, TrajectoryRequest
 from app.settings import Settings
-from app.wire.answers import Pair
+from app.wire.answers import Pair, Point
 from app.wire.dances import DanceFields
 from app.wire.messages import checked
+from app.wire.performances import PerformanceFields
 from app.wire.question import Answer, DanceQuery, Terms, measure
 from app.wire.refusals import refusing
 from core import BenchDragonError, InvalidValue
 from core.errors import Given
+from core.values import Floats
 
 # The service's default limits, so that a row does not depend on the machine that computes it.
 LIMITS = Settings.model_construct()
@@ -66,17 +70,14 @@ def _ways(name: str, seconds: float, column: str, *left_out: str, **own: Any) ->
     question = replace(KNOWN[name], **own)
     assert question.model is not None
     ask, requests = partial(question.answer, terms=Terms(LIMITS)), (question.flat, question.body)
-    if question.several:
-        ask = partial(_about_one, ask)
     shared = (question.model, ask, seconds, column, frozenset(left_out))
     return tuple(SweepQuestion(question.name, request, *shared) for request in requests if request)
 
 
-def _about_one(ask: Callable[[Any], BaseModel], request: Any) -> BaseModel:
-    """The answer about one dance, whose columns the rows have. raises: InvalidValue for the dances of several"""
-    if getattr(request, "dances", None) is not None:
-        raise InvalidValue("dances", "must be left out, for a row is about one dance: sweep encounter for several")
-    return ask(request)
+def _several(name: str, seconds: float, column: str, *left_out: str, **own: Any) -> tuple[SweepQuestion, ...]:
+    """The form of a question about several dances, whose rows have columns of their own. own: as for _ways()"""
+    question = KNOWN[name]
+    return _ways(name, seconds, column, *left_out, **({"flat": None, "model": question.several} | own))
 
 
 def _words(place: str) -> tuple[str, str]:
@@ -117,7 +118,26 @@ class OverlapsRow(Answer):
     agree: bool = Field(description="True if all engines found the same pairs")
 
 
-def clearance_row(request: clearance.ClearanceQuery | clearance.ClearanceRequest, terms: Terms) -> ClearanceRow:
+class DragonsClearanceRow(Answer):
+    """The smallest clearance between two dragons between the first and the last instant of the request."""
+
+    clearance: float = measure("m", "Smallest separation of two benches of different dragons")
+    time: float = measure("s", "Time of that clearance")
+    dragons: Pair = Field(description="These two dragons")
+    benches: Pair = Field(description="A bench of each")
+
+
+class TrajectoriesRow(Answer):
+    """The two ends of each dragon at the last instant of the request, and the speeds at all instants."""
+
+    time: float = measure("s", "Last instant")
+    heads: list[Point] = measure("m", "The first handle of each dragon at the last instant, x and y")
+    tails: list[Point] = measure("m", "The last handle of each dragon at the last instant, x and y")
+    least_speed: float = measure("m/s", "Lowest speed of any handle at any instant")
+    greatest_speed: float = measure("m/s", "Highest speed of any handle at any instant")
+
+
+def clearance_row(request: clearance.ClearanceQuery | DanceClearance, terms: Terms) -> ClearanceRow:
     """The smallest clearance of a dance, at the instants or at a local minimum between them."""
     profile = clearance.profile_of(request, terms)
     k = int(profile.clearance.argmin())
@@ -125,12 +145,41 @@ def clearance_row(request: clearance.ClearanceQuery | clearance.ClearanceRequest
     return ClearanceRow.from_result(min([at, *profile.grazes], key=lambda graze: graze.clearance))
 
 
-def trajectory_row(request: TrajectoryRequest, terms: Terms) -> TrajectoryRow:
-    """The ends of the dragon at the last instant, and the speeds. raises: InvalidValue without an instant"""
-    dance = request.to_dance(terms.settings.benches_max)
+def dragons_clearance_row(request: clearance.ClearanceRequest, terms: Terms) -> DragonsClearanceRow:
+    """The smallest clearance of two dragons, at the instants or at a local minimum between them."""
+    between = clearance.between_dragons(request, terms)
+    k = int(between.clearance.argmin())
+    pair = (tuple(columns[k].tolist()) for columns in (between.dragons, between.benches))
+    at = core.NearPass(float(between.time[k]), float(between.clearance[k]), *pair)
+    return DragonsClearanceRow.from_result(min([at, *between.grazes], key=lambda graze: graze.clearance))
+
+
+def trajectories_row(request: TrajectoryRequest, terms: Terms) -> TrajectoriesRow:
+    """The ends of each dragon at the last instant, and the speeds. raises: InvalidValue without an instant"""
+    performance = request.to_performance(terms.settings)
+    times = _instants(request, performance, terms)
+    results = core.performance_trajectory(performance, times, budget=terms.budget)
+    heads, tails = ([result.position[-1, k].tolist() for result in results] for k in (0, -1))
+    return TrajectoriesRow(
+        time=times[-1],
+        heads=heads,
+        tails=tails,
+        least_speed=min(float(np.min(result.speed)) for result in results),
+        greatest_speed=max(float(np.max(result.speed)) for result in results),
+    )
+
+
+def _instants(request: DanceTrajectory, dance: core.Dance | core.Performance, terms: Terms) -> Floats:
     times = request.times_of(dance, terms.settings.cells_max)
     if not times.size:
         raise InvalidValue("times", "must have at least one instant for a row", got="none")
+    return times
+
+
+def trajectory_row(request: DanceTrajectory, terms: Terms) -> TrajectoryRow:
+    """The ends of the dragon at the last instant, and the speeds. raises: InvalidValue without an instant"""
+    dance = request.to_dance(terms.settings.benches_max)
+    times = _instants(request, dance, terms)
     trajectory = core.trajectory(dance, times, budget=terms.budget)
     head, tail = trajectory.position[-1, 0], trajectory.position[-1, -1]
     return TrajectoryRow(
@@ -165,7 +214,17 @@ def least_clearance(request: DanceQuery | DanceFields, terms: Terms) -> LeastCle
     return LeastClearance.model_validate(least)
 
 
-# The forms of each question, the flat one first. The seconds are for the defaults on one core of a small machine.
+def dragons_least_clearance(request: PerformanceFields, terms: Terms) -> DragonsClearance:
+    """The least separation of two benches of different dragons, over the whole performance."""
+    performance = request.to_performance(terms.settings)
+    least = core.performance_least_clearance(performance, budget=terms.budget)
+    if least is None:
+        raise InvalidValue("parts", "must be at least two, between which there is a clearance", got=1)
+    return DragonsClearance.from_result(least)
+
+
+# The forms of each question, the flat one first and the one about several dances last. The seconds are for the defaults
+# on one core of a small machine.
 _ALL = {
     "collision_time": _ways("collision_time", 1e-3, "time", *_words("certificate.")),
     "minimum_pitch": _ways("minimum_pitch", 2e-2, "pitch"),
@@ -176,12 +235,21 @@ _ALL = {
     "maximum_head_speed": _ways("maximum_head_speed", 5e-2, "head_speed"),
     "least_clearance": _ways(
         "check", 2e-2, "distance", answer=least_clearance, model=LeastClearance, flat=DanceQuery, body=DanceFields
+    )
+    + _several(
+        "check", 1.0, "distance", answer=dragons_least_clearance, model=DragonsClearance, body=PerformanceFields
     ),
-    "check": _ways("check", 0.1, "least_clearance.distance", *_words("first_contact.certificate.")),
-    "tolerance": _ways("tolerance", 0.3, "stray", *_words("certificate.")),
+    "check": _ways("check", 0.1, "least_clearance.distance", *_words("first_contact.certificate."), body=DanceCheck)
+    + _several("check", 1.0, "least_clearance.distance", "reports", *_words("encounter.certificate.")),
+    "tolerance": _ways("tolerance", 0.3, "stray", *_words("certificate."), body=DanceTolerance)
+    + _several("tolerance", 2.0, "stray", *_words("certificate.")),
     "contact_probability": _ways("contact_probability", 3.0, "probability", *_words("")),
-    "clearance": _ways("clearance", 0.2, "clearance", answer=clearance_row, model=ClearanceRow),
-    "trajectory": _ways("trajectory", 2e-3, "greatest_speed", answer=trajectory_row, model=TrajectoryRow),
+    "clearance": _ways("clearance", 0.2, "clearance", answer=clearance_row, model=ClearanceRow, body=DanceClearance)
+    + _several("clearance", 0.5, "clearance", answer=dragons_clearance_row, model=DragonsClearanceRow),
+    "trajectory": _ways(
+        "trajectory", 2e-3, "greatest_speed", answer=trajectory_row, model=TrajectoryRow, body=DanceTrajectory
+    )
+    + _several("trajectory", 5e-3, "greatest_speed", answer=trajectories_row, model=TrajectoriesRow),
     "encounter": _ways("encounter", 0.1, "time", *_words("certificate.")),
     "safe_delay": _ways("safe_delay", 2.0, "first_safe"),
     "overlaps": _ways("overlaps", 1e-2, "separation", answer=overlaps_row, model=OverlapsRow),

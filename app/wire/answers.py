@@ -159,6 +159,10 @@ class Columns:
         return orjson.dumps(ready, option=orjson.OPT_SERIALIZE_NUMPY)
 
     def _ready(self, name: str, column: Any) -> Any:
+        if isinstance(column, list):
+            return [self._ready(name, one) for one in column]
+        if isinstance(column, dict):
+            return {inner: self._ready(inner, one) for inner, one in column.items()}
         if not isinstance(column, np.ndarray):
             return column
         # orjson writes null for NaN; a mistake of ours must be an error instead.

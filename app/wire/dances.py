@@ -100,7 +100,7 @@ class TimeRange(Wire):
             raise InvalidValue("times.stop", "must not be before {start} ({begin})", **values)
         return math.floor((self.stop - self.start) / self.step + LAST_STEP_TOLERANCE) + 1
 
-    def within(self, dance: Dance) -> Self:
+    def within(self, dance: Dance | Performance) -> Self:
         """The range; a start or stop that was left out is moved to the nearest whole second of the run."""
         first, stated = float(dance.default_times[0]), self.model_fields_set
         stop = self.stop if "stop" in stated else max(first, min(self.stop, math.floor(dance.end.time)))
@@ -108,11 +108,17 @@ class TimeRange(Wire):
         start = self.start if "start" in stated else min(first, stop)
         return self.model_copy(update={"start": start, "stop": stop})
 
-    def times_of(self, dance: Dance, cells_max: int) -> Floats:
+    def times_of(self, dance: Dance | Performance, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
-        instants, handles = self.instants(), dance.dragon.benches + 1
-        check_limit("times.step", "instants x handles", instants * handles, cells_max, FEWER_CELLS)
+        instants = self.instants()
+        check_limit("times.step", "instants x handles", instants * handles_of(dance), cells_max, FEWER_CELLS)
         return self.start + self.step * np.arange(instants, dtype=np.float64)
+
+
+def handles_of(dance: Dance | Performance) -> int:
+    """Number of the handles of a dragon, or of all dragons."""
+    dances = [dance] if isinstance(dance, Dance) else [part.dance for part in dance.parts]
+    return sum(one.dragon.benches + 1 for one in dances)
 
 
 class TimeSteps(TimeRange, strict=True):
@@ -246,7 +252,8 @@ class TimedDance(DanceFields):
         "Instants, evenly spaced or as a list; 0 is the start of the dance; null: every second from 0 to 300 s. On a "
         "path other than a spiral, null is every second from 0 (or, if the dance has no time 0, from the first time "
         "at which the whole dragon is on the path) for 300 s or to the end of the path; a start or stop that is left "
-        "out is moved into that run too",
+        "out is moved into that run too. Of several dances, null is every second from their beginning for 300 s or to "
+        "their end",
         None,
     )
 
@@ -255,18 +262,18 @@ class TimedDance(DanceFields):
         times = self.times or TimeSteps()
         return len(times) if isinstance(times, list) else times.instants()
 
-    def times_of(self, dance: Dance, cells_max: int) -> Floats:
+    def times_of(self, dance: Dance | Performance, cells_max: int) -> Floats:
         """Instants (T,) [s]. raises: TooLarge, InvalidValue"""
         times: list[float] | Floats
+        is_endless = self.path.kind == "spiral" and isinstance(dance, Dance)
         if isinstance(self.times, list):
             times = self.times
-        elif self.times is None and self.path.kind != "spiral":
+        elif self.times is None and not is_endless:
             times = dance.default_times
         else:
             steps = self.times or TimeSteps()
-            return (steps if self.path.kind == "spiral" else steps.within(dance)).times_of(dance, cells_max)
-        cells = len(times) * (dance.dragon.benches + 1)
-        check_limit("times", "instants x handles", cells, cells_max, FEWER_CELLS)
+            return (steps if is_endless else steps.within(dance)).times_of(dance, cells_max)
+        check_limit("times", "instants x handles", len(times) * handles_of(dance), cells_max, FEWER_CELLS)
         return np.asarray(times, dtype=np.float64)
 
 

@@ -77,8 +77,8 @@ class PlacedPerformance(VenueFields, PerformanceFields, strict=True):
         return replace(performance, venue=place.venue), place
 
 
-class SeveralFields(VenueFields):
-    """Several dances, where a request may hold them in place of one."""
+class SeveralDances(PathFields):
+    """One dance, or several on one clock in its place."""
 
     dances: Annotated[list[PartBody], Field(min_length=1, max_length=PARTS_MAX, fail_fast=True)] | None = Field(
         None,
@@ -101,8 +101,21 @@ class SeveralFields(VenueFields):
             raise ValidationError.from_exception_data(type(self).__name__, errors)
         return self
 
+    @property
+    def benches(self) -> int:
+        """Number of the benches of the dragon, or of all dragons."""
+        return super().benches if self.dances is None else sum(part.benches for part in self.dances)
+
+    def to_performance(self, settings: Settings) -> Performance:
+        """The dances of several. raises: TooLarge, InvalidValue"""
+        return PerformanceFields.model_construct(dances=self.dances or []).to_performance(settings)
+
+
+class SeveralFields(VenueFields, SeveralDances):
+    """One dance or several, in a venue."""
+
     def to_placed(self, settings: Settings) -> tuple[Performance, Place]:
-        """The performance in its venue, and the place of this. raises: TooLarge, InvalidValue"""
+        """Several dances in their venue, and the place of this. raises: TooLarge, InvalidValue"""
         fields: dict[str, Any] = {"dances": self.dances, "venue": self.venue, "coordinates": self.coordinates}
         return PlacedPerformance.model_construct(**fields).to_placed(settings)
 

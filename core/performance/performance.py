@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from core.dance import Dance, EndReason
+from core.dance import Dance, EndReason, whole_seconds
 from core.display import Readable, display, format_count
 from core.errors import (
     Given,
@@ -27,6 +27,7 @@ from core.errors import (
 )
 from core.names import checked_name
 from core.passages import TIME_MAX
+from core.values import Floats
 from core.venue import Venue
 
 # Largest delay, forwards and back [s]: eleven days. Times of a performance keep 1e-10 s then.
@@ -173,6 +174,11 @@ class Performance(Readable):
     def name_of(self, k: int) -> str:
         """The name of a dragon, or its number."""
         return self.parts[k].name or f"dragon {k}"
+
+    @property
+    def default_times(self) -> Floats:
+        """Whole seconds (T,) from `begin` on, for 300 s or to the end [s]; only `begin` if there is none between."""
+        return whole_seconds(self.begin, self.end.time)
 
     def span(self, start: float | None = None, stop: float | None = None) -> tuple[float, float]:
         """start and stop [s], checked to lie between begin and end and in this order.

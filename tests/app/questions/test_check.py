@@ -11,8 +11,7 @@ import pytest
 
 from app.questions.check import CheckRequest
 from app.settings import Settings
-from app.sweeps.questions import question_of
-from core import InvalidValue, performance_check
+from core import performance_check
 from tests.app.files.test_figures import PNG_SIGNATURE, texts
 from tests.support.command import run
 from tests.support.job_service import wait_for
@@ -132,14 +131,12 @@ def test_null_stands_for_one_dance(client: httpx.Client) -> None:
     assert ask(client, whole | {"dances": None, "dragon": None, "path": None}) == ask(client, whole)
 
 
-def test_a_job_has_the_same_answer_and_a_row_of_a_sweep_is_about_one(client: httpx.Client) -> None:
+def test_a_job_has_the_same_answer(client: httpx.Client) -> None:
     known = client.post("/check", json=PASSING).raise_for_status()
     job = client.post("/check", json=PASSING, headers={"Prefer": "respond-async"})
     address = f"{job.headers['location']}/result"
     wait_for(lambda: client.get(address).status_code == 200)
     assert client.get(address).content == known.content
-    with pytest.raises(InvalidValue, match="sweep encounter for several"):
-        question_of("check").answer_to(PASSING)
 
 
 def test_the_description_of_the_service_has_both_answers(client: httpx.Client) -> None:
@@ -167,7 +164,7 @@ def test_the_command_says_what_the_service_says(client: httpx.Client, tmp_path: 
     assert "Passes. Nothing fails." in run("check", str(file)).stdout
 
 
-def test_the_figure_shows_all_dragons_and_a_table_is_refused(tmp_path: Path) -> None:
+def test_the_figure_shows_all_dragons(tmp_path: Path) -> None:
     file, svg, png = tmp_path / "two.json", tmp_path / "two.svg", tmp_path / "two.png"
     file.write_text(json.dumps(TWO))
     assert run("check", str(file), "--figure", str(svg)).returncode == 0
@@ -179,6 +176,3 @@ def test_the_figure_shows_all_dragons_and_a_table_is_refused(tmp_path: Path) -> 
     assert "At " in texts(svg.read_bytes())
     assert run("check", str(file), "--figure", str(png), "--time", "20").returncode == 0
     assert png.read_bytes().startswith(PNG_SIGNATURE)
-    refused = run("check", str(file), "--output", str(tmp_path / "table.csv"))
-    assert (refused.returncode, refused.stdout) == (2, "")
-    assert refused.stderr.startswith("Error: --output cannot write several dances: leave it out")

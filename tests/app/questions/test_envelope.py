@@ -14,7 +14,8 @@ import shapely
 
 from app.files.outlines import DXF_TYPE, GEOJSON_TYPE, envelope_geojson
 from app.questions.envelope import Envelope, EnvelopeRequest
-from core import Arc, Dance, Dragon, Route, Spiral, envelope
+from app.settings import Settings
+from core import Arc, Dance, Dragon, Route, Spiral, envelope, performance_envelope
 from tests.support.command import run
 
 # Rounds on a circle, which leave a hole.
@@ -114,3 +115,72 @@ def test_the_command_asks_for_a_spiral_by_its_options_and_refuses_other_files(tm
     assert json.loads(output.stdout)["area"] == result.area
     wrong = run("envelope", "--output", str(tmp_path / "ground.kml"))
     assert (wrong.returncode, wrong.stderr) == (2, "Error: --output must end in .geojson, .json or .dxf, got .kml\n")
+
+
+# -- several dances ------------------------------------------------------------------------------------------
+
+LANES = [{"kind": "waypoints", "points": [[0, y], [20, y]]} for y in (0, 6)]
+SEVERAL: dict[str, Any] = {
+    "dances": [
+        {"name": "low", "dragon": {"benches": 3}, "path": LANES[0]},
+        {"dragon": {"benches": 3}, "path": LANES[1], "delay": 5},
+    ],
+    "start": 8,
+    "stop": 12,
+}
+
+
+def test_several_dances_have_the_ground_of_each(client: httpx.Client) -> None:
+    got = client.post("/envelope", json=SEVERAL | {"spectators": [[0.0, 9.0], [20.0, 9.0]]}).raise_for_status().json()
+    performance = EnvelopeRequest.model_validate(SEVERAL).to_performance(Settings())
+    results = performance_envelope(performance, start=8.0, stop=12.0)
+    for k, result in enumerate(results):
+        alone = {name: SEVERAL["dances"][k][name] for name in ("dragon", "path")}
+        alone |= {"start": result.start, "stop": result.stop, "spectators": [[0.0, 9.0], [20.0, 9.0]]}
+        one = client.post("/envelope", json=alone).raise_for_status().json()
+        assert got["dances"][k] == one | {"name": SEVERAL["dances"][k].get("name")}
+    assert [(one["start"], one["stop"]) for one in got["dances"]] == [(8.0, 12.0), (results[1].start, 7.0)]
+    assert (got["start"], got["stop"]) == (8.0, 12.0)
+    assert got["distance"] == min(one["distance"] for one in got["dances"]) == pytest.approx(2.85, abs=2e-3)
+
+
+def test_files_of_several_have_the_ground_of_each(client: httpx.Client, tmp_path: Path) -> None:
+    answer = client.post("/envelope", json=SEVERAL).raise_for_status().json()
+    assert answer["distance"] is None
+    collection = client.post("/envelope", json=SEVERAL, headers={"accept": GEOJSON_TYPE}).raise_for_status()
+    features = collection.json()["features"]
+    assert [(one["properties"]["dragon"], one["properties"]["dragon_name"]) for one in features] == [
+        (0, "low"),
+        (1, None),
+    ]
+    assert [one["geometry"] for one in features] == [one["envelope"] for one in answer["dances"]]
+    file, drawing, table = tmp_path / "two.json", tmp_path / "two.dxf", tmp_path / "two.geojson"
+    file.write_text(json.dumps(SEVERAL))
+    done = run("envelope", str(file), "--output", str(drawing))
+    assert (done.returncode, done.stderr) == (0, f"{drawing}\n")
+    for one in answer["dances"]:
+        assert f"{one['area']:.9f} m2" in done.stdout
+    assert drawing.read_bytes() == client.post("/envelope", json=SEVERAL, headers={"accept": DXF_TYPE}).content
+    layers = [line.dxf.layer for line in ezdxf.readfile(drawing).modelspace()]
+    assert layers == ["ENVELOPE_0", "ENVELOPE_1"]
+    output = run("envelope", str(file), "--output", str(table), "--json")
+    assert json.loads(output.stdout) == answer
+    assert table.read_bytes() == collection.content
+
+
+@pytest.mark.parametrize(
+    ("wrong", "pointer", "words"),
+    [
+        ({"start": -500.0}, "/start", "start must be at least "),
+        ({"stop": 1e4}, "/stop", "stop must be at most "),
+        ({"head_speed": 1.0}, "/head_speed", "head_speed must stand in each of the dances"),
+    ],
+)
+def test_a_wrong_value_of_several_is_refused(
+    client: httpx.Client, wrong: dict[str, Any], pointer: str, words: str
+) -> None:
+    refused = client.post("/envelope", json=SEVERAL | wrong)
+    assert refused.status_code == 422
+    (error,) = refused.json()["errors"]
+    assert error["pointer"] == pointer
+    assert error["detail"].startswith(words)

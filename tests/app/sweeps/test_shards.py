@@ -122,6 +122,41 @@ def test_every_question_is_answered_and_refuses_a_bad_design(name: str) -> None:
     assert parameter.rpartition(".")[2] in refused["error.message"]
 
 
+LANES = [{"dragon": {"benches": 3}, "path": {"kind": "waypoints", "points": [[0, y], [20, y]]}} for y in (0, 9)]
+# Questions about several dances, each with columns that only their rows have.
+OF_SEVERAL = {
+    "check": ["least_clearance.dragons.0", "encounter.outcome"],
+    "tolerance": ["dragons", "own"],
+    "clearance": ["dragons.1", "benches.1"],
+    "trajectory": ["heads", "tails"],
+    "least_clearance": ["dragons.0", "at_least"],
+}
+
+
+@pytest.mark.parametrize("name", OF_SEVERAL)
+def test_a_question_about_several_dances_has_rows_of_its_own(name: str) -> None:
+    spec = Spec.of({
+        "question": name,
+        "over": {"dances.1.dragon.width": [0.3, 0.5, -1.0]},
+        "request": {"dances": LANES},
+        "shard_size": 3,
+    })  # fmt: skip
+    narrow, wide, refused = rows(ShardPiece.whole(spec, spec.asks, 0))
+    assert (narrow["error.code"], wide["error.code"], refused["error.code"]) == (None, None, "invalid-value")
+    assert narrow.keys() >= set(OF_SEVERAL[name])
+    assert isinstance(narrow[spec.asks.shown], float)
+    assert "dances[1].dragon.width" in refused["error.message"]
+    if name in ("clearance", "least_clearance"):
+        assert narrow[spec.asks.shown] == pytest.approx(8.7)
+        assert wide[spec.asks.shown] == pytest.approx(8.6)
+    assert question_of(name).answer is not question_of(name, ["dances.1.delay"]).answer
+
+
+def test_a_row_about_one_dance_refuses_several() -> None:
+    with pytest.raises(InvalidValue, match='"dances" is unknown here'):
+        question_of("check").answer_to({"dances": LANES})
+
+
 def test_every_call_of_the_service_is_swept_or_has_its_reason() -> None:
     swept, refused = CALLS.keys() & QUESTIONS.keys(), {name for name in CALLS if name.removesuffix("_of") in NO_ROWS}
     assert swept & refused == set()
