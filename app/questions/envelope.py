@@ -79,10 +79,14 @@ class Envelope(Answer):
         return cls.from_result(result, envelope=geometry_of(result), distance=distance)
 
 
-class DragonEnvelope(Envelope):
-    """The ground that one of several dragons sweeps; times are those of its own dance, which is 0 at its delay."""
+class NamedDragon(Answer):
+    """One of several dragons."""
 
     name: str | None = Field(description="Name of the dragon; null without one")
+
+
+class DragonEnvelope(Envelope, NamedDragon):
+    """The ground that one of several dragons sweeps; times are those of its own dance, which is 0 at its delay."""
 
 
 class PerformanceEnvelope(Answer):
