@@ -94,5 +94,5 @@ def _drawing(drawn: Sequence[tuple[Sequence[tuple[str, int]], Envelope]]) -> byt
 
 
 # Functions of an envelope, and of those of several dragons, by the ending of the file.
-WRITERS = {".geojson": (envelope_geojson, grounds_geojson), ".dxf": (envelope_dxf, grounds_dxf)}
-WRITERS[".json"] = WRITERS[".geojson"]
+_GEOJSON, _DXF = (envelope_geojson, grounds_geojson), (envelope_dxf, grounds_dxf)
+WRITERS = {".geojson": _GEOJSON, ".json": _GEOJSON, ".dxf": _DXF}

@@ -175,7 +175,7 @@ def performance_trajectory(
     return tuple(_trajectory_of(part, times, budget) for part in performance.parts)
 
 
-@question_about("performance", Performance)
+@question_about("performance", Performance, "the ground that benches sweep was not found")
 def performance_envelope(
     performance: Performance,
     *,
