@@ -166,21 +166,21 @@ def test_each_is_refused_at_its_place(client: httpx.Client, field: str, body: di
     assert [error["pointer"] for error in refused.json()["errors"]] == [field], refused.text
 
 
-TABLE = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
+BARE_TABLE = "Zhou,3.41,0.3,0.275\nLi,2.2,0.3,0.275\n"
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        f"name,length,width,overhang\n{TABLE}",
-        TABLE,
-        f"\n\n{TABLE}",
+        f"name,length,width,overhang\n{BARE_TABLE}",
+        BARE_TABLE,
+        f"\n\n{BARE_TABLE}",
         "3.41,0.3,0.275\n2.2,0.3,0.275\n",
         "Zhou\t3,41\t0,3\t0,275\nLi\t2,2\t0,3\t0,275\n",
         "Zhou;3,41;0,3;0,275\nLi;2,2;0,3;0,275\n",
         "name\tlength\twidth\toverhang\nZhou\t3,41\t0,3\t0,275\nLi\t2,2\t0,3\t0,275\n",
         "sep=;\nlength;name;overhang;width\n3,41;Zhou;0,275;0,3\n2,2;Li;0,275;0,3\n",
-        f"sep=,\n{TABLE}",
+        f"sep=,\n{BARE_TABLE}",
         "sep=\t\n3,41\t0,3\t0,275\n2,2\t0,3\t0,275\n",
         "名称;长度;宽度;孔心距板头\nZhou;3,41;0,3;0,275\nLi;2,2;0,3;0,275\n",
     ],
@@ -199,7 +199,7 @@ def test_a_table_is_read_however_a_spreadsheet_writes_it(text: str) -> None:
         ("3.41,0.3,0.275\n2.2,0.3\n", "line 2: must have 3 entries, as the first line has, got 2"),
         ("3.41,0.3\n", "line 1: a column must be"),
         ("sep=;\n", "line 1: a column must be"),
-        (TABLE + "Wu,wide,0.3,0.275\n", "line 3: length must be a number in metres"),
+        (BARE_TABLE + "Wu,wide,0.3,0.275\n", "line 3: length must be a number in metres"),
     ],
 )
 def test_a_table_that_is_none_names_its_line(text: str, words: str) -> None:
