@@ -13,9 +13,14 @@ TOUCHING = re.compile(r"\b(touch|overlap|meet)", re.IGNORECASE)
 APART_FROM_MARGINS = {
     ("Turn", "tangent_point"), ("ShortestTurn", "tangent_point"), ("TurnTime", "tangent_point"),
     ("QuickestTurn", "tangent_point"), ("Overlap", "separation"), ("Nearest", "distance"),
-    ("LeastClearance", "distance"), ("Shown", "depth"),
+    ("LeastClearance", "distance"), ("Shown", "depth"), ("DragonsClearance", "distance"), ("ShownTogether", "depth"),
+    ("PerformanceEnvelope", "distance"), ("PerformanceTolerance", "certificate"),
     *(("ContactProbability", name) for name in ("probability", "contacts", "benches", "tolerance", "strayed")),
-    *(("Tolerance", name) for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")),
+    *(
+        (model, name)
+        for model in ("Tolerance", "PerformanceTolerance")
+        for name in ("stray", "stray_bracket", "limited_by", "time", "exhibit")
+    ),
     *(("ToleranceCurve", name) for name in ("stray", "touching", "limited_by")),
     *((model, name) for model in ("CollisionTime", "Encounter") for name in ("margin", "corner", "edge")),
     ("Encounter", "cross_check"),

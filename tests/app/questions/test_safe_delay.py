@@ -95,7 +95,7 @@ def test_a_wrong_value_is_refused_at_its_place(client: httpx.Client, name: str) 
 
 
 def test_the_command_says_what_the_service_says(client: httpx.Client, tmp_path: Path) -> None:
-    body = read_dance(EXAMPLE)
+    body = read_dance(EXAMPLE, several=True)
     output = run("safe-delay", str(EXAMPLE), "--part", "0", "--margin", "0.3", "--least=-100", "--json")
     request = body | {"part": 0, "margin": 0.3, "least": -100}
     assert output.stdout.encode() == client.post("/safe-delay", json=request).content + b"\n"
